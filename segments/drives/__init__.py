@@ -1,0 +1,27 @@
+"""Readers of recorded drives, one file a format."""
+
+from pathlib import Path
+
+from segments.drives.drive import Drive, DriveError
+from segments.drives.kitti_odometry import KittiOdometry
+from segments.drives.kitti_raw import KittiRaw
+
+FORMATS = (KittiOdometry, KittiRaw)
+
+__all__ = ["FORMATS", "Drive", "DriveError", "KittiOdometry", "KittiRaw", "open_drive"]
+
+
+def open_drive(folder: Path) -> Drive:
+    """Open a drive in whichever known layout the folder has.
+
+    Raises:
+        DriveError: the folder is missing, is in no known layout, or is broken.
+    """
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise DriveError(f"{folder}: no such folder")
+    for reader in FORMATS:
+        if reader.recognises(folder):
+            return reader(folder)
+    layouts = "; ".join(f"{reader.name}: {reader.layout}" for reader in FORMATS)
+    raise DriveError(f"{folder}: not a drive in a known layout ({layouts})")

@@ -1,0 +1,47 @@
+"""The pair classifier: how likely two stored descriptors are of the same group.
+
+Exported beside the extractor as `pair.onnx`: decoded descriptors `a` and `b`, float32 (n, d) each,
+to `probability`, float32 (n,). It does not depend on the order of the pair.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+
+from segments.manifest import PAIR_FILE, Manifest, ModelError
+from segments.types import Float32, Int8
+
+
+class PairClassifier:
+    """Gives the probability of a match from descriptors as they are stored."""
+
+    def __init__(self, folder: Path, manifest: Manifest, threads: int = 1) -> None:
+        self._quantiser = manifest.quantiser
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = threads
+        options.log_severity_level = 3
+        try:
+            self._session = onnxruntime.InferenceSession(
+                folder / PAIR_FILE, options, providers=["CPUExecutionProvider"]
+            )
+        # onnxruntime's exceptions share no narrower base class than this.
+        except Exception as error:
+            raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error
+
+    def probabilities(self, a: Int8, b: Int8) -> Float32:
+        """Of a match, float32 (n,), for codes int8 (n, d) each."""
+        if not len(a):
+            return np.zeros(0, dtype=np.float32)
+        inputs = {"a": self._quantiser.decode(a), "b": self._quantiser.decode(b)}
+        (probability,) = self._session.run(["probability"], inputs)
+        return np.asarray(probability, dtype=np.float32)
+
+
+def load_pair_classifier(folder: Path, manifest: Manifest) -> PairClassifier | None:
+    """The classifier of a model's folder; None if it has none.
+
+    Raises:
+        ModelError: it cannot be loaded.
+    """
+    return PairClassifier(folder, manifest) if PAIR_FILE in manifest.files else None

@@ -1,0 +1,124 @@
+"""A recording: all segments of a drive, as prepared for training and evaluation.
+
+The file is safetensors: columns as tensors, the rest as JSON in the header's metadata. Nothing in
+it is code, so a recording from elsewhere is safe to load. `docs/recordings.md` describes it.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import safetensors
+from safetensors.numpy import save_file
+
+from segments.parameters import Parameters
+from segments.segments import Segments
+from segments.types import Bool, Int64
+
+FORMAT = "placecell-recording"
+VERSION = 1
+
+
+class RecordingError(ValueError):
+    """A file that is no recording, or one of another version."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Segments of a drive in time order.
+
+    Attributes:
+        name: of the drive.
+        parameters: that made it, the protocol's name among them.
+        segments: all of them, in the drive's world frame.
+        frames: int64 (segments,): the scan at whose time each was captured.
+        groups: int64 (segments,): numbers from 0, one a surface.
+        distinct: bool (segments,): false for duplicates inside their group.
+        scans: how many the drive has.
+        scan_hashes: of each scan, to tell whether a model has seen it.
+        path_length: metres driven.
+    """
+
+    name: str
+    parameters: Parameters
+    segments: Segments
+    frames: Int64
+    groups: Int64
+    distinct: Bool
+    scans: int
+    scan_hashes: tuple[str, ...]
+    path_length: float
+
+    def within(self, first: int, last: int) -> Bool:
+        """Segments of the groups that lie wholly within scans first to last (both included)."""
+        count = int(self.groups.max(initial=-1)) + 1
+        earliest = np.full(count, np.iinfo(np.int64).max)
+        latest = np.full(count, -1)
+        np.minimum.at(earliest, self.groups, self.frames)
+        np.maximum.at(latest, self.groups, self.frames)
+        return ((earliest >= first) & (latest <= last))[self.groups]
+
+    def save(self, file: Path) -> None:
+        """Write the recording as safetensors."""
+        header = {
+            "format": FORMAT,
+            "version": VERSION,
+            "name": self.name,
+            "parameters": self.parameters.as_dict(),
+            "scans": self.scans,
+            "scan_hashes": list(self.scan_hashes),
+            "path_length_m": self.path_length,
+        }
+        file.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = file.with_name(file.name + ".unfinished")
+        save_file(
+            {
+                "points": self.segments.points,
+                "ends": self.segments.ends,
+                "sensors": self.segments.sensors,
+                "frames": self.frames,
+                "groups": self.groups,
+                "distinct": self.distinct,
+            },
+            unfinished,
+            metadata={"header": json.dumps(header, sort_keys=True)},
+        )
+        unfinished.replace(file)
+
+    @classmethod
+    def load(cls, file: Path) -> "Recording":
+        """Read a recording.
+
+        Raises:
+            RecordingError: it cannot be read, or is of another kind or version.
+        """
+        try:
+            with safetensors.safe_open(file, framework="numpy") as content:
+                header = json.loads((content.metadata() or {})["header"])
+                columns = {name: content.get_tensor(name) for name in content.keys()}  # noqa: SIM118
+            if header["format"] != FORMAT or header["version"] != VERSION:
+                raise RecordingError(
+                    f"{file}: {header['format']} version {header['version']}; "
+                    f"this program reads {FORMAT} version {VERSION}: prepare the drive again"
+                )
+            parameters = header["parameters"]
+            return cls(
+                name=header["name"],
+                parameters=Parameters(**parameters | {"grid": tuple(parameters["grid"])}),
+                segments=Segments(columns["points"], columns["ends"], columns["sensors"]),
+                frames=columns["frames"],
+                groups=columns["groups"],
+                distinct=columns["distinct"],
+                scans=header["scans"],
+                scan_hashes=tuple(header["scan_hashes"]),
+                path_length=header["path_length_m"],
+            )
+        except (
+            OSError,
+            safetensors.SafetensorError,
+            KeyError,
+            TypeError,
+            json.JSONDecodeError,
+        ) as error:
+            raise RecordingError(f"{file}: not a recording of segments ({error})") from error
