@@ -1,0 +1,140 @@
+"""Drives through the town, written in the layout of the KITTI odometry benchmark."""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from segments.extraction import Progress, silent
+from segments.types import Float64
+from town.lidar import HDL_64E, Lidar
+from town.route import Route
+from town.scene import Scene
+from town.town import Town
+
+SENSOR_TO_CAMERA = np.array(
+    [
+        [4.276802385584e-04, -9.999672484946e-01, -8.084491683471e-03, -1.198459927713e-02],
+        [-7.210626507497e-03, 8.081198471645e-03, -9.999413164504e-01, -5.403984729748e-02],
+        [9.999738645903e-01, 4.859485810390e-04, -7.206933692422e-03, -2.921968648686e-01],
+        [0.0, 0.0, 0.0, 1.0],
+    ]
+)
+"""`Tr` of KITTI's sequence 00: sensor to left camera. Poses are written for that camera."""
+
+SCANS_PER_SECOND = 10.0
+
+FILES = ("calib.txt", "poses.txt", "times.txt", "origin.txt")
+
+
+def write_drive(
+    folder: Path,
+    town: Town,
+    route: Route,
+    *,
+    traffic_seed: int,
+    scans: int,
+    spacing: float = 1.0,
+    noise_seed: int = 0,
+    lidar: Lidar = HDL_64E,
+    overwrite: bool = False,
+    progress: Progress = silent,
+) -> Path:
+    """Drive a route and write what the sensor saw.
+
+    The folder then holds `velodyne/NNNNNN.bin` (float32 x, y, z, reflectance; sensor frame),
+    `poses.txt` and `calib.txt` (left camera, as KITTI's), `times.txt`, and one file that KITTI has
+    not: `origin.txt`, the 3x4 transform, row by row, from the drive's world frame to the town
+    frame. The drive's world frame (that of the poses, as `segments.drives` reads them) has its
+    origin at the first scan's sensor and its x axis along the first scan's heading, but is level:
+    a robot knows which way is up, so the first pose holds the street's slope at its start. With
+    `origin.txt`, drives of one town can be compared in one true frame.
+
+    Args:
+        folder: made if it is missing.
+        traffic_seed: which cars are parked where.
+        scans: how many.
+        spacing: metres between scans along the lane.
+        noise_seed: of the sensor's noise.
+        overwrite: replace the drive that the folder holds.
+        progress: wraps the loop over the scans.
+
+    Returns:
+        the folder.
+
+    Raises:
+        FileExistsError: the folder is not empty, and `overwrite` is not set.
+        ValueError: the route is too short, or there is to be no scan.
+    """
+    if scans < 1:
+        raise ValueError(f"a drive needs one scan or more, not {scans}")
+    if route.length() < scans * spacing:
+        raise ValueError(
+            f"the route is {route.length():.1f} m long: too short for {scans} scans "
+            f"{spacing} m apart"
+        )
+    clear(folder, overwrite)
+    # A sweep reaches half a spacing to both sides of its scan's pose.
+    distances: Float64 = spacing * (np.arange(scans, dtype=np.float64) + 0.5)
+    poses = route.poses(distances, lidar.height)
+    scene = Scene(town.mesh(traffic_seed))
+    for scan in progress(range(scans), scans, f"scans of {folder.name}"):
+        rng = np.random.default_rng([noise_seed, scan])
+        sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
+        points = lidar.scan(scene, sweep, poses[scan], rng)
+        (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
+    origin = levelled(poses[0])
+    camera = SENSOR_TO_CAMERA @ np.linalg.inv(origin) @ poses @ np.linalg.inv(SENSOR_TO_CAMERA)
+    times = np.arange(scans) / SCANS_PER_SECOND
+    (folder / "poses.txt").write_text(matrix_lines(camera))
+    (folder / "origin.txt").write_text(matrix_lines(origin[None]))
+    (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
+    (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
+    return folder
+
+
+def clear(folder: Path, overwrite: bool) -> None:
+    """Make the folder ready for a new drive.
+
+    Raises:
+        FileExistsError: it is not empty, and `overwrite` is not set.
+    """
+    if folder.is_dir() and any(folder.iterdir()) and not overwrite:
+        raise FileExistsError(
+            f"{folder} is not empty: give another folder, or overwrite=True to replace its drive"
+        )
+    # Only what a drive consists of is taken away: no scan of a longer drive may stay behind.
+    if (folder / "velodyne").is_dir():
+        shutil.rmtree(folder / "velodyne")
+    for name in FILES:
+        (folder / name).unlink(missing_ok=True)
+    (folder / "velodyne").mkdir(parents=True)
+
+
+def levelled(pose: Float64) -> Float64:
+    """A pose (4, 4) with its heading and place, but upright."""
+    heading = np.arctan2(pose[1, 0], pose[0, 0])
+    level = np.eye(4)
+    level[:2, :2] = [[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]]
+    level[:3, 3] = pose[:3, 3]
+    return level
+
+
+def matrix_lines(transforms: Iterable[Float64]) -> str:
+    """The upper 3x4 of each transform, row by row, a line each."""
+    return "".join(
+        " ".join(f"{value:.12e}" for value in transform[:3].ravel()) + "\n"
+        for transform in transforms
+    )
+
+
+def read_origin(folder: Path) -> Float64:
+    """World-to-town transform of a drive (4, 4), from its `origin.txt`.
+
+    Raises:
+        FileNotFoundError: the folder holds no drive of a town.
+    """
+    origin = np.eye(4)
+    origin[:3] = np.loadtxt(folder / "origin.txt").reshape(3, 4)
+    return origin

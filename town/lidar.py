@@ -1,0 +1,101 @@
+"""A simulated spinning LiDAR, after the Velodyne HDL-64E of KITTI.
+
+Sensor frame: x ahead, y left, z up, metres, the origin where the beams meet.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from segments.types import Float32, Float64
+from town.scene import Scene
+
+
+def hdl_64e_elevations() -> tuple[float, ...]:
+    """The 64 beams, degrees above the horizon: 32 in thirds of a degree, 32 in halves below."""
+    upper = np.linspace(2.0, -8.33, 32)
+    lower = np.linspace(-8.83, -24.33, 32)
+    return tuple(float(angle) for angle in np.concatenate([upper, lower]))
+
+
+@dataclass(frozen=True, slots=True)
+class Lidar:
+    """A sensor that sweeps its beams once around, clockwise from straight behind.
+
+    It moves while it sweeps: each column is fired from where the sensor is just then. The points
+    are then de-skewed with the true motion, as KITTI's are with the measured one: a scan is given
+    in the sensor's frame at the middle of its sweep.
+
+    Attributes:
+        columns: azimuth steps a turn.
+        elevations: of the beams, degrees above the horizon.
+        height: of the sensor above the ground, metres.
+        range_noise: standard deviation, metres.
+        resolution: ranges come in whole steps of this, metres.
+        dropout: share of the returns that are lost.
+        min_range: nothing nearer returns, metres.
+        max_range: nothing farther returns, metres.
+        range_at_tenth: how far a surface of reflectance 0.1 is seen, metres; the brightness that
+            comes back falls with the square of the range, so darker ones vanish sooner.
+    """
+
+    columns: int = 1000
+    elevations: tuple[float, ...] = hdl_64e_elevations()
+    height: float = 1.73
+    range_noise: float = 0.02
+    resolution: float = 0.002
+    dropout: float = 0.02
+    min_range: float = 0.9
+    max_range: float = 100.0
+    range_at_tenth: float = 50.0
+
+    def sweep_times(self) -> Float64:
+        """When each column is fired, in turns from the middle of the sweep: (columns,)."""
+        return (np.arange(self.columns) + 0.5) / self.columns - 0.5
+
+    def directions(self) -> Float32:
+        """Unit vectors in the sensor frame, float32 (columns, beams, 3)."""
+        azimuth = -2 * np.pi * self.sweep_times()[:, None]
+        elevation = np.radians(self.elevations)[None, :]
+        ahead = np.cos(elevation) * np.cos(azimuth)
+        left = np.cos(elevation) * np.sin(azimuth)
+        up = np.broadcast_to(np.sin(elevation), ahead.shape)
+        return np.stack([ahead, left, up], axis=-1).astype(np.float32)
+
+    def scan(self, scene: Scene, sweep: Float64, pose: Float64, rng: np.random.Generator) \
+            -> Float32:  # fmt: skip
+        """One turn.
+
+        Args:
+            sweep: (columns, 4, 4) sensor to town at each column's time.
+            pose: (4, 4) sensor to town at the middle of the sweep.
+            rng: of the noise.
+
+        Returns:
+            float32 (n, 4): x, y, z in the sensor frame of `pose`, and reflectance, 0 to 1.
+        """
+        directions = self.directions()
+        rotations = sweep[:, :3, :3].astype(np.float32)
+        cast = np.matmul(directions, rotations.transpose(0, 2, 1))
+        origins = np.broadcast_to(sweep[:, None, :3, 3].astype(np.float32), cast.shape)
+        ranges, hit = scene.cast(
+            np.ascontiguousarray(origins.reshape(-1, 3)), np.ascontiguousarray(cast.reshape(-1, 3))
+        )
+        noise = rng.standard_normal(len(ranges), dtype=np.float32) * np.float32(self.range_noise)
+        kept = rng.random(len(ranges), dtype=np.float32) >= self.dropout
+        reflectance = scene.reflectance[hit]
+        measured = ranges + noise
+        measured = np.round(measured / self.resolution) * np.float32(self.resolution)
+        kept &= (hit >= 0) & (measured >= self.min_range) & (measured <= self.max_range)
+        kept &= reflectance * np.float32(self.range_at_tenth**2) >= np.float32(0.1) * ranges**2
+        relative = np.linalg.inv(pose) @ sweep
+        turned = np.matmul(directions, relative[:, :3, :3].astype(np.float32).transpose(0, 2, 1))
+        column = np.flatnonzero(kept) // len(self.elevations)
+        points = np.empty((len(column), 4), dtype=np.float32)
+        points[:, :3] = turned.reshape(-1, 3)[kept] * measured[kept, None]
+        points[:, :3] += relative[column, :3, 3].astype(np.float32)
+        points[:, 3] = reflectance[kept]
+        return points
+
+
+HDL_64E = Lidar()

@@ -1,0 +1,75 @@
+"""Triangle meshes: what the town is made of and what the rays hit."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from segments.types import Float32, Float64
+
+
+class Reflectance:
+    """Share of the light that a surface sends back, at the sensor's wavelength."""
+
+    ASPHALT = 0.15
+    PAVING = 0.3
+    PLASTER = 0.5
+    BRICK = 0.35
+    ROOF = 0.25
+    GLASS = 0.02
+    WOOD = 0.4
+    LEAVES = 0.45
+    BARK = 0.3
+    METAL = 0.5
+    RUBBER = 0.08
+    CLOTH = 0.4
+    SIGN = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Triangles, each with its own corners (nothing is shared, so meshes are joined by stacking).
+
+    Attributes:
+        triangles: float64 (n, 3, 3): corners' x, y, z in metres.
+        reflectance: float32 (n,), 0 to 1.
+    """
+
+    triangles: Float64
+    reflectance: Float32
+
+    @classmethod
+    def of_triangles(cls, triangles: Float64, reflectance: float) -> Self:
+        """Triangles (n, 3, 3) of one material."""
+        return cls(triangles, np.full(len(triangles), reflectance, dtype=np.float32))
+
+    @classmethod
+    def of_quads(cls, quads: Float64, reflectance: float) -> Self:
+        """Quadrilaterals (n, 4, 3), corners in turn, each as two triangles."""
+        return cls.of_triangles(quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3), reflectance)
+
+    @classmethod
+    def joined(cls, meshes: Iterable["Mesh"]) -> Self:
+        """All triangles of several meshes, in order."""
+        parts = list(meshes)
+        if not parts:
+            return cls(np.empty((0, 3, 3)), np.empty(0, dtype=np.float32))
+        return cls(
+            np.concatenate([part.triangles for part in parts]),
+            np.concatenate([part.reflectance for part in parts]),
+        )
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+    def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, heading: float = 0.0) -> "Mesh":
+        """Turned about z by `heading` (radians, anticlockwise), then shifted (metres)."""
+        cosine, sine = np.cos(heading), np.sin(heading)
+        turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        return Mesh(self.triangles @ turn + (x, y, z), self.reflectance)
+
+    def bounds(self) -> Float64:
+        """Lowest and highest x, y, z: (2, 3)."""
+        corners = self.triangles.reshape(-1, 3)
+        return np.stack([corners.min(axis=0), corners.max(axis=0)])

@@ -1,0 +1,113 @@
+"""The street plan: a grid of streets with blocks of unlike size between them.
+
+The plan is straight; `Terrain.bend` takes it to the town frame. Metres, x east, y north.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from segments.types import Float64
+
+MARGIN = 32.0
+"""How far the town goes on beyond its outermost streets."""
+
+KERB_HEIGHT = 0.12
+
+BAY_LENGTH = 6.3
+BAY_WIDTH = 2.2
+"""Parking bays lie along the kerb, on the carriageway."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frontage:
+    """One side of one block: the frame in which its street is furnished.
+
+    Its x runs along the kerb, its y from the kerb (0) into the block; the carriageway lies at
+    negative y.
+
+    Attributes:
+        corner: (2,) the frame's origin on the plan, where two kerbs meet.
+        heading: of its x axis on the plan, radians.
+        length: of the kerb to the next corner.
+    """
+
+    corner: Float64
+    heading: float
+    length: float
+
+    def on_plan(self, x: float, y: float) -> Float64:
+        """A place of this frame, on the plan: (2,)."""
+        along = np.array([np.cos(self.heading), np.sin(self.heading)])
+        inward = np.array([-along[1], along[0]])
+        return np.asarray(self.corner + x * along + y * inward)
+
+    def bays(self) -> Float64:
+        """Centres of the parking bays along x: (bays,); none near the crossings."""
+        clear = 12.0
+        return np.arange(clear + BAY_LENGTH / 2, self.length - clear - BAY_LENGTH / 2, BAY_LENGTH)
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Streets north-south and east-west.
+
+    Attributes:
+        easts: (n,) x of the centre lines of the streets that run north-south.
+        norths: (m,) y of those that run east-west.
+        east_kerbs: (n,) distance of the kerbs from the centre line.
+        north_kerbs: (m,) the same.
+    """
+
+    easts: Float64
+    norths: Float64
+    east_kerbs: Float64
+    north_kerbs: Float64
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, streets: tuple[int, int]) -> Self:
+        """A random plan.
+
+        Args:
+            streets: how many run north-south and how many east-west, two or more each.
+
+        Raises:
+            ValueError: fewer than two streets a direction.
+        """
+        if min(streets) < 2:
+            raise ValueError(f"a town needs two streets a direction or more, not {streets}")
+        lines = [np.cumsum(rng.uniform(58.0, 96.0, size=count)) for count in streets]
+        kerbs = [rng.uniform(5.2, 6.4, size=count) for count in streets]
+        return cls(lines[0] - lines[0][0], lines[1] - lines[1][0], kerbs[0], kerbs[1])
+
+    def crossing(self, column: int, row: int) -> Float64:
+        """The middle of a crossing: (2,)."""
+        return np.array([self.easts[column], self.norths[row]])
+
+    def spans(self) -> tuple[Float64, Float64]:
+        """From kerb to kerb: where the blocks lie on x (n + 1, 2) and on y (m + 1, 2)."""
+        return block_spans(self.easts, self.east_kerbs), block_spans(self.norths, self.north_kerbs)
+
+    def frontages(self) -> Iterator[Frontage]:
+        """Every block's sides that lie on a street, block by block, anticlockwise."""
+        spans_x, spans_y = self.spans()
+        for i, (west, east) in enumerate(spans_x):
+            for j, (south, north) in enumerate(spans_y):
+                sides = [
+                    (j > 0, (west, south), 0.0, east - west),
+                    (i < len(spans_x) - 1, (east, south), np.pi / 2, north - south),
+                    (j < len(spans_y) - 1, (east, north), np.pi, east - west),
+                    (i > 0, (west, north), -np.pi / 2, north - south),
+                ]
+                for on_street, corner, heading, length in sides:
+                    if on_street:
+                        yield Frontage(np.array(corner), heading, float(length))
+
+
+def block_spans(lines: Float64, kerbs: Float64) -> Float64:
+    """Intervals between the streets' kerbs and outside the outermost: (lines + 1, 2)."""
+    starts = np.concatenate([[lines[0] - MARGIN], lines + kerbs])
+    ends = np.concatenate([lines - kerbs, [lines[-1] + MARGIN]])
+    return np.stack([starts, ends], axis=1)

@@ -1,0 +1,168 @@
+"""Routes: where a robot drives, in the right-hand lane of the town's streets."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Self
+
+import numpy as np
+
+from segments.types import Float64
+from town.plan import Plan
+from town.terrain import Terrain
+from town.town import Town
+
+CORNER_RADIUS = 9.0
+"""Of the centre line where a route turns at a crossing, metres."""
+
+STEP = 0.25
+"""Between the points of a line, metres."""
+
+
+@dataclass(frozen=True)
+class Route:
+    """A way along the streets' centre lines, driven beside them.
+
+    Attributes:
+        terrain: the ground driven on.
+        centre: (n, 2) the centre line in the direction of travel, town frame, metres.
+        lane_offset: metres to the right of it (negative: to the left, against the traffic).
+    """
+
+    terrain: Terrain
+    centre: Float64
+    lane_offset: float = 1.6
+
+    @classmethod
+    def through(
+        cls, town: Town, crossings: Sequence[tuple[int, int]], lane_offset: float = 1.6
+    ) -> Self:
+        """A route over crossings, each (column, row) next to the one before it.
+
+        Raises:
+            ValueError: fewer than two crossings, or some that no street joins.
+        """
+        if len(crossings) < 2:
+            raise ValueError("a route needs two crossings or more")
+        for (i, j), (k, m) in pairwise(crossings):
+            if abs(i - k) + abs(j - m) != 1:
+                raise ValueError(f"no street joins the crossings {(i, j)} and {(k, m)} directly")
+        corners = np.stack([town.plan.crossing(*crossing) for crossing in crossings])
+        return cls(town.terrain, town.terrain.bend(rounded(corners)), lane_offset)
+
+    @classmethod
+    def wander(cls, town: Town, length: float, seed: int = 0, lane_offset: float = 1.6) -> Self:
+        """A random route of at least this length, that never turns back on the spot.
+
+        Args:
+            length: metres.
+        """
+        crossings = stroll(town.plan, length, np.random.default_rng([seed, 2]))
+        return cls.through(town, crossings, lane_offset)
+
+    def reversed(self) -> Self:
+        """The same streets the other way, so in the other lane."""
+        return replace(self, centre=self.centre[::-1])
+
+    def cut(self, start: float, length: float) -> Self:
+        """A stretch, measured along the centre line in metres.
+
+        Raises:
+            ValueError: the route is too short for it.
+        """
+        travelled = arc_lengths(self.centre)
+        if start < 0 or start + length > travelled[-1] + STEP:
+            raise ValueError(
+                f"the route is {travelled[-1]:.1f} m long: too short to cut {length:.1f} m "
+                f"from {start:.1f} m on"
+            )
+        wanted = (travelled >= start) & (travelled <= start + length)
+        return replace(self, centre=self.centre[wanted])
+
+    def lane(self) -> Float64:
+        """The line driven, in the town frame: (n, 2)."""
+        ahead = np.gradient(self.centre, axis=0)
+        ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+        right = np.stack([ahead[:, 1], -ahead[:, 0]], axis=1)
+        return np.asarray(self.centre + self.lane_offset * right)
+
+    def length(self) -> float:
+        """Metres along the lane."""
+        return float(arc_lengths(self.lane())[-1])
+
+    def poses(self, distances: Float64, height: float) -> Float64:
+        """Where a sensor is after so many metres along the lane.
+
+        Args:
+            distances: (n,) metres from the route's start.
+            height: of the sensor above the carriageway, metres.
+
+        Returns:
+            float64 (n, 4, 4): sensor (x ahead, y left, z up from the slope) to town.
+        """
+        lane = self.lane()
+        travelled = arc_lengths(lane)
+        direction = np.gradient(lane, axis=0)
+        headings = np.unwrap(np.arctan2(direction[:, 1], direction[:, 0]))
+        heading = np.interp(distances, travelled, headings)
+        places = np.stack([np.interp(distances, travelled, lane[:, axis]) for axis in (0, 1)], 1)
+        up = self.terrain.normals(places)
+        level = np.stack([np.cos(heading), np.sin(heading), np.zeros(len(heading))], axis=1)
+        left = np.cross(up, level)
+        left /= np.linalg.norm(left, axis=1, keepdims=True)
+        poses = np.tile(np.eye(4), (len(heading), 1, 1))
+        poses[:, :3, :3] = np.stack([np.cross(left, up), left, up], axis=2)
+        poses[:, :2, 3] = places
+        poses[:, 2, 3] = self.terrain.height(places)
+        poses[:, :3, 3] += height * up
+        return poses
+
+
+def arc_lengths(line: Float64) -> Float64:
+    """Metres from a line's start to each of its points (n, 2): (n,)."""
+    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def rounded(corners: Float64) -> Float64:
+    """A line over corners (n, 2), its right angles rounded: points a step apart, (m, 2)."""
+    points = [corners[0]]
+    for before, corner, after in zip(corners[:-2], corners[1:-1], corners[2:], strict=True):
+        entry = corner - CORNER_RADIUS * unit(corner - before)
+        exit_ = corner + CORNER_RADIUS * unit(after - corner)
+        if np.allclose(unit(corner - before), unit(after - corner)):
+            continue
+        centre = entry + exit_ - corner
+        angles = np.linspace(0, np.pi / 2, int(CORNER_RADIUS * np.pi / 2 / STEP))[:, None]
+        points.extend(
+            centre + np.cos(angles) * (entry - centre) + np.sin(angles) * (exit_ - centre)
+        )
+    line = np.stack([*points, corners[-1]])
+    travelled = arc_lengths(line)
+    even = np.linspace(0, travelled[-1], int(travelled[-1] / STEP) + 1)
+    return np.stack([np.interp(even, travelled, line[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def unit(vector: Float64) -> Float64:
+    """The vector at length 1."""
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def stroll(plan: Plan, length: float, rng: np.random.Generator) -> list[tuple[int, int]]:
+    """Crossings of a random walk on the grid, until it is this long."""
+    columns, rows = len(plan.easts), len(plan.norths)
+    here = (int(rng.integers(columns)), int(rng.integers(rows)))
+    walk, walked = [here], 0.0
+    while walked < length or len(walk) < 2:
+        i, j = walk[-1]
+        around = [(i + 1, j), (i, j + 1), (i - 1, j), (i, j - 1)]
+        ways = [
+            (k, m)
+            for k, m in around
+            if 0 <= k < columns and 0 <= m < rows and (len(walk) < 2 or (k, m) != walk[-2])
+        ]
+        walk.append(ways[int(rng.integers(len(ways)))])
+        street = np.linalg.norm(plan.crossing(*walk[-1]) - plan.crossing(*walk[-2]))
+        # A rounded corner is shorter than the right angle; a bend is at most 4 m longer or so.
+        walked += float(street) - CORNER_RADIUS * (2 - np.pi / 2)
+    return walk

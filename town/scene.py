@@ -1,0 +1,34 @@
+"""Ray casting with Embree."""
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+
+from segments.types import Float32, Int32
+from town.mesh import Mesh
+
+
+class Scene:
+    """A mesh, indexed for ray casting."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        self.reflectance = mesh.reflectance
+        self._scene = EmbreeScene()
+        # The scene borrows the mesh's buffers: both live as long as this object.
+        self._mesh = TriangleMesh(self._scene, mesh.triangles.astype(np.float32))
+
+    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
+        """Where rays first hit.
+
+        Args:
+            origins: float32 (n, 3), metres, the mesh's frame.
+            directions: float32 (n, 3), unit vectors.
+
+        Returns:
+            ranges in metres, float32 (n,), infinite where nothing is hit, and the triangles hit,
+            int32 (n,), -1 where nothing is.
+        """
+        hits = self._scene.run(origins, directions, query="INTERSECT", output=1)
+        triangles: Int32 = hits["primID"]
+        ranges: Float32 = np.where(triangles < 0, np.float32(np.inf), hits["tfar"])
+        return ranges, triangles

@@ -1,0 +1,91 @@
+"""The lie of the land: how the plan's straight streets are bent, and how high the ground is."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from segments.types import Float64
+from town.mesh import Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Terrain:
+    """Sums of plane waves: shallow, smooth, and known everywhere in closed form.
+
+    The plan is drawn on a straight grid; `bend` shifts it sideways by a few metres, so that streets
+    curve and no two cross at the same angle. All lengths are metres; town frame: z up.
+
+    Attributes:
+        bend_waves: (n, 2) wave vectors on the plan, 1/m.
+        bend_shifts: (n, 2) shifts on x and y at each wave's crest.
+        bend_phases: (n,) radians.
+        hill_waves: (m, 2) wave vectors in the town frame, 1/m.
+        hill_heights: (m,) amplitudes.
+        hill_phases: (m,) radians.
+    """
+
+    bend_waves: Float64
+    bend_shifts: Float64
+    bend_phases: Float64
+    hill_waves: Float64
+    hill_heights: Float64
+    hill_phases: Float64
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
+        """A random terrain.
+
+        Args:
+            slope: the steepest that the ground can get, as rise over run.
+        """
+        bends, hills = 3, 4
+        hill_waves = waves(rng, hills, shortest=140.0, longest=420.0)
+        steepness = rng.uniform(0.5, 1.0, size=hills)
+        steepness *= slope / steepness.sum()
+        return cls(
+            bend_waves=waves(rng, bends, shortest=150.0, longest=300.0),
+            bend_shifts=rng.uniform(-2.5, 2.5, size=(bends, 2)),
+            bend_phases=rng.uniform(0, 2 * np.pi, size=bends),
+            hill_waves=hill_waves,
+            hill_heights=steepness / np.linalg.norm(hill_waves, axis=1),
+            hill_phases=rng.uniform(0, 2 * np.pi, size=hills),
+        )
+
+    def bend(self, plan: Float64) -> Float64:
+        """From the plan (..., 2) to the town frame (..., 2)."""
+        return plan + np.sin(plan @ self.bend_waves.T + self.bend_phases) @ self.bend_shifts
+
+    def height(self, places: Float64) -> Float64:
+        """Ground height (carriageway level) at places of the town frame: (..., 2) -> (...)."""
+        waves_there = np.sin(places @ self.hill_waves.T + self.hill_phases)
+        return np.asarray(waves_there @ self.hill_heights)
+
+    def normals(self, places: Float64) -> Float64:
+        """Unit normals of the ground: (..., 2) -> (..., 3)."""
+        phases = np.cos(places @ self.hill_waves.T + self.hill_phases)
+        slopes = (phases * self.hill_heights) @ self.hill_waves
+        normals = np.concatenate([-slopes, np.ones((*slopes.shape[:-1], 1))], axis=-1)
+        return np.asarray(normals / np.linalg.norm(normals, axis=-1, keepdims=True))
+
+    def place(self, mesh: Mesh, plan: Float64, heading: float, lift: float = 0.0) -> Mesh:
+        """Set an object upright on the ground.
+
+        Args:
+            mesh: in its own frame.
+            plan: (2,) where on the plan the object's origin goes.
+            heading: of the object's x axis on the plan, radians; turned along with the bend.
+            lift: metres above the carriageway's level (the pavement's height, say).
+        """
+        ahead = plan + 0.5 * np.array([np.cos(heading), np.sin(heading)])
+        here, there = self.bend(np.stack([plan, ahead]))
+        turned = float(np.arctan2(there[1] - here[1], there[0] - here[0]))
+        return mesh.moved(here[0], here[1], float(self.height(here)) + lift, turned)
+
+
+def waves(rng: np.random.Generator, count: int, shortest: float, longest: float) -> Float64:
+    """Random wave vectors (count, 2), 1/m, of wavelengths between two bounds in metres."""
+    lengths = rng.uniform(shortest, longest, size=count)
+    angles = rng.uniform(0, 2 * np.pi, size=count)
+    directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return np.asarray(2 * np.pi / lengths[:, None] * directions)

@@ -1,0 +1,61 @@
+"""A town: streets on hilly ground, and everything that stands along them."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from town.block import SceneObject, furnish
+from town.ground import ground_mesh
+from town.mesh import Mesh
+from town.plan import Plan
+from town.terrain import Terrain
+from town.traffic import traffic
+
+
+@dataclass(frozen=True, slots=True)
+class Town:
+    """What does not change between two drives.
+
+    Town frame: metres, x and y level, z up.
+
+    Attributes:
+        seed: it follows from.
+        plan: the streets.
+        terrain: bends the plan and lifts the ground.
+        ground: carriageways, kerbs and blocks, in the town frame.
+        objects: houses, trees, fences and so on.
+    """
+
+    seed: int
+    plan: Plan
+    terrain: Terrain
+    ground: Mesh
+    objects: tuple[SceneObject, ...]
+
+    @classmethod
+    def build(cls, seed: int, streets: tuple[int, int] = (4, 4)) -> Self:
+        """The town of this seed.
+
+        Args:
+            streets: how many run north-south and how many east-west, two or more each.
+
+        Raises:
+            ValueError: fewer than two streets a direction.
+        """
+        rng = np.random.default_rng([seed, 0])
+        plan = Plan.draw(rng, streets)
+        terrain = Terrain.draw(rng)
+        objects = [
+            thing for frontage in plan.frontages() for thing in furnish(frontage, terrain, rng)
+        ]
+        return cls(seed, plan, terrain, ground_mesh(plan, terrain), tuple(objects))
+
+    def traffic(self, seed: int) -> tuple[SceneObject, ...]:
+        """Parked cars and people of one drive; another seed, another day."""
+        return tuple(traffic(self.plan, self.terrain, seed))
+
+    def mesh(self, traffic_seed: int) -> Mesh:
+        """All that a ray can hit on one day, in the town frame."""
+        things = self.objects + self.traffic(traffic_seed)
+        return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
