@@ -1,0 +1,135 @@
+"""A compact map: what a robot keeps of the segments that it has seen."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+COORDINATE_LIMIT = 1e8
+"""Metres; no frame on Earth needs more, and a frame's origin may be anywhere."""
+TIME_LIMIT = 9e9
+"""Seconds, the year 2255; more is a time in another unit."""
+
+
+class MapFileError(ValueError):
+    """A map, or a map file, that is not valid; the message says what is wrong."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CompactMap:
+    """Segments of one coordinate frame, in columns: row i of each column is segment i.
+
+    A *frame* in the names `frame_*` is a moment at which a robot took segments: a sensor pose and
+    a time. `frame` alone is the coordinate frame's name.
+
+    Attributes:
+        model_id: of the model that made the descriptors; those of different ids never compare.
+        preprocessing: version of the steps from points to the model's input.
+        frame: name of the coordinate frame, z up.
+        codes: int8 (n, d), stored descriptors.
+        centroids: float64 (n, 3), metres in the coordinate frame.
+        ids: uint32 (n,), each once.
+        robots: names of the robots.
+        robot: uint16 (n,), indices into `robots`.
+        frame_index: uint32 (n,), indices into the three columns of the frame table.
+        frame_times: float64 (f,), seconds.
+        frame_positions: float64 (f, 3), the sensor's position, metres in the coordinate frame.
+        frame_orientations: float32 (f, 4), unit quaternions x, y, z, w from sensor to frame.
+    """
+
+    model_id: str
+    preprocessing: str
+    frame: str
+    codes: NDArray[np.int8]
+    centroids: NDArray[np.float64]
+    ids: NDArray[np.uint32]
+    robots: tuple[str, ...]
+    robot: NDArray[np.uint16]
+    frame_index: NDArray[np.uint32]
+    frame_times: NDArray[np.float64]
+    frame_positions: NDArray[np.float64]
+    frame_orientations: NDArray[np.float32]
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    @property
+    def dimension(self) -> int:
+        """Codes a segment."""
+        return int(self.codes.shape[1])
+
+    @property
+    def time_span(self) -> tuple[float, float] | None:
+        """Earliest and latest time of the frames, seconds; None without frames."""
+        if not len(self.frame_times):
+            return None
+        return float(self.frame_times.min()), float(self.frame_times.max())
+
+    def check(self) -> None:
+        """See that the columns fit each other.
+
+        Raises:
+            MapFileError: they do not; the message names the column.
+        """
+        _check_texts(self)
+        _check_columns(self)
+        _check_values(self)
+
+
+def _check_texts(compact_map: CompactMap) -> None:
+    texts = {
+        "model_id": compact_map.model_id,
+        "preprocessing": compact_map.preprocessing,
+        "frame": compact_map.frame,
+    } | {f"robots[{index}]": name for index, name in enumerate(compact_map.robots)}
+    for name, text in texts.items():
+        if not 1 <= len(text) <= 200 or not text.isprintable():
+            raise MapFileError(f"{name}: must be 1 to 200 printable characters")
+    if len(set(compact_map.robots)) != len(compact_map.robots):
+        raise MapFileError("robots: a name stands twice")
+
+
+def _check_columns(compact_map: CompactMap) -> None:
+    n, f = len(compact_map.ids), len(compact_map.frame_times)
+    if compact_map.codes.ndim != 2 or not compact_map.codes.shape[1]:
+        raise MapFileError(f"codes: shape {compact_map.codes.shape}, not (n, d) with d > 0")
+    expected = {
+        "codes": (np.int8, (n, compact_map.codes.shape[1])),
+        "centroids": (np.float64, (n, 3)),
+        "ids": (np.uint32, (n,)),
+        "robot": (np.uint16, (n,)),
+        "frame_index": (np.uint32, (n,)),
+        "frame_times": (np.float64, (f,)),
+        "frame_positions": (np.float64, (f, 3)),
+        "frame_orientations": (np.float32, (f, 4)),
+    }
+    for name, (dtype, shape) in expected.items():
+        column: NDArray[np.generic] = getattr(compact_map, name)
+        if column.dtype != dtype or column.shape != shape:
+            raise MapFileError(
+                f"{name}: {column.dtype} {column.shape}, not {np.dtype(dtype)} {shape}"
+            )
+
+
+def _check_values(compact_map: CompactMap) -> None:
+    for name, limit in {
+        "centroids": COORDINATE_LIMIT,
+        "frame_positions": COORDINATE_LIMIT,
+        "frame_times": TIME_LIMIT,
+        "frame_orientations": 2.0,
+    }.items():
+        # Written so that NaN fails too.
+        if not (np.abs(getattr(compact_map, name)) <= limit).all():
+            raise MapFileError(f"{name}: a value is not finite or beyond {limit:g}")
+    norms = np.linalg.norm(compact_map.frame_orientations.astype(np.float64), axis=1)
+    if not (np.abs(norms - 1) <= 1e-3).all():
+        raise MapFileError("frame_orientations: not unit quaternions")
+    if len(np.unique(compact_map.ids)) != len(compact_map.ids):
+        raise MapFileError("ids: an id stands twice")
+    for name, size in {
+        "robot": len(compact_map.robots),
+        "frame_index": len(compact_map.frame_times),
+    }.items():
+        column = getattr(compact_map, name)
+        if len(column) and int(column.max()) >= size:
+            raise MapFileError(f"{name}: index {int(column.max())} in a table of {size}")

@@ -1,0 +1,144 @@
+"""What the service answers, typed."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class ItemError:
+    """Why one segment of a request could not be used, while others were."""
+
+    type: str
+    title: str
+    detail: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Description:
+    """Descriptors of n segments.
+
+    Attributes:
+        model_id: of the model that made them.
+        codes: int8 (n, d), the stored form, for maps and for `Client.match`.
+        descriptors: float32 (n, d), before they were rounded to codes.
+        centroids: float64 (n, 3), metres, in the frame of the request.
+        errors: by index, the segments that could not be used; their codes are 0, the rest is NaN.
+    """
+
+    model_id: str
+    codes: NDArray[np.int8]
+    descriptors: NDArray[np.float32]
+    centroids: NDArray[np.float64]
+    errors: dict[int, ItemError]
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A segment of a map that looks like the query.
+
+    Attributes:
+        map: the map's name.
+        id: of the segment in that map.
+        robot: that put it there.
+        distance: between the stored descriptors.
+        probability: that both are the same place; None if the model has no classifier.
+        centroid: metres, in the map's frame.
+        frame: name of the map's frame.
+    """
+
+    map: str
+    id: int
+    robot: str
+    distance: float
+    probability: float | None
+    centroid: tuple[float, float, float]
+    frame: str
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """A map that was not searched: another model made it."""
+
+    map: str
+    model_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Matches:
+    """Candidates of each query, nearest first.
+
+    Attributes:
+        model_id: of the model whose descriptors were compared.
+        queries: candidates of query i; empty if it could not be used.
+        errors: by index, the queries that could not be used.
+        searched: names of the maps.
+        skipped: maps of other models.
+    """
+
+    model_id: str
+    queries: tuple[tuple[Candidate, ...], ...]
+    errors: dict[int, ItemError]
+    searched: tuple[str, ...]
+    skipped: tuple[Skipped, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MapSummary:
+    """A stored map.
+
+    Attributes:
+        name: of the map.
+        segments: in it.
+        bytes: of its file.
+        model_id: of the model that made it; searched only if the service has that model loaded.
+        robots: names of those that made it.
+        time_span: earliest and latest time, seconds; None for a map without segments.
+        etag: SHA-256 of its file, in hex.
+        frame: name of its coordinate frame.
+    """
+
+    name: str
+    segments: int
+    bytes: int
+    model_id: str
+    robots: tuple[str, ...]
+    time_span: tuple[float, float] | None
+    etag: str
+    frame: str
+
+    @classmethod
+    def of(cls, content: dict[str, Any]) -> "MapSummary":
+        """From the service's JSON; fields that a later service adds are left out."""
+        span = content["time_span"]
+        return cls(
+            name=content["name"],
+            segments=content["segments"],
+            bytes=content["bytes"],
+            model_id=content["model_id"],
+            robots=tuple(content["robots"]),
+            time_span=(span[0], span[1]) if span is not None else None,
+            etag=content["etag"],
+            frame=content["frame"],
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Info:
+    """What the service is, and how much it takes at once.
+
+    Attributes:
+        version: of the service.
+        model_id: of the model that it has loaded.
+        model: the model's manifest in short.
+        limits: by name; see the service's `/info`.
+        map_file_version: of the map files that it reads.
+    """
+
+    version: str
+    model_id: str
+    model: dict[str, Any]
+    limits: dict[str, float]
+    map_file_version: int

@@ -1,0 +1,148 @@
+import json
+from collections.abc import Callable
+
+import httpx
+import numpy as np
+import pytest
+from placecell_client import Client, Description, ItemError, ServiceError, decode, encode
+
+from tests.client.map_builders import random_map
+
+CLOUD = np.arange(12, dtype=np.float32).reshape(4, 3)
+ERROR = {"type": "urn:x", "title": "Too few points", "detail": "4 points"}
+
+
+def client_of(answer: Callable[[httpx.Request], httpx.Response]) -> Client:
+    return Client("http://service", transport=httpx.MockTransport(answer))
+
+
+def test_describe_sends_points_and_gives_arrays() -> None:
+    sent = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        sent.append((request.method, request.url.path, json.loads(request.content)))
+        item = {"codes": [1, -2], "descriptor": [0.5, -1.0], "centroid": [1, 2, 3]}
+        body = {"model_id": "m", "dimension": 2, "descriptors": [{"error": ERROR}, item]}
+        return httpx.Response(200, json=body)
+
+    with client_of(answer) as client:
+        described = client.describe([CLOUD[:1], CLOUD], [1.0, 2.0, 3.0])
+    method, path, body = sent[0]
+    assert (method, path) == ("POST", "/describe")
+    assert body["segments"][1] == {"points": CLOUD.tolist(), "sensor": [1.0, 2.0, 3.0]}
+    assert described.model_id == "m"
+    assert described.codes.dtype == np.int8
+    assert described.codes.tolist() == [[0, 0], [1, -2]]
+    assert described.descriptors.dtype == np.float32
+    assert np.isnan(described.descriptors[0]).all()
+    assert described.descriptors[1].tolist() == [0.5, -1.0]
+    assert described.centroids[1].tolist() == [1, 2, 3]
+    assert described.errors == {0: ItemError("urn:x", "Too few points", "4 points")}
+
+
+def test_match_of_a_description_leaves_out_what_has_no_descriptor() -> None:
+    def answer(request: httpx.Request) -> httpx.Response:
+        body = json.loads(request.content)
+        assert body == {"k": 2, "maps": ["a"], "model_id": "m", "codes": [[3, 4]]}
+        candidate = {
+            "map": "a", "id": 9, "robot": "r", "distance": 0.5, "probability": None,
+            "centroid": [1, 2, 3], "frame": "f",
+        }  # fmt: skip
+        skipped = [{"map": "b", "model_id": "n"}]
+        queries = [{"candidates": [candidate]}]
+        return httpx.Response(
+            200,
+            json={"model_id": "m", "queries": queries, "searched": ["a"], "skipped": skipped},
+        )
+
+    described = Description(
+        "m",
+        np.array([[0, 0], [3, 4]], np.int8),
+        np.zeros((2, 2), np.float32),
+        np.zeros((2, 3)),
+        {0: ItemError("urn:x", "Too few points", "4 points")},
+    )
+    with client_of(answer) as client:
+        matches = client.match(described, maps=["a"], k=2)
+    assert matches.queries[0] == ()
+    assert matches.queries[1][0].id == 9
+    assert matches.queries[1][0].probability is None
+    assert set(matches.errors) == {0}
+    assert matches.skipped[0].model_id == "n"
+
+
+def test_match_takes_one_kind_of_query() -> None:
+    with client_of(lambda _: httpx.Response(500)) as client:
+        with pytest.raises(ValueError, match="either"):
+            client.match()
+        with pytest.raises(ValueError, match="either"):
+            client.match(segments=[CLOUD])
+
+
+@pytest.mark.parametrize("name", ["yard", "../etc", "a/b", "..", "a b", "ü"])
+def test_names_stay_one_part_of_the_path(name: str) -> None:
+    seen = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        seen.append(request.url)
+        return httpx.Response(204)
+
+    with client_of(answer) as client:
+        client.delete_map(name)
+    assert seen[0].path == f"/maps/{name}"
+    assert seen[0].raw_path.count(b"/") == 2
+
+
+def test_maps_travel_as_files() -> None:
+    stored: dict[str, bytes] = {}
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        if request.method == "PUT":
+            stored[request.url.path] = request.content
+            summary = {
+                "name": "yard", "segments": 20, "bytes": 1, "model_id": "m", "robots": ["ann"],
+                "time_span": [0, 1], "etag": "e", "frame": "f", "later": "field",
+            }  # fmt: skip
+            return httpx.Response(201, json=summary)
+        return httpx.Response(200, content=stored[request.url.path])
+
+    given = random_map()
+    with client_of(answer) as client:
+        summary = client.put_map("yard", given)
+        assert summary.time_span == (0, 1)
+        assert client.get_map_file("yard") == encode(given)
+        assert encode(client.get_map("yard")) == encode(decode(encode(given)))
+
+
+def test_a_problem_becomes_an_error() -> None:
+    problem = {"type": "urn:p", "title": "Unknown map", "status": 404, "detail": "No map 'x'."}
+    with (
+        client_of(lambda _: httpx.Response(404, json=problem)) as client,
+        pytest.raises(ServiceError) as raised,
+    ):
+        client.get_map("x")
+    error = raised.value
+    assert (error.status, error.title, error.detail, error.type) == (
+        404,
+        "Unknown map",
+        "No map 'x'.",
+        "urn:p",
+    )
+
+
+def test_an_error_page_of_a_proxy_becomes_an_error_too() -> None:
+    with (
+        client_of(lambda _: httpx.Response(502, html="<h1>Bad gateway</h1>")) as client,
+        pytest.raises(ServiceError) as raised,
+    ):
+        client.info()
+    assert raised.value.status == 502
+    assert raised.value.title == "Bad Gateway"
+
+
+def test_arrays_are_checked_before_they_are_sent() -> None:
+    with client_of(lambda _: httpx.Response(500)) as client:
+        with pytest.raises(ValueError, match="sensors"):
+            client.describe([CLOUD, CLOUD], np.zeros((3, 3)))
+        with pytest.raises(ValueError, match="not finite"):
+            client.describe([np.full((4, 3), np.nan)], np.zeros(3))

@@ -1,0 +1,14 @@
+import subprocess
+import sys
+
+
+def test_the_client_needs_none_of_what_the_service_needs() -> None:
+    program = (
+        "import sys, placecell_client\n"
+        "heavy = {'faiss', 'onnxruntime', 'torch', 'fastapi', 'pydantic', 'segments', 'service'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[]"
