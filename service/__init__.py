@@ -1,0 +1,1 @@
+"""The service: segments in over HTTP, descriptors and matches out, maps kept."""

@@ -1,0 +1,54 @@
+"""The application."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib import metadata
+
+from fastapi import FastAPI
+
+from service import openapi, problems
+from service.limits import BodyLimit
+from service.routes import describe, health, maps, match
+from service.settings import Settings
+from service.state import State, open_state
+
+DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
+
+Send the segments of a scan, get their descriptors, or the segments of stored maps that look like
+them. Coordinates are metres in a z-up frame. Every error is `application/problem+json` (RFC 9457).
+"""
+
+
+def create_app(settings: Settings, state: State | None = None) -> FastAPI:
+    """The application.
+
+    Args:
+        settings: limits, and what to open when the application starts.
+        state: already open, and closed by whoever opened it.
+    """
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        if state is not None:
+            app.state.placecell = state
+            yield
+            return
+        with open_state(settings) as opened:
+            app.state.placecell = opened
+            yield
+
+    app = FastAPI(title="Placecell", version=version(), description=DESCRIPTION, lifespan=lifespan)
+    app.add_middleware(BodyLimit, limits=settings.limits)
+    problems.install(app)
+    openapi.install(app)
+    for module in (describe, match, maps, health):
+        app.include_router(module.router)
+    return app
+
+
+def version() -> str:
+    """Of the installed Placecell; a checkout that is not installed has none."""
+    try:
+        return metadata.version("placecell")
+    except metadata.PackageNotFoundError:
+        return "unknown"

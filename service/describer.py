@@ -1,0 +1,136 @@
+"""From a request's segments to descriptors: what is unusable stays out, and is told."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from segments.extractor import Extractor
+from segments.segments import Segments
+from segments.types import Float32, Float64, Int8
+from service.problems import Problem, ProblemError, title_of, type_of
+from service.schemas import Failed, ItemErrorOut, SegmentIn
+from service.settings import Limits
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """Descriptors of those segments of a request that could be used.
+
+    Attributes:
+        rows: by index in the request, the row in the three arrays, or why there is none.
+        codes: int8 (rows, d).
+        descriptors: float32 (rows, d).
+        centroids: float64 (rows, 3), metres, in the request's frame.
+    """
+
+    rows: "tuple[int | Failed, ...]"
+    codes: Int8
+    descriptors: Float32
+    centroids: Float64
+
+
+class Describer:
+    """Checks segments, brings them near the origin, and runs the model."""
+
+    def __init__(self, extractor: Extractor, limits: Limits) -> None:
+        self.manifest = extractor.manifest
+        self._extractor = extractor
+        self._limits = limits
+
+    def describe(self, segments: Sequence[SegmentIn]) -> Described:
+        """Descriptors of the segments of one scan.
+
+        Raises:
+            Problem: 413 if there are too many, 422 if none can be used.
+        """
+        self._check_amount(segments)
+        clouds = [np.array(segment.points, np.float64).reshape(-1, 3) for segment in segments]
+        sensors = np.array([segment.sensor for segment in segments], np.float64)
+        failures = self._failures(clouds, sensors)
+        usable = [index for index in range(len(segments)) if index not in failures]
+        if usable:
+            # In float64, before the cast: a float32 is 0.5 m coarse at map coordinates of 5,000 km.
+            origin = np.quantile(sensors[usable], 0.5, axis=0, method="lower")
+            distant = np.linalg.norm(sensors - origin, axis=1) > self._limits.spread
+            for index in np.flatnonzero(distant):
+                failures.setdefault(int(index), self._apart())
+            usable = [index for index in usable if index not in failures]
+        if not usable:
+            raise _none_usable(failures)
+        near = Segments.of(
+            [(clouds[index] - origin).astype(np.float32) for index in usable],
+            sensors[usable] - origin,
+        )
+        descriptors = self._extractor.describe(near)
+        finite = np.isfinite(descriptors).all(axis=1)
+        for index in np.array(usable)[~finite]:
+            failures[int(index)] = _failed(
+                "not-describable", "The model's descriptor is not finite."
+            )
+        if not finite.any():
+            raise _none_usable(failures)
+        places = iter(range(len(segments)))
+        return Described(
+            rows=tuple(
+                failures[index] if index in failures else next(places)
+                for index in range(len(segments))
+            ),
+            codes=self.manifest.quantiser.encode(descriptors[finite]),
+            descriptors=descriptors[finite],
+            centroids=near.centroids()[finite] + origin,
+        )
+
+    def _check_amount(self, segments: Sequence[SegmentIn]) -> None:
+        points = sum(len(segment.points) for segment in segments)
+        for kind, amount, limit in (
+            ("segments", len(segments), self._limits.segments),
+            ("points", points, self._limits.points),
+        ):
+            if amount > limit:
+                raise Problem(
+                    413, f"too-many-{kind}", f"{amount} {kind} in a request; the limit is {limit}."
+                )
+
+    def _failures(self, clouds: Sequence[Float64], sensors: Float64) -> dict[int, Failed]:
+        """By index, why a segment cannot be used."""
+        limits = self._limits
+        failures = {}
+        for index, (cloud, sensor) in enumerate(zip(clouds, sensors, strict=True)):
+            if len(cloud) < limits.min_points:
+                failures[index] = _failed(
+                    "too-few-points",
+                    f"{len(cloud)} points; a segment has {limits.min_points} or more.",
+                )
+            elif len(cloud) > limits.max_points:
+                failures[index] = _failed(
+                    "too-many-points",
+                    f"{len(cloud)} points; a segment has {limits.max_points} or fewer.",
+                )
+            elif (np.linalg.norm(cloud - sensor, axis=1) > limits.reach).any():
+                failures[index] = _failed(
+                    "out-of-reach",
+                    f"A point is more than {limits.reach:g} m from the sensor: "
+                    "are both in one frame, and in metres?",
+                )
+        return failures
+
+    def _apart(self) -> Failed:
+        return _failed(
+            "out-of-reach",
+            f"The sensor is more than {self._limits.spread:g} m from those of the other segments.",
+        )
+
+
+def _failed(kind: str, detail: str) -> Failed:
+    return Failed(error=ItemErrorOut(type=type_of(kind), title=title_of(kind), detail=detail))
+
+
+def _none_usable(failures: dict[int, Failed]) -> Problem:
+    errors = [
+        ProblemError(pointer=f"/segments/{index}", detail=failures[index].error.detail)
+        for index in sorted(failures)
+    ]
+    return Problem(
+        422, "no-usable-segment", f"No segment can be used. First: {errors[0].detail}", errors
+    )

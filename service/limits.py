@@ -1,0 +1,73 @@
+"""The limit on a request's body, enforced while it streams in, before anything buffers it."""
+
+import anyio
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from service.problems import Problem
+from service.settings import Limits
+
+DISCARDED_BYTES = 256 << 20
+DISCARDED_SECONDS = 10.0
+
+
+class BodyLimit:
+    """ASGI middleware: 413 for a body that is, or turns out to be, too large."""
+
+    def __init__(self, app: ASGIApp, limits: Limits) -> None:
+        self._app = app
+        self._limits = limits
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on, counting its bytes."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        limit = self._limit(scope)
+        problem = Problem(
+            413,
+            "body-too-large",
+            f"The body is larger than {limit} bytes, the limit; see /info.",
+            # What is left of the body would be read as the next request.
+            headers={"Connection": "close"},
+        )
+        headers = dict(scope["headers"])
+        stated = headers.get(b"content-length", b"")
+        if stated.isdigit() and int(stated) > limit:
+            # A client that expects a 100 waits for the answer before it sends.
+            if b"expect" not in headers:
+                await _discard(receive)
+            await problem.response(scope, receive, send)
+            return
+        received = 0
+
+        async def counted() -> Message:
+            nonlocal received
+            message = await receive()
+            if message["type"] == "http.request":
+                received += len(message.get("body", b""))
+                if received > limit:
+                    if message.get("more_body", False):
+                        await _discard(receive)
+                    raise problem
+            return message
+
+        await self._app(scope, counted, send)
+
+    def _limit(self, scope: Scope) -> int:
+        if scope["method"] == "PUT" and scope["path"].startswith("/maps/"):
+            return self._limits.map_bytes
+        return self._limits.body_bytes
+
+
+async def _discard(receive: Receive) -> None:
+    """Take what is left of a body, within reason.
+
+    A connection closed on a client that still sends is reset, and the client may never read why.
+    """
+    discarded = 0
+    with anyio.move_on_after(DISCARDED_SECONDS):
+        while discarded < DISCARDED_BYTES:
+            message = await receive()
+            discarded += len(message.get("body", b""))
+            if not message.get("more_body", False):
+                return

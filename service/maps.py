@@ -1,0 +1,146 @@
+"""The maps that the service knows: stored, and searchable if the loaded model made them."""
+
+import hashlib
+import logging
+from dataclasses import dataclass
+from threading import Lock
+
+from placecell_client.map_file import CompactMap, MapFileError, decode
+
+from service.map_index import ExactIndex, MapIndex
+from service.map_store import MapStore
+from service.problems import Problem
+
+logger = logging.getLogger("placecell")
+
+
+@dataclass(frozen=True, slots=True)
+class StoredMap:
+    """A map in memory.
+
+    Attributes:
+        name: of the map.
+        etag: SHA-256 of its file, in hex.
+        bytes: of its file.
+        content: its columns, sorted by id.
+        index: over its descriptors; None if another model made them.
+    """
+
+    name: str
+    etag: str
+    bytes: int
+    content: CompactMap
+    index: MapIndex | None
+
+
+class Maps:
+    """All maps, by name. Safe to use from many threads: readers see a map whole, old or new."""
+
+    def __init__(self, store: MapStore, model_id: str, dimension: int) -> None:
+        """Load what is stored; a damaged file is set aside with a line in the log."""
+        self._store = store
+        self._model_id = model_id
+        self._dimension = dimension
+        self._writing = Lock()
+        self._by_name: dict[str, StoredMap] = {}
+        for name in store.names():
+            data = store.read(name)
+            try:
+                self._by_name[name] = self._stored(name, data, decode(data))
+            except MapFileError as error:
+                logger.error(
+                    "map %r is damaged (%s); set aside as %s", name, error, store.set_aside(name)
+                )
+
+    def __len__(self) -> int:
+        return len(self._by_name)
+
+    def writable(self) -> bool:
+        """Whether a map can be stored."""
+        return self._store.writable()
+
+    def all(self) -> list[StoredMap]:
+        """Sorted by name."""
+        return sorted(self._by_name.values(), key=lambda stored: stored.name)
+
+    def get(self, name: str) -> StoredMap:
+        """One map; 404 if there is none."""
+        stored = self._by_name.get(name)
+        if stored is None:
+            raise unknown(name)
+        return stored
+
+    def file(self, name: str) -> tuple[StoredMap, bytes]:
+        """A map and its file, byte by byte; 404 if there is none."""
+        with self._writing:
+            stored = self.get(name)
+            data = self._intact(stored)
+        if data is None:
+            logger.error("map %r was altered on disk", name)
+            raise Problem(500, "map-damaged", f"The file of map {name!r} was altered on disk.")
+        return stored, data
+
+    def put(self, name: str, data: bytes) -> tuple[StoredMap, bool]:
+        """Store a map; on return it is safely on disk. The same file again changes nothing.
+
+        Returns:
+            The map, and whether the name is new.
+        """
+        known = self._by_name.get(name)
+        etag = hashlib.sha256(data).hexdigest()
+        if known is not None and known.etag == etag and self._intact(known) is not None:
+            return known, False
+        try:
+            content = decode(data)
+        except MapFileError as error:
+            raise Problem(422, "invalid-map-file", f"Not a whole map file: {error}.") from error
+        if content.model_id != self._model_id:
+            raise Problem(
+                409,
+                "other-model",
+                f"The map was made by model {content.model_id!r}; loaded is {self._model_id!r}.",
+            )
+        if content.dimension != self._dimension:
+            raise Problem(
+                422,
+                "invalid-map-file",
+                f"The map's descriptors have {content.dimension} dimensions; "
+                f"the model's have {self._dimension}.",
+            )
+        stored = self._stored(name, data, content)
+        with self._writing:
+            is_new = name not in self._by_name
+            self._store.write(name, data)
+            # A new dictionary, so that a reader in the midst of the old one is not disturbed.
+            self._by_name = self._by_name | {name: stored}
+        return stored, is_new
+
+    def delete(self, name: str) -> None:
+        """Remove a map; on return it is gone from the disk. 404 if there is none."""
+        with self._writing:
+            self.get(name)
+            self._store.delete(name)
+            self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+
+    def _intact(self, stored: StoredMap) -> bytes | None:
+        """The map's file, or None if the disk no longer holds what was put."""
+        try:
+            data = self._store.read(stored.name)
+        except KeyError:
+            return None
+        return data if hashlib.sha256(data).hexdigest() == stored.etag else None
+
+    def _stored(self, name: str, data: bytes, content: CompactMap) -> StoredMap:
+        ours = content.model_id == self._model_id and content.dimension == self._dimension
+        return StoredMap(
+            name=name,
+            etag=hashlib.sha256(data).hexdigest(),
+            bytes=len(data),
+            content=content,
+            index=ExactIndex(content.codes) if ours else None,
+        )
+
+
+def unknown(name: str) -> Problem:
+    """The problem of a name that no map has."""
+    return Problem(404, "unknown-map", f"No map is named {name!r:.80}.")

@@ -1,0 +1,196 @@
+"""What goes over the wire."""
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from service.settings import Limits
+
+Coordinate = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-1e8, le=1e8)]
+Point = tuple[Coordinate, Coordinate, Coordinate]
+Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
+
+# fail_fast: a list of a million wrong values is one error, not a million.
+
+
+class Request(BaseModel):
+    """What all requests share: a field that is not known is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class SegmentIn(Request):
+    """A segment: the points of one object, and where it was seen from."""
+
+    points: Annotated[list[Point], Field(fail_fast=True)] = Field(
+        description="x, y, z in metres, z up; one frame for all segments of the request."
+    )
+    sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
+
+
+SegmentsIn = Annotated[list[SegmentIn], Field(fail_fast=True, min_length=1)]
+
+
+class DescribeRequest(Request):
+    """The segments of one scan."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"segments": [{"points": [[4.1, 2.0, 0.4], [4.2, 2.0, 0.5]], "sensor": [0, 0, 1]}]}
+            ]
+        }
+    )
+
+    segments: SegmentsIn
+
+
+class MatchRequest(Request):
+    """Queries, as segments or as descriptors, and where to look for them."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"model_id": "group-0123456789abcdef", "codes": [[3, -7]], "maps": ["yard"], "k": 5}
+            ]
+        }
+    )
+
+    segments: SegmentsIn | None = None
+    model_id: str | None = Field(None, description="Of the model that made the codes.")
+    codes: (
+        Annotated[list[Annotated[list[Code], Field(fail_fast=True)]], Field(fail_fast=True)] | None
+    ) = Field(None, min_length=1, description="Stored descriptors, as `/describe` gives them.")
+    maps: Annotated[list[str], Field(fail_fast=True)] | None = Field(
+        None, min_length=1, description="Names; all maps of the loaded model unless said."
+    )
+    k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
+
+    @model_validator(mode="after")
+    def _one_kind_of_query(self) -> Self:
+        by_codes = self.codes is not None and self.model_id is not None and self.segments is None
+        by_segments = self.segments is not None and self.codes is None and self.model_id is None
+        if not by_codes and not by_segments:
+            raise ValueError("give either segments, or model_id and codes")
+        return self
+
+
+class ItemErrorOut(BaseModel):
+    """Why one segment could not be used, while others of the request were."""
+
+    type: str
+    title: str
+    detail: str
+
+
+class Failed(BaseModel):
+    """In the place of a segment that could not be used."""
+
+    error: ItemErrorOut
+
+
+class DescriptorOut(BaseModel):
+    """A segment's descriptor."""
+
+    codes: list[int] = Field(description="The stored form, int8, for maps and for `/match`.")
+    descriptor: list[float] = Field(description="Before it was rounded to codes.")
+    centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
+
+
+class DescribeResponse(BaseModel):
+    """Descriptors in the order of the segments."""
+
+    model_id: str
+    dimension: int
+    descriptors: list[DescriptorOut | Failed]
+
+
+class CandidateOut(BaseModel):
+    """A segment of a map that looks like the query."""
+
+    map: str
+    id: int
+    robot: str
+    distance: float = Field(description="Euclidean, between stored descriptors.")
+    probability: float | None = Field(None, description="Null: the model has no classifier.")
+    centroid: Point = Field(description="Metres, in the map's frame.")
+    frame: str = Field(description="Name of the map's frame.")
+
+
+class CandidatesOut(BaseModel):
+    """Candidates of one query, nearest first."""
+
+    candidates: list[CandidateOut]
+
+
+class SkippedOut(BaseModel):
+    """A map that was not searched: another model made it."""
+
+    map: str
+    model_id: str
+
+
+class MatchResponse(BaseModel):
+    """Candidates in the order of the queries."""
+
+    model_id: str
+    queries: list[CandidatesOut | Failed]
+    searched: list[str]
+    skipped: list[SkippedOut]
+
+
+class MapOut(BaseModel):
+    """A stored map."""
+
+    name: str
+    segments: int
+    bytes: int
+    model_id: str
+    robots: list[str]
+    time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
+    etag: str = Field(description="SHA-256 of the file, in hex.")
+    frame: str
+
+
+class MapsResponse(BaseModel):
+    """The stored maps, by name, and the model that is loaded."""
+
+    model_id: str
+    maps: list[MapOut]
+
+
+class ModelOut(BaseModel):
+    """The loaded model's manifest in short."""
+
+    model_id: str
+    name: str
+    method: str
+    network: str
+    dimension: int
+    step: float = Field(description="What one code is worth in the descriptor's unit.")
+    pair_threshold: float = Field(description="Distance below which a pair is called a match.")
+    preprocessing: dict[str, Any]
+
+
+class MapFileOut(BaseModel):
+    """The map file that this service reads and writes."""
+
+    format: str
+    version: int
+    media_type: str
+
+
+class InfoResponse(BaseModel):
+    """What the service is, and how much it takes at once."""
+
+    version: str
+    model: ModelOut
+    limits: Limits
+    map_file: MapFileOut
+    up: Literal["z"] = "z"
+
+
+class HealthResponse(BaseModel):
+    """That the service is there."""
+
+    status: Literal["alive", "ready"]

@@ -1,0 +1,93 @@
+"""What a running service holds, in one typed object."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from typing import Annotated, ParamSpec, TypeVar
+
+import anyio
+import anyio.to_thread
+from fastapi import Depends, Request
+
+from segments.extractor import load_extractor
+from segments.manifest import ModelError
+from service.describer import Describer
+from service.map_store import FolderMapStore, StoreLockedError
+from service.maps import Maps
+from service.settings import Settings
+
+Result = TypeVar("Result")
+Parameters = ParamSpec("Parameters")
+
+
+class StartError(Exception):
+    """The service cannot start; the message says why, for whoever starts it."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """The parts of a running service.
+
+    Attributes:
+        settings: as started.
+        describer: the loaded model.
+        maps: stored and searchable.
+        turns: limits how many requests are computed at once.
+    """
+
+    settings: Settings
+    describer: Describer
+    maps: Maps
+    turns: anyio.CapacityLimiter
+
+    @property
+    def model_id(self) -> str:
+        """Of the loaded model."""
+        return self.describer.manifest.model_id
+
+    async def compute(
+        self,
+        work: Callable[Parameters, Result],
+        *args: Parameters.args,
+        **kwargs: Parameters.kwargs,
+    ) -> Result:
+        """Do blocking work (NumPy, ONNX Runtime, FAISS, disk) off the event loop, in turn."""
+        return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.turns)
+
+
+@contextmanager
+def open_state(settings: Settings) -> Iterator[State]:
+    """Load the model, take the data directory, load the maps; let go at the end.
+
+    Raises:
+        StartError: the model or the data directory cannot be used.
+    """
+    try:
+        extractor = load_extractor(settings.models_dir / settings.model, settings.threads)
+    except ModelError as error:
+        raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
+    manifest = extractor.manifest
+    with ExitStack() as stack:
+        try:
+            store = stack.enter_context(FolderMapStore.open(settings.data_dir))
+            maps = Maps(store, manifest.model_id, manifest.dimension)
+        except StoreLockedError as error:
+            raise StartError(f"data directory {error}") from error
+        except OSError as error:
+            raise StartError(f"data directory {settings.data_dir}: {error}") from error
+        yield State(
+            settings=settings,
+            describer=Describer(extractor, settings.limits),
+            maps=maps,
+            turns=anyio.CapacityLimiter(settings.workers),
+        )
+
+
+def state_of(request: Request) -> State:
+    """The state of the application that a request came to."""
+    state = request.app.state.placecell
+    assert isinstance(state, State)
+    return state
+
+
+StateOf = Annotated[State, Depends(state_of)]

@@ -1,0 +1,60 @@
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+import pytest
+
+from segments.manifest import Manifest
+from service.app import create_app
+from service.settings import Settings
+from tests.service.service_builders import write_eigenvalue_model, write_onnx_model
+
+with warnings.catch_warnings():
+    # Starlette 1.x prefers httpx2 under its test client; httpx, our client's, still works.
+    warnings.simplefilter("ignore")
+    from starlette.testclient import TestClient
+
+Start = Callable[..., AbstractContextManager[TestClient]]
+
+
+@pytest.fixture(scope="session")
+def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("models")
+    write_eigenvalue_model(folder)
+    write_eigenvalue_model(folder, "other", step=0.03)
+    write_onnx_model(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "tiny")
+
+
+@pytest.fixture(scope="session")
+def other_manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "other")
+
+
+@pytest.fixture
+def data_dir(tmp_path: Path) -> Path:
+    return tmp_path / "var"
+
+
+@pytest.fixture
+def start(models_dir: Path, data_dir: Path) -> Start:
+    """Starts the service on the test's data directory, in this process."""
+
+    def started(**settings: object) -> TestClient:
+        values = {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny"} | settings
+        app = create_app(Settings.model_validate(values))
+        return TestClient(app, raise_server_exceptions=False)
+
+    return started
+
+
+@pytest.fixture
+def service(start: Start) -> Iterator[TestClient]:
+    with start() as client:
+        yield client

@@ -1,0 +1,114 @@
+"""Tiny models, clouds and maps for a service under test."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnx
+from onnx import TensorProto, helper
+from placecell_client import CompactMap
+
+from segments.manifest import Manifest, preprocessing_of
+from segments.parameters import PROTOCOL_V1
+from segments.quantiser import Quantiser
+from segments.types import Float64, Int8
+
+STEP = 0.02
+PROBLEM = "application/problem+json"
+
+
+def write_eigenvalue_model(models_dir: Path, name: str = "tiny", step: float = STEP) -> Manifest:
+    """A model that needs no network: seven standardised features."""
+    manifest = Manifest(
+        name=name,
+        method="eigenvalue",
+        network="",
+        dimension=7,
+        quantiser=Quantiser(step),
+        preprocessing=preprocessing_of(PROTOCOL_V1),
+        standardisation={"mean": [0.3] * 7, "deviation": [0.2] * 7},
+    )
+    (models_dir / name).mkdir(parents=True)
+    manifest.save(models_dir / name)
+    return manifest
+
+
+def write_onnx_model(models_dir: Path, name: str = "onnx") -> Manifest:
+    """A model with a network: mean occupancy of each layer of the grid, and the extents."""
+    grid = PROTOCOL_V1.grid
+    graph = helper.make_graph(
+        [
+            helper.make_node("Cast", ["occupancy"], ["grid"], to=TensorProto.FLOAT),
+            helper.make_node("ReduceMean", ["grid", "axes"], ["layers"], keepdims=0),
+            helper.make_node("Concat", ["layers", "extents"], ["descriptor"], axis=1),
+        ],
+        "layers",
+        [
+            helper.make_tensor_value_info("occupancy", TensorProto.UINT8, ["N", *grid]),
+            helper.make_tensor_value_info("extents", TensorProto.FLOAT, ["N", 3]),
+        ],
+        [helper.make_tensor_value_info("descriptor", TensorProto.FLOAT, ["N", grid[2] + 3])],
+        [helper.make_tensor("axes", TensorProto.INT64, [2], [1, 2])],
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 18)], ir_version=9)
+    folder = models_dir / name
+    folder.mkdir(parents=True)
+    onnx.save(model, folder / "model.onnx")
+    manifest = Manifest(
+        name=name,
+        method="group",
+        network="layers",
+        dimension=grid[2] + 3,
+        quantiser=Quantiser(0.05),
+        preprocessing=preprocessing_of(PROTOCOL_V1),
+    ).with_files(folder, ["model.onnx"])
+    manifest.save(folder)
+    return manifest
+
+
+def cloud(seed: int, points: int = 200) -> Float64:
+    """Points of a segment, float64 (points, 3), metres, at most some 20 m from the origin."""
+    random = np.random.default_rng(seed)
+    spread = random.uniform(0.1, 2.0, 3)
+    return np.asarray(random.normal(size=(points, 3)) * spread + random.uniform(-8, 8, 3))
+
+
+def request_of(clouds: list[Float64], sensor: tuple[float, ...] = (9.0, -3.0, 1.7)) -> Any:
+    """The body of a `/describe`."""
+    return {"segments": [{"points": item.tolist(), "sensor": sensor} for item in clouds]}
+
+
+def random_codes(rows: int, seed: int = 0, dimension: int = 7) -> Int8:
+    return np.random.default_rng(seed).integers(-127, 128, (rows, dimension)).astype(np.int8)
+
+
+def map_of(
+    codes: Int8, model_id: str, first_id: int = 100, robot: str = "ann", frame: str = "town"
+) -> CompactMap:
+    """A map with these descriptors; ids rise with the rows."""
+    n = len(codes)
+    return CompactMap(
+        model_id=model_id,
+        preprocessing="1",
+        frame=frame,
+        codes=codes,
+        centroids=np.stack([np.arange(n), -np.arange(n), np.full(n, 1.5)], axis=1).astype(float),
+        ids=np.arange(first_id, first_id + n, dtype=np.uint32),
+        robots=(robot,),
+        robot=np.zeros(n, np.uint16),
+        frame_index=np.zeros(n, np.uint32),
+        frame_times=np.array([1.7e9]),
+        frame_positions=np.zeros((1, 3)),
+        frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
+    )
+
+
+def assert_problem(response: Any, status: int, kind: str, detail: str = "") -> None:
+    """The response is this problem, and its detail holds these words."""
+    assert response.status_code == status, response.text
+    assert response.headers["content-type"] == PROBLEM
+    body = response.json()
+    assert body["type"] == f"urn:placecell:problem:{kind}"
+    assert body["status"] == status
+    assert body["title"]
+    assert detail in body["detail"], body

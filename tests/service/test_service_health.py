@@ -1,0 +1,131 @@
+import shutil
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from segments.manifest import Manifest
+from segments.segments import Segments
+from service.map_index import ExactIndex
+from tests.service.service_builders import assert_problem, cloud, random_codes, request_of
+
+
+def test_health(service: Any, data_dir: Path) -> None:
+    assert service.get("/livez").json() == {"status": "alive"}
+    assert service.get("/readyz").json() == {"status": "ready"}
+    shutil.rmtree(data_dir / "maps")
+    assert_problem(service.get("/readyz"), 503, "not-ready")
+    assert service.get("/livez").status_code == 200
+
+
+def test_info(start: Any, manifest: Manifest) -> None:
+    with start(limits={"k": 7}) as service:
+        info = service.get("/info").json()
+    assert info["model"]["model_id"] == manifest.model_id
+    assert info["model"]["dimension"] == 7
+    assert info["limits"]["k"] == 7
+    assert info["limits"]["min_points"] == 10
+    assert info["map_file"] == {
+        "format": "placecell-map",
+        "version": 0,
+        "media_type": "application/vnd.placecell.map",
+    }
+
+
+def test_the_service_answers_while_it_computes(
+    service: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entered, released = threading.Event(), threading.Event()
+
+    def slow(_: object, segments: Segments) -> Any:
+        entered.set()
+        assert released.wait(60)
+        return np.zeros((len(segments), 7), np.float32)
+
+    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.describe", slow)
+    with ThreadPoolExecutor(1) as pool:
+        pending = pool.submit(service.post, "/describe", json=request_of([cloud(0)]))
+        assert entered.wait(60)
+        assert service.get("/livez").status_code == 200
+        assert service.get("/maps").status_code == 200
+        assert not pending.done()
+        released.set()
+        assert pending.result(60).status_code == 200
+
+
+def test_unknown_paths_and_methods_are_problems(service: Any) -> None:
+    assert_problem(service.get("/nowhere"), 404, "not-found", "/nowhere")
+    response = service.put("/maps")
+    assert_problem(response, 405, "method-not-allowed", "PUT")
+    assert "GET" in response.headers["allow"]
+
+
+def test_a_failure_tells_the_client_nothing_of_the_inside(
+    service: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(*_: object) -> Any:
+        raise RuntimeError("a secret of the inside")
+
+    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.describe", failing)
+    response = service.post("/describe", json=request_of([cloud(0)]))
+    assert_problem(response, 500, "internal-error")
+    assert "secret" not in response.text
+    assert "Traceback" not in response.text
+    assert service.get("/livez").status_code == 200
+
+
+def test_only_json_is_taken_for_json(service: Any) -> None:
+    headers = {"Content-Type": "text/csv"}
+    response = service.post("/describe", content=b"1,2,3", headers=headers)
+    assert_problem(response, 415, "unsupported-media-type", "application/json")
+    headers = {"Content-Type": "application/json; charset=utf-8"}
+    assert service.post("/describe", content=b"{}", headers=headers).status_code == 422
+
+
+def test_a_large_body_is_refused_stated_or_streamed(start: Any) -> None:
+    with start(limits={"body_bytes": 1000}) as service:
+        response = service.post("/describe", content=b" " * 1001)
+        assert_problem(response, 413, "body-too-large", "1000 bytes")
+        taken = []
+
+        def stream() -> Any:
+            for _ in range(100):
+                taken.append(1)
+                yield b" " * 100
+
+        response = service.post("/describe", content=stream())
+        assert_problem(response, 413, "body-too-large", "1000 bytes")
+        assert service.post("/describe", content=b" " * 1000).status_code == 400
+
+
+def test_the_description_is_complete(service: Any) -> None:
+    document = service.get("/openapi.json").json()
+    schemas = document["components"]["schemas"]
+    for path, methods in document["paths"].items():
+        for method, operation in methods.items():
+            assert operation["summary"], (path, method)
+            for status, response in operation["responses"].items():
+                if status >= "400":
+                    assert list(response["content"]) == ["application/problem+json"]
+    text = str(document)
+    for name in {part.split("'")[0] for part in text.split("#/components/schemas/")[1:]}:
+        assert name in schemas
+    assert "DescribeRequest" in schemas
+    assert "HTTPValidationError" not in schemas
+    assert service.get("/docs").status_code == 200
+
+
+@pytest.mark.parametrize("dimension", [7, 32, 258])
+@pytest.mark.parametrize("queries", [1, 19, 20, 64])
+def test_the_index_is_exact_and_breaks_ties_by_row(dimension: int, queries: int) -> None:
+    codes = np.repeat(random_codes(40, 1, dimension), 10, axis=0)
+    codes[::10] = -128  # the farthest corner, so that sums are as large as they can be
+    wanted = np.concatenate([codes[:: 400 // queries][:queries], codes[:1]])
+    distances, rows = ExactIndex(codes).search(wanted, 25)
+    exact = ((wanted[:, None].astype(np.int64) - codes[None]) ** 2).sum(axis=2)
+    order = np.argsort(exact, axis=1, kind="stable")[:, :25]
+    np.testing.assert_array_equal(rows, order)
+    np.testing.assert_allclose(distances**2, np.take_along_axis(exact, order, axis=1))

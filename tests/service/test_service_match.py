@@ -1,0 +1,176 @@
+from typing import Any
+
+import numpy as np
+import pytest
+from placecell_client import encode
+
+from segments.manifest import Manifest
+from segments.types import Int8
+from tests.service.service_builders import (
+    STEP,
+    assert_problem,
+    cloud,
+    map_of,
+    random_codes,
+    request_of,
+)
+
+
+def put(service: Any, name: str, codes: Int8, manifest: Manifest, **changes: Any) -> None:
+    data = encode(map_of(codes, manifest.model_id, **changes))
+    assert service.put(f"/maps/{name}", content=data).status_code == 201
+
+
+def by_codes(codes: Int8, manifest: Manifest, **more: Any) -> dict[str, Any]:
+    return {"model_id": manifest.model_id, "codes": codes.tolist()} | more
+
+
+def brute_force(maps: dict[str, Int8], query: Int8, k: int) -> list[tuple[float, str, int]]:
+    """Distance, map, id of the nearest, compared in whole numbers."""
+    found = []
+    for name, codes in maps.items():
+        squared = ((codes.astype(np.int64) - query.astype(np.int64)) ** 2).sum(axis=1)
+        found += [(int(value), name, 100 + row) for row, value in enumerate(squared)]
+    return [(STEP * value**0.5, name, row) for value, name, row in sorted(found)[:k]]
+
+
+# Few different codes: many ties, within a map and between maps.
+MAPS = {
+    "b": random_codes(400, 1),
+    "a": random_codes(300, 2) // 64,
+    "c": random_codes(5, 3) // 64,
+}
+
+
+@pytest.fixture
+def stocked(service: Any, manifest: Manifest) -> Any:
+    for name, codes in MAPS.items():
+        put(service, name, codes, manifest)
+    return service
+
+
+@pytest.mark.parametrize("names", [None, ["a"], ["c", "b"], ["a", "a"]])
+@pytest.mark.parametrize("k", [1, 10, 100])
+def test_candidates_are_those_of_brute_force(
+    stocked: Any, manifest: Manifest, names: list[str] | None, k: int
+) -> None:
+    queries = np.concatenate([random_codes(20, 4), random_codes(20, 5) // 64])
+    body = by_codes(queries, manifest, k=k)
+    if names is not None:
+        body["maps"] = names
+    response = stocked.post("/match", json=body).json()
+    searched = sorted(set(names or MAPS))
+    assert response["searched"] == searched
+    assert response["model_id"] == manifest.model_id
+    for query, item in zip(queries, response["queries"], strict=True):
+        got = [(each["distance"], each["map"], each["id"]) for each in item["candidates"]]
+        expected = brute_force({name: MAPS[name] for name in searched}, query, k)
+        assert [each[1:] for each in got] == [each[1:] for each in expected]
+        assert [each[0] for each in got] == pytest.approx([each[0] for each in expected])
+
+
+def test_a_candidate_says_where_it_is(service: Any, manifest: Manifest) -> None:
+    codes = random_codes(4)
+    put(service, "yard", codes, manifest, first_id=40, robot="zoe", frame="hall")
+    response = service.post("/match", json=by_codes(codes[2:3], manifest, k=1)).json()
+    assert response["queries"] == [
+        {
+            "candidates": [
+                {
+                    "map": "yard",
+                    "id": 42,
+                    "robot": "zoe",
+                    "distance": 0.0,
+                    "probability": None,
+                    "centroid": [2.0, -2.0, 1.5],
+                    "frame": "hall",
+                }
+            ]
+        }
+    ]
+
+
+def test_segments_are_matched_as_their_codes_are(stocked: Any, manifest: Manifest) -> None:
+    clouds = [cloud(0), cloud(1)[:3], cloud(2)]
+    described = stocked.post("/describe", json=request_of(clouds)).json()["descriptors"]
+    codes = np.array([described[0]["codes"], described[2]["codes"]], np.int8)
+    put(stocked, "own", codes, manifest)
+    matched = stocked.post("/match", json=request_of(clouds) | {"k": 3}).json()["queries"]
+    expected = stocked.post("/match", json=by_codes(codes, manifest, k=3)).json()["queries"]
+    assert [matched[0], matched[2]] == expected
+    assert matched[1] == described[1]
+    # Rounded before the search, as the map's were: the distance to itself is zero.
+    assert matched[0]["candidates"][0]["distance"] == 0
+
+
+def test_without_maps_there_are_no_candidates(service: Any, manifest: Manifest) -> None:
+    response = service.post("/match", json=by_codes(random_codes(2), manifest)).json()
+    assert response["queries"] == [{"candidates": []}, {"candidates": []}]
+    put(service, "empty", random_codes(0), manifest)
+    response = service.post("/match", json=by_codes(random_codes(2), manifest)).json()
+    assert response["searched"] == ["empty"]
+    assert response["queries"] == [{"candidates": []}, {"candidates": []}]
+
+
+def test_ten_candidates_unless_said(stocked: Any, manifest: Manifest) -> None:
+    response = stocked.post("/match", json=by_codes(random_codes(1), manifest)).json()
+    assert len(response["queries"][0]["candidates"]) == 10
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "kind", "detail"),
+    [
+        ({"k": -1}, 422, "invalid-request", "/k"),
+        ({"k": 0}, 422, "invalid-request", "/k"),
+        ({"k": 101}, 422, "invalid-request", "the limit is 100"),
+        ({"k": "5"}, 422, "invalid-request", "/k"),
+        ({"k": 1.5}, 422, "invalid-request", "/k"),
+        ({"maps": ["a", "nowhere"]}, 404, "unknown-map", "'nowhere'"),
+        ({"maps": ["../a"]}, 404, "unknown-map", "../a"),
+        ({"maps": []}, 422, "invalid-request", "/maps"),
+        ({"maps": "a"}, 422, "invalid-request", "/maps"),
+        ({"codes": []}, 422, "invalid-request", "/codes"),
+        ({"codes": [[1] * 7, [1] * 6]}, 422, "invalid-request", "/codes/1"),
+        ({"codes": [[128] * 7]}, 422, "invalid-request", "/codes/0/0"),
+        ({"codes": [["1"] * 7]}, 422, "invalid-request", "/codes/0/0"),
+        ({"codes": [[0.5] * 7]}, 422, "invalid-request", "/codes/0/0"),
+        ({"codes": [[1] * 7] * 1001}, 413, "too-many-segments", "1001"),
+        ({"model_id": "other-1"}, 409, "other-model", "other-1"),
+        ({"model_id": None}, 422, "invalid-request", "either"),
+        (request_of([cloud(0)]), 422, "invalid-request", "either"),
+    ],
+)
+def test_bad_queries_are_refused_with_the_reason(
+    stocked: Any,
+    manifest: Manifest,
+    changes: dict[str, Any],
+    status: int,
+    kind: str,
+    detail: str,
+) -> None:
+    body = by_codes(random_codes(2), manifest)
+    assert_problem(stocked.post("/match", json=body | changes), status, kind, detail)
+    assert stocked.post("/match", json=body).status_code == 200
+
+
+def test_maps_of_another_model_are_never_compared(
+    start: Any, manifest: Manifest, other_manifest: Manifest
+) -> None:
+    codes = random_codes(3)
+    with start(model="other") as service:
+        put(service, "old", codes, other_manifest)
+    with start(model="tiny") as service:
+        put(service, "new", codes, manifest)
+        response = service.post("/match", json=by_codes(codes, manifest)).json()
+        assert response["searched"] == ["new"]
+        assert response["skipped"] == [{"map": "old", "model_id": other_manifest.model_id}]
+        assert {each["map"] for each in response["queries"][0]["candidates"]} == {"new"}
+        named = by_codes(codes, manifest, maps=["new", "old"])
+        assert_problem(
+            service.post("/match", json=named), 409, "other-model", other_manifest.model_id
+        )
+        assert {each["name"] for each in service.get("/maps").json()["maps"]} == {"new", "old"}
+        assert service.get("/maps/old").status_code == 200
+    with start(model="other") as service:
+        response = service.post("/match", json=by_codes(codes, other_manifest, k=1)).json()
+        assert response["searched"] == ["old"]
