@@ -1,0 +1,156 @@
+"""The three trainings: their losses and samplers by hand, and that each learns."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from training import contrastive, group_based, siamese
+from training.augmentation import Augmentation
+from training.networks import describe
+from training.recognition import top1
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+SMALL = Sgd(learning_rate=0.05, batch=16)
+
+
+def test_contrastive_loss_by_hand() -> None:
+    # A match at squared distance 0.3, a non-match inside the margin and one beyond it.
+    matches = torch.tensor([1.0, 0.0, 0.0])
+    squared = torch.tensor([0.3, 0.25, 1.7])
+    loss = contrastive.contrastive_loss(matches, squared, margin=1.0)
+    assert loss.item() == pytest.approx((0.3 + (1.0 - 0.25) + 0.0) / 3)
+
+
+def test_hard_pairs_on_a_toy_set() -> None:
+    # Two groups on a line: 0 at 0, 1, 9 and 1 at 2, 3; one loner at 20.
+    descriptors = np.array([[0.0], [1.0], [9.0], [2.0], [3.0], [20.0]], dtype=np.float32)
+    groups = np.array([0, 0, 0, 1, 1, 2])
+    random = np.random.default_rng(0)
+    matches, others = contrastive.hard_pairs(descriptors, groups, 1, random)
+    # The nearest stranger of each, and no match for the loner.
+    assert others.tolist() == [[0, 3], [1, 3], [2, 4], [3, 1], [4, 1], [5, 2]]
+    assert set(matches[:, 0].tolist()) == {0, 1, 2, 3, 4}
+    assert all(groups[a] == groups[b] and a != b for a, b in matches)
+    # The farther of two mates is drawn more often: with chance 3/4.
+    drawn = [contrastive.hard_pairs(descriptors, groups, 1, random)[0][0, 1] for _ in range(400)]
+    assert np.mean(np.array(drawn) == 2) == pytest.approx(0.75, abs=0.07)
+
+
+def test_random_pairs_do_not_follow_distance() -> None:
+    groups = np.repeat(np.arange(5), 4)
+    random = np.random.default_rng(0)
+    strangers = np.concatenate([contrastive.random_pairs(groups, random)[1] for _ in range(300)])
+    of_first = strangers[strangers[:, 0] == 0, 1]
+    assert set(of_first.tolist()) == set(range(4, 20))
+
+
+def test_pair_sampler_is_one_to_one_without_duplicates() -> None:
+    groups = np.array([0, 0, 0, 1, 1, 2, 3, 3, 3, 3])
+    pairs, labels = siamese.sample_pairs(groups, 12, np.random.default_rng(5))
+    assert len(pairs) == 12
+    assert labels.sum() == 6
+    assert (pairs[:, 0] != pairs[:, 1]).all()
+    unordered = {tuple(sorted(pair)) for pair in pairs.tolist()}
+    assert len(unordered) == 12
+    assert ((groups[pairs[:, 0]] == groups[pairs[:, 1]]) == (labels == 1)).all()
+
+
+def test_pair_sampler_stays_one_to_one_when_matches_run_out() -> None:
+    groups = np.array([0, 0, 0, 1, 1, 2, 3, 3, 3, 3])  # 3 + 1 + 6 matches
+    pairs, labels = siamese.sample_pairs(groups, 1000, np.random.default_rng(5))
+    assert labels.sum() == 10
+    assert len(pairs) == 20
+
+
+def test_third_network_does_not_depend_on_the_order() -> None:
+    match = siamese.MatchNetwork()
+    a, b = torch.randn(2, 20, 64)
+    assert match(a, b).detach().numpy() == pytest.approx(match(b, a).detach().numpy(), abs=1e-6)
+
+
+def test_group_based_training_learns(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = group_based.GroupBasedRecipe(epochs=8, sgd=SMALL)
+    run = Run(tmp_path, seed=0)
+    network = group_based.train(shapes, other_views, run, recipe=recipe)
+    assert top1(describe(network, other_views), other_views.groups) > 0.8
+    assert run.history[-1]["accuracy"] > run.history[0]["accuracy"]
+
+
+def test_siamese_training_learns(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = siamese.SiameseRecipe(epochs=8, pairs=200, sgd=SMALL)
+    run = Run(tmp_path, seed=0)
+    siamese.train(shapes, other_views, run, recipe=recipe)
+    assert run.history[-1]["validation_accuracy"] > 0.85
+
+
+def test_contrastive_training_learns(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = contrastive.ContrastiveRecipe(epochs=8, sgd=SMALL)
+    network = contrastive.train(shapes, other_views, Run(tmp_path, seed=0), recipe=recipe)
+    assert top1(describe(network, other_views), other_views.groups) > 0.85
+
+
+def test_a_resumed_run_ends_as_one_that_was_never_stopped(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = group_based.GroupBasedRecipe(epochs=3, sgd=SMALL)
+    whole = group_based.train(shapes, other_views, Run(tmp_path / "a", seed=1), recipe=recipe)
+
+    class StoppedError(Exception):
+        pass
+
+    class Stopping(Run):
+        def note(self, **figures: float) -> None:
+            if len(self.history) == 2:
+                raise StoppedError
+            super().note(**figures)
+
+    with pytest.raises(StoppedError):
+        group_based.train(shapes, other_views, Stopping(tmp_path / "b", seed=1), recipe=recipe)
+    resumed = Run(tmp_path / "b", seed=1)
+    network = group_based.train(shapes, other_views, resumed, recipe=recipe)
+    assert len(resumed.history) == 3
+    assert describe(network, shapes) == pytest.approx(describe(whole, shapes), abs=1e-5)
+
+
+def test_small_groups_are_left_out() -> None:
+    points = np.zeros((10, 3), dtype=np.float32)
+    from segments.parameters import PROTOCOL_V1
+    from segments.segments import Segments
+
+    data = TrainingSet(
+        Segments.of([points] * 6, np.ones((6, 3))), np.array([0, 0, 0, 1, 2, 2]), PROTOCOL_V1
+    )
+    assert data.without_small_groups(2).groups.tolist() == [0, 0, 0, 1, 1]
+    assert data.without_small_groups(3).groups.tolist() == [0, 0, 0]
+
+
+def test_split_keeps_groups_whole(shapes: TrainingSet) -> None:
+    training, validation = shapes.split(0.25, seed=3)
+    assert len(training) + len(validation) == len(shapes)
+    assert len(validation.group_sizes()) == 2
+    assert (validation.group_sizes() == 6).all()
+
+
+def test_augmentation_loses_points_but_never_a_segment(shapes: TrainingSet) -> None:
+    harsh = Augmentation(cut_share=1.0, cut_most=1.0, drop_most=1.0)
+    occupancy, _ = harsh.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
+    assert (occupancy.reshape(len(shapes), -1).sum(axis=1) >= 1).all()
+    gentle = Augmentation(yaw=0.0, cut_share=0.0, drop_most=0.0)
+    from segments.voxels import voxelise
+
+    as_it_is, extents = voxelise(shapes.segments, shapes.parameters)
+    same, same_extents = gentle.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
+    assert (same == as_it_is).all()
+    assert (same_extents == extents).all()
+    assert replace(gentle, yaw=0.3) != gentle

@@ -1,0 +1,58 @@
+"""Augmentation: what the same segment might have looked like (paper III-A: rotated copies).
+
+Beyond the paper's rotations: cuts and missing points, for occlusion and sparser views.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from segments.parameters import Parameters
+from segments.segments import Segments
+from segments.types import Bool, Float32, UInt8
+from segments.voxels import voxelise
+
+
+@dataclass(frozen=True, slots=True)
+class Augmentation:
+    """How far a copy may differ from the segment.
+
+    Attributes:
+        yaw: largest turn about z, either way, radians.
+        cut_share: how many of the copies lose what lies beyond a random vertical plane.
+        cut_most: the largest share of the points that a cut takes.
+        drop_most: the largest share of points that go missing at random.
+    """
+
+    yaw: float = np.radians(20.0)
+    cut_share: float = 0.4
+    cut_most: float = 0.5
+    drop_most: float = 0.4
+
+    def copies(
+        self, segments: Segments, parameters: Parameters, random: np.random.Generator
+    ) -> tuple[UInt8, Float32]:
+        """One altered copy of each segment, as the network's input (see `voxelise`)."""
+        keep = self._keep(segments, random)
+        counts = np.add.reduceat(keep, segments.starts, dtype=np.int64)
+        altered = Segments(segments.points[keep], np.cumsum(counts), segments.sensors)
+        return voxelise(altered, parameters, random.uniform(-self.yaw, self.yaw, len(segments)))
+
+    def _keep(self, segments: Segments, random: np.random.Generator) -> Bool:
+        count = len(segments)
+        counts = segments.counts
+        # A cut takes the points beyond a share of the way along a random horizontal direction.
+        bearing = random.uniform(0, 2 * np.pi, count)
+        direction = np.stack([np.cos(bearing), np.sin(bearing)], axis=1)
+        along = np.einsum("ij,ij->i", segments.points[:, :2], np.repeat(direction, counts, axis=0))
+        lowest = np.minimum.reduceat(along, segments.starts)
+        highest = np.maximum.reduceat(along, segments.starts)
+        cut = random.uniform(0, self.cut_most, count) * (random.random(count) < self.cut_share)
+        limit = highest - cut * (highest - lowest)
+        stays = random.uniform(1 - self.drop_most, 1, count)
+        keep = (along <= np.repeat(limit, counts)) & (
+            random.random(len(along)) < np.repeat(stays, counts)
+        )
+        # Never an empty segment: its first point stays.
+        keep[segments.starts] = True
+        return np.asarray(keep)

@@ -1,0 +1,143 @@
+"""Descriptor extraction using contrastive loss (paper III-E).
+
+    L(y, a, b) = y |a - b|^2 + (1 - y) max(0, m - |a - b|^2)
+
+on hard pairs: matches far apart and non-matches close together, found anew at the end of each
+epoch from the current descriptors, and sub-sampled so as not to dwell on the few hardest.
+
+    placecell train contrastive DRIVE@0:299 --seed 0
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from segments.types import Float32, Int64
+from training.augmentation import Augmentation
+from training.networks import DescriptorNetwork, describe, normalisation_statistics
+from training.recognition import distance_rows, top1
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+
+@dataclass(frozen=True, slots=True)
+class ContrastiveRecipe:
+    """Settings of the training; the defaults made the model that ships."""
+
+    epochs: int = 60
+    margin: float = 1.0
+    """m, of the squared distance; descriptors have length one, so it is 4 at most."""
+    hardest: int = 20
+    """Each segment's hard non-match is drawn among so many nearest."""
+    hard: bool = True
+    """False: random pairs, for comparison."""
+    sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.1, batch=128))
+    dropout: float = 0.0
+    augmentation: Augmentation = field(default_factory=Augmentation)
+
+
+def contrastive_loss(matches: Tensor, squared_distances: Tensor, margin: float) -> Tensor:
+    """The paper's loss, averaged over pairs.
+
+    Args:
+        matches: 1 for pairs that match, 0 for others, (n,).
+        squared_distances: of the descriptors, (n,).
+        margin: m.
+    """
+    apart = (margin - squared_distances).clamp(min=0)
+    loss: Tensor = (matches * squared_distances + (1 - matches) * apart).mean()
+    return loss
+
+
+def hard_pairs(
+    descriptors: Float32, groups: Int64, hardest: int, random: np.random.Generator
+) -> tuple[Int64, Int64]:
+    """For each segment a hard match and a hard non-match, sub-sampled.
+
+    The match is drawn from its group with a chance that grows with the distance's rank, so that
+    half of the time it is of the farther half; the non-match is drawn from the `hardest` nearest
+    segments of other groups.
+
+    Returns:
+        matches, int64 (m, 2), for segments that have a mate; non-matches, int64 (segments, 2).
+    """
+    matches, others = [], []
+    for rows, distances in distance_rows(descriptors):
+        same = groups[rows, None] == groups[None]
+        foreign = np.where(same, np.inf, distances)
+        several = min(hardest, int((~same).sum(axis=1).min()))
+        nearest = np.argpartition(foreign, several - 1, axis=1)[:, :several]
+        chosen = nearest[np.arange(len(rows)), random.integers(0, several, len(rows))]
+        others.append(np.stack([rows, chosen], axis=1))
+        for row, segment in enumerate(rows):
+            mates = np.flatnonzero(same[row])
+            mates = mates[mates != segment]
+            if len(mates):
+                by_distance = mates[np.argsort(distances[row, mates])]
+                # The square root of a uniform draw prefers the far end.
+                pick = int(len(mates) * np.sqrt(random.random()))
+                matches.append((int(segment), int(by_distance[pick])))
+    return np.array(matches, dtype=np.int64).reshape(-1, 2), np.concatenate(others)
+
+
+def random_pairs(groups: Int64, random: np.random.Generator) -> tuple[Int64, Int64]:
+    """For each segment a random match and a random non-match: what hard pairs improve on."""
+    flat = np.zeros((len(groups), 1), dtype=np.float32)
+    return hard_pairs(flat, groups, len(groups), random)
+
+
+def train(
+    training: TrainingSet,
+    validation: TrainingSet,
+    run: Run,
+    network: str = "fast",
+    recipe: ContrastiveRecipe | None = None,
+) -> DescriptorNetwork:
+    """Train a descriptor network with the contrastive loss.
+
+    The history holds the loss, and the top-1 in the training set and in the validation groups.
+    """
+    recipe = recipe or ContrastiveRecipe()
+    torch.manual_seed(run.seed)
+    mean, deviation = normalisation_statistics(training)
+    model = DescriptorNetwork(network, mean, deviation, recipe.dropout)
+    steps = len(training) // recipe.sgd.batch
+    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
+    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
+        random = run.random(epoch)
+        descriptors = describe(model, training)
+        if recipe.hard and epoch:
+            matches, others = hard_pairs(descriptors, training.groups, recipe.hardest, random)
+        else:
+            matches, others = random_pairs(training.groups, random)
+        matches = random.permutation(matches)
+        share = len(matches) / len(others)
+        others = random.permutation(others)
+        losses = []
+        model.train()
+        for step in range(steps):
+            batch = recipe.sgd.batch
+            some_matches = matches[int(step * batch * share) : int((step + 1) * batch * share)]
+            pairs = np.concatenate([some_matches, others[step * batch : (step + 1) * batch]])
+            is_match = torch.zeros(len(pairs))
+            is_match[: len(some_matches)] = 1
+            occupancy, extents = recipe.augmentation.copies(
+                training.segments.take(pairs.T.reshape(-1)), training.parameters, random
+            )
+            described = model(torch.from_numpy(occupancy), torch.from_numpy(extents))
+            a, b = described[: len(pairs)], described[len(pairs) :]
+            loss = contrastive_loss(is_match, (a - b).square().sum(dim=1), recipe.margin)
+            optimiser.zero_grad()
+            loss.backward()
+            optimiser.step()
+            schedule.step()
+            losses.append(loss.item())
+        run.note(
+            loss=float(np.mean(losses)),
+            top1=top1(descriptors, training.groups),
+            validation_top1=top1(describe(model, validation), validation.groups),
+        )
+    return model

@@ -1,0 +1,63 @@
+"""Export to ONNX: normalisation, network and projection in one graph."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from segments.types import Float32
+from training.networks import DescriptorNetwork
+
+OPSET = 20
+
+
+class Exported(nn.Module):
+    """The descriptor network followed by a projection to the stored dimensions."""
+
+    mean: Tensor
+    axes: Tensor
+
+    def __init__(self, network: DescriptorNetwork, mean: Float32, axes: Float32) -> None:
+        super().__init__()
+        self.network = network
+        self.register_buffer("mean", torch.from_numpy(mean))
+        self.register_buffer("axes", torch.from_numpy(axes))
+
+    def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
+        """float32 (n, stored dimension)."""
+        projected: Tensor = (self.network(occupancy, extents) - self.mean) @ self.axes
+        return projected
+
+
+def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float32]:
+    """Mean (d,) and the principal axes (d, dimension) of training descriptors."""
+    mean = descriptors.mean(axis=0)
+    _, _, axes = np.linalg.svd(descriptors - mean, full_matrices=False)
+    # The sign of an axis is arbitrary: its largest entry is made positive.
+    signs = np.sign(axes[np.arange(len(axes)), np.abs(axes).argmax(axis=1)])
+    chosen = (axes * signs[:, None])[:dimension].T
+    return mean.astype(np.float32), np.ascontiguousarray(chosen, dtype=np.float32)
+
+
+def export_onnx(network: Exported, grid: tuple[int, int, int], file: Path) -> None:
+    """Write the network; inputs `occupancy` (uint8) and `extents` (float32), any batch size."""
+    network.eval()
+    example = (torch.zeros((2, *grid), dtype=torch.uint8), torch.ones((2, 3)))
+    batch = torch.export.Dim("batch")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the exporter's own deprecations
+        program = torch.onnx.export(
+            network,
+            example,
+            input_names=["occupancy", "extents"],
+            output_names=["descriptor"],
+            dynamic_shapes=({0: batch}, {0: batch}),
+            opset_version=OPSET,
+            dynamo=True,
+            external_data=False,
+            verbose=False,
+        )
+    assert program is not None
+    program.save(str(file), external_data=False)

@@ -1,0 +1,226 @@
+"""The secondary classifier (paper III-C, IV-B): whether two descriptors match.
+
+The paper trains a random forest on the two concatenated descriptors, which makes the answer
+depend on their order; that form is kept for the report. What is served is symmetric: a forest on
+the distance in each dimension, a logistic curve over the plain distance, or the Siamese's own third
+network. All are calibrated on validation groups, and plain distance is the control: a classifier
+that does not tell pairs apart better than distance does is not served.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import onnx
+import torch
+from onnx import helper
+from sklearn.ensemble import RandomForestClassifier
+from sklearn.linear_model import LogisticRegression
+from torch import Tensor, nn
+
+from segments.types import Float32, Float64, Int64
+from training.recognition import area_under_roc
+
+TREES = 60
+LEAF = 20
+"""Fewest pairs in a leaf: smaller leaves learn the training groups by heart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """Pairs of stored descriptors.
+
+    Attributes:
+        a: float32 (n, d).
+        b: float32 (n, d).
+        matches: float64 (n,), 1 or 0.
+    """
+
+    a: Float32
+    b: Float32
+    matches: Float64
+
+    @classmethod
+    def of(cls, descriptors: Float32, positive: Int64, negative: Int64) -> "Pairs":
+        """From drawn pairs of indices."""
+        pairs = np.concatenate([positive, negative])
+        matches = np.repeat([1.0, 0.0], [len(positive), len(negative)])
+        return cls(descriptors[pairs[:, 0]], descriptors[pairs[:, 1]], matches)
+
+    def distances(self) -> Float64:
+        """Euclidean, float64 (n,)."""
+        return np.asarray(np.linalg.norm(self.a.astype(np.float64) - self.b, axis=1))
+
+
+def concatenated(pairs: Pairs) -> Float32:
+    """The paper's features: one descriptor after the other, (n, 2 d)."""
+    return np.concatenate([pairs.a, pairs.b], axis=1)
+
+
+def symmetric(pairs: Pairs) -> Float32:
+    """The distance in each dimension and over all, (n, d + 1): the same for (a, b) and (b, a)."""
+    difference = np.abs(pairs.a - pairs.b)
+    length = np.sqrt(np.square(difference).sum(axis=1, keepdims=True))
+    return np.concatenate([difference, length], axis=1)
+
+
+def train_forest(
+    pairs: Pairs, features: Callable[[Pairs], Float32], seed: int
+) -> RandomForestClassifier:
+    """A random forest on pair features."""
+    forest = RandomForestClassifier(
+        n_estimators=TREES, min_samples_leaf=LEAF, max_depth=12, random_state=seed, n_jobs=1
+    )
+    return forest.fit(features(pairs), pairs.matches)
+
+
+def log_odds(probability: Float64) -> Float64:
+    """Of a probability, away from 0 and 1."""
+    clipped = np.clip(probability, 1e-4, 1 - 1e-4)
+    return np.asarray(np.log(clipped / (1 - clipped)))
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """Platt scaling: probability = 1 / (1 + exp(-(slope x + offset))) of a raw score x."""
+
+    slope: float
+    offset: float
+
+    @classmethod
+    def fit(cls, scores: Float64, matches: Float64) -> "Calibration":
+        """By logistic regression on pairs that the score was not trained on."""
+        fitted = LogisticRegression(C=1e6, max_iter=1000).fit(scores[:, None], matches)
+        return cls(float(fitted.coef_[0, 0]), float(fitted.intercept_[0]))
+
+    def apply(self, scores: Float64) -> Float64:
+        """Probabilities of a match."""
+        return np.asarray(1 / (1 + np.exp(-(self.slope * scores + self.offset))))
+
+
+def expected_calibration_error(
+    probability: Float64, matches: Float64, bins: int = 10
+) -> tuple[float, list[tuple[float, float, int]]]:
+    """How far the stated probabilities are off, and the reliability diagram's points.
+
+    Returns:
+        the mean of |stated - true| weighted by count; and for each filled bin of equal width the
+        mean stated probability, the share of matches, and the count.
+    """
+    which = np.minimum((probability * bins).astype(int), bins - 1)
+    points = []
+    for index in range(bins):
+        inside = which == index
+        if inside.any():
+            points.append(
+                (
+                    float(probability[inside].mean()),
+                    float(matches[inside].mean()),
+                    int(inside.sum()),
+                )
+            )
+    error = sum(abs(stated - true) * count for stated, true, count in points) / len(matches)
+    return error, points
+
+
+class DistanceGraph(nn.Module):
+    """Probability from the plain distance: the control, and what is served if nothing beats it."""
+
+    def __init__(self, calibration: Calibration) -> None:
+        super().__init__()
+        self.calibration = calibration
+
+    def forward(self, a: Tensor, b: Tensor) -> Tensor:
+        """(n, d) each -> (n,)."""
+        distance = (a - b).square().sum(dim=1).sqrt()
+        return torch.sigmoid(self.calibration.slope * distance + self.calibration.offset)
+
+
+class HeadGraph(nn.Module):
+    """The Siamese's third network on stored descriptors, calibrated."""
+
+    mean: Tensor
+    axes: Tensor
+
+    def __init__(
+        self, match: nn.Module, mean: Float32, axes: Float32, calibration: Calibration
+    ) -> None:
+        super().__init__()
+        self.match = match
+        self.register_buffer("mean", torch.from_numpy(mean))
+        self.register_buffer("axes", torch.from_numpy(axes))
+        self.calibration = calibration
+
+    def logits(self, a: Tensor, b: Tensor) -> Tensor:
+        """Before calibration, (n,)."""
+        logits: Tensor = self.match(a @ self.axes.T + self.mean, b @ self.axes.T + self.mean)
+        return logits
+
+    def forward(self, a: Tensor, b: Tensor) -> Tensor:
+        """(n, d) each -> (n,)."""
+        return torch.sigmoid(self.calibration.slope * self.logits(a, b) + self.calibration.offset)
+
+
+def forest_graph(
+    forest: RandomForestClassifier, calibration: Calibration, dimension: int
+) -> onnx.ModelProto:
+    """A symmetric forest with its features before it and its calibration behind it, as ONNX."""
+    from skl2onnx import to_onnx
+    from skl2onnx.common.data_types import FloatTensorType
+
+    converted = to_onnx(
+        forest,
+        initial_types=[("features", FloatTensorType([None, dimension + 1]))],
+        options={"zipmap": False},
+        target_opset={"": 20, "ai.onnx.ml": 3},
+    )
+    constants: dict[str, np.ndarray[Any, Any]] = {
+        "axis": np.array([1], dtype=np.int64),
+        "second": np.array(1, dtype=np.int64),
+        "low": np.array(1e-4, dtype=np.float32),
+        "high": np.array(1 - 1e-4, dtype=np.float32),
+        "one": np.array(1, dtype=np.float32),
+        "slope": np.array(calibration.slope, dtype=np.float32),
+        "offset": np.array(calibration.offset, dtype=np.float32),
+    }
+    before = [
+        helper.make_node("Sub", ["a", "b"], ["apart"]),
+        helper.make_node("Abs", ["apart"], ["difference"]),
+        helper.make_node("ReduceL2", ["difference", "axis"], ["length"], keepdims=1),
+        helper.make_node("Concat", ["difference", "length"], ["features"], axis=1),
+    ]
+    behind = [
+        helper.make_node("Gather", ["probabilities", "second"], ["raw"], axis=1),
+        helper.make_node("Clip", ["raw", "low", "high"], ["clipped"]),
+        helper.make_node("Sub", ["one", "clipped"], ["rest"]),
+        helper.make_node("Div", ["clipped", "rest"], ["odds"]),
+        helper.make_node("Log", ["odds"], ["score"]),
+        helper.make_node("Mul", ["score", "slope"], ["scaled"]),
+        helper.make_node("Add", ["scaled", "offset"], ["shifted"]),
+        helper.make_node("Sigmoid", ["shifted"], ["probability"]),
+    ]
+    of_floats = onnx.TensorProto.FLOAT
+    graph = helper.make_graph(
+        [*before, *converted.graph.node, *behind],
+        "pair",
+        [helper.make_tensor_value_info(name, of_floats, ["n", dimension]) for name in "ab"],
+        [helper.make_tensor_value_info("probability", of_floats, ["n"])],
+        [
+            *converted.graph.initializer,
+            *(onnx.numpy_helper.from_array(value, name) for name, value in constants.items()),
+        ],
+    )
+    model = helper.make_model(
+        graph, opset_imports=converted.opset_import, ir_version=converted.ir_version
+    )
+    onnx.checker.check_model(model)
+    return model
+
+
+def compare(scores: dict[str, Float64], pairs: Pairs) -> dict[str, Any]:
+    """AUC of each kind of score (greater: more likely a match)."""
+    is_match = pairs.matches > 0.5
+    return {
+        name: area_under_roc(values[is_match], values[~is_match]) for name, values in scores.items()
+    }

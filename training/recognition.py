@@ -1,0 +1,134 @@
+"""How recognition is measured: the paper's two experiments (IV-B), and one that is harder.
+
+All figures are of descriptors as they are stored; `docs/recognition.md` has the definitions.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import rankdata
+
+from segments.types import Bool, Float32, Float64, Int64
+
+PAIRS = 20_000
+"""Positive pairs, and as many negative."""
+
+CROSS_VIEW_METRES = 10.0
+CANDIDATES = 25
+
+
+@dataclass(frozen=True, slots=True)
+class Retrieval:
+    """Nearest neighbours among all other segments.
+
+    Attributes:
+        right: bool (segments,): the nearest is of the same group; false without a mate.
+        has_mate: bool (segments,): another segment of the group is there at all.
+        recalled: bool (segments,): one of the same group is among the 25 nearest.
+    """
+
+    right: Bool
+    has_mate: Bool
+    recalled: Bool
+
+
+def distance_rows(descriptors: Float32, rows: int = 1000) -> Iterator[tuple[Int64, Float32]]:
+    """Squared distances to all, some rows at a time; a segment's to itself is infinite."""
+    squared = np.einsum("ij,ij->i", descriptors, descriptors)
+    for first in range(0, len(descriptors), rows):
+        chosen = np.arange(first, min(first + rows, len(descriptors)))
+        products = descriptors[chosen] @ descriptors.T
+        distances = squared[chosen, None] + squared[None] - 2 * products
+        distances[np.arange(len(chosen)), chosen] = np.inf
+        yield chosen, distances
+
+
+def retrieve(
+    descriptors: Float32, groups: Int64, sensors: Float32 | None = None, apart: float = 0.0
+) -> Retrieval:
+    """Look for each segment among the others (paper IV-B, second comparison).
+
+    Args:
+        descriptors: float32 (segments, dimension).
+        groups: int64 (segments,).
+        sensors: float32 (segments, 3), metres: where each was seen from.
+        apart: with sensors given, mates seen from within so many metres are taken out first.
+    """
+    count = len(groups)
+    right, has_mate, recalled = (np.zeros(count, dtype=bool) for _ in range(3))
+    for rows, distances in distance_rows(descriptors):
+        mates = groups[rows, None] == groups[None]
+        mates[np.arange(len(rows)), rows] = False
+        if sensors is not None:
+            offsets = sensors[rows, None] - sensors[None]
+            near = np.einsum("ijk,ijk->ij", offsets, offsets) <= apart**2
+            distances[mates & near] = np.inf
+            mates &= ~near
+        has_mate[rows] = mates.any(axis=1)
+        several = min(CANDIDATES, count - 1)
+        if several < 1:
+            continue
+        nearest = np.argpartition(distances, several - 1, axis=1)[:, :several]
+        recalled[rows] = np.take_along_axis(mates, nearest, axis=1).any(axis=1)
+        first = distances.argmin(axis=1)
+        right[rows] = mates[np.arange(len(rows)), first]
+    return Retrieval(right, has_mate, recalled)
+
+
+def top1(descriptors: Float32, groups: Int64) -> float:
+    """Share of segments whose nearest neighbour is of their group; no mate counts as a miss."""
+    return float(retrieve(descriptors, groups).right.mean()) if len(groups) else 0.0
+
+
+def draw_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[Int64, Int64]:
+    """Positive and negative pairs: indices, int64 (count, 2) each; empty if there are none.
+
+    A positive pair is two segments of a group drawn uniformly from those with two or more; a
+    negative one is two segments of different groups.
+    """
+    none = np.zeros((0, 2), dtype=np.int64)
+    order = np.argsort(groups, kind="stable")
+    _, starts, sizes = np.unique(groups[order], return_index=True, return_counts=True)
+    plural = np.flatnonzero(sizes >= 2)
+    positive, negative = none, none
+    if len(plural):
+        chosen = random.choice(plural, count)
+        first = random.integers(0, sizes[chosen])
+        second = (first + random.integers(1, sizes[chosen])) % sizes[chosen]
+        positive = order[starts[chosen][:, None] + np.stack([first, second], axis=1)]
+    if len(sizes) >= 2:
+        drawn = [none]
+        while sum(map(len, drawn)) < count:
+            pairs = random.integers(0, len(groups), (count, 2))
+            drawn.append(pairs[groups[pairs[:, 0]] != groups[pairs[:, 1]]])
+        negative = np.concatenate(drawn)[:count]
+    return positive, negative
+
+
+def pair_distances(descriptors: Float32, pairs: Int64) -> Float64:
+    """Euclidean distances of pairs, float64 (pairs,)."""
+    offsets = descriptors[pairs[:, 0]].astype(np.float64) - descriptors[pairs[:, 1]]
+    return np.asarray(np.linalg.norm(offsets, axis=1))
+
+
+def area_under_roc(positive: Float64, negative: Float64) -> float:
+    """Probability that a positive scores above a negative (ties count half)."""
+    ranks = rankdata(np.concatenate([positive, negative]))[: len(positive)]
+    below = ranks.sum() - len(positive) * (len(positive) + 1) / 2
+    return float(below / (len(positive) * len(negative)))
+
+
+def best_threshold(positive: Float64, negative: Float64) -> float:
+    """The distance at which calling nearer pairs matches is most often right."""
+    distances = np.concatenate([positive, negative])
+    gain = np.concatenate([np.ones(len(positive)), -np.ones(len(negative))])
+    order = np.argsort(distances, kind="stable")
+    best = int(np.cumsum(gain[order]).argmax())
+    upper = min(best + 1, len(order) - 1)
+    return float((distances[order[best]] + distances[order[upper]]) / 2)
+
+
+def accuracy_at(threshold: float, positive: Float64, negative: Float64) -> float:
+    """Share of pairs told right when nearer than the threshold means a match."""
+    return float(((positive <= threshold).mean() + (negative > threshold).mean()) / 2)

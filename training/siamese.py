@@ -1,0 +1,157 @@
+"""Siamese network (paper III-D).
+
+Two branches share the extractor's weights; a third network takes both descriptors and gives the
+probability that the segments match. Binary cross-entropy, SGD, random pairs without duplicates,
+as many matches as non-matches.
+
+    placecell train siamese DRIVE@0:299 --seed 0
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from segments.types import Float32, Int64
+from training.augmentation import Augmentation
+from training.networks import DIMENSION, DescriptorNetwork, describe, normalisation_statistics
+from training.recognition import top1
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+
+@dataclass(frozen=True, slots=True)
+class SiameseRecipe:
+    """Settings of the training; the defaults made the model that ships."""
+
+    epochs: int = 60
+    pairs: int = 8192
+    """An epoch: half of them matches."""
+    sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.05, batch=128))
+    dropout: float = 0.2
+    augmentation: Augmentation = field(default_factory=Augmentation)
+
+
+class MatchNetwork(nn.Module):
+    """The third network: two descriptors to the probability of a match.
+
+    It sees what does not depend on their order: the distance in each dimension, and the product.
+    """
+
+    def __init__(self, hidden: int = 64) -> None:
+        super().__init__()
+        self.layers = nn.Sequential(
+            nn.Linear(2 * DIMENSION, hidden), nn.ReLU(), nn.Linear(hidden, 1)
+        )
+
+    def forward(self, a: Tensor, b: Tensor) -> Tensor:
+        """Descriptors (n, 64) each -> logits of the probability, (n,)."""
+        features = torch.cat([(a - b).abs(), a * b], dim=1) * DIMENSION**0.5
+        logits: Tensor = self.layers(features)
+        return logits.squeeze(1)
+
+
+class Siamese(nn.Module):
+    """Shared branches and the third network."""
+
+    def __init__(self, extractor: DescriptorNetwork) -> None:
+        super().__init__()
+        self.extractor = extractor
+        self.match = MatchNetwork()
+
+    def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
+        """Logits (n,) of pairs that stand one after the other: inputs have 2 n rows."""
+        descriptors = self.extractor(occupancy, extents)
+        half = len(descriptors) // 2
+        logits: Tensor = self.match(descriptors[:half], descriptors[half:])
+        return logits
+
+
+def sample_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[Int64, Float32]:
+    """Random pairs, one to one: indices (count, 2) and 1 for matches, 0 for others (count,).
+
+    No pair stands twice, in either order, and none joins a segment with itself. With fewer
+    than count / 2 matches to be had, there are as many pairs of each kind as matches.
+    """
+    order = np.argsort(groups, kind="stable")
+    sizes = np.bincount(groups)
+    starts = np.cumsum(sizes) - sizes
+    matches = np.concatenate(
+        [
+            order[start + np.stack(np.triu_indices(size, k=1), axis=1)]
+            for start, size in zip(starts, sizes, strict=True)
+        ]
+    )
+    half = min(count // 2, len(matches))
+    matches = random.permutation(matches)[:half]
+    others: set[tuple[int, int]] = set()
+    while len(others) < half:
+        drawn = random.integers(0, len(groups), (half, 2))
+        drawn = np.sort(drawn[groups[drawn[:, 0]] != groups[drawn[:, 1]]], axis=1)
+        others.update(map(tuple, drawn[: half - len(others)].tolist()))
+    pairs = np.concatenate([matches, np.array(sorted(others), dtype=np.int64).reshape(-1, 2)])
+    labels = np.repeat(np.array([1, 0], dtype=np.float32), half)
+    shuffled = random.permutation(len(pairs))
+    return pairs[shuffled], labels[shuffled]
+
+
+def train(
+    training: TrainingSet,
+    validation: TrainingSet,
+    run: Run,
+    network: str = "fast",
+    recipe: SiameseRecipe | None = None,
+) -> Siamese:
+    """Train extractor and third network together.
+
+    The history holds the loss, the accuracy over pairs in training and over a fixed draw of pairs
+    of the validation groups, and the validation groups' top-1.
+    """
+    recipe = recipe or SiameseRecipe()
+    torch.manual_seed(run.seed)
+    mean, deviation = normalisation_statistics(training)
+    model = Siamese(DescriptorNetwork(network, mean, deviation, recipe.dropout))
+    pairs_an_epoch = len(sample_pairs(training.groups, recipe.pairs, np.random.default_rng(0))[0])
+    steps = pairs_an_epoch // recipe.sgd.batch
+    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
+    held_out = sample_pairs(validation.groups, 4000, np.random.default_rng(run.seed))
+    cross_entropy = nn.BCEWithLogitsLoss()
+    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
+        random = run.random(epoch)
+        pairs, labels = sample_pairs(training.groups, recipe.pairs, random)
+        losses, right = [], 0
+        model.train()
+        for step in range(steps):
+            rows = slice(step * recipe.sgd.batch, (step + 1) * recipe.sgd.batch)
+            occupancy, extents = recipe.augmentation.copies(
+                training.segments.take(pairs[rows].T.reshape(-1)), training.parameters, random
+            )
+            logits = model(torch.from_numpy(occupancy), torch.from_numpy(extents))
+            truth = torch.from_numpy(labels[rows])
+            loss = cross_entropy(logits, truth)
+            optimiser.zero_grad()
+            loss.backward()
+            optimiser.step()
+            schedule.step()
+            losses.append(loss.item())
+            right += int(((logits > 0) == (truth > 0.5)).sum())
+        descriptors = describe(model.extractor, validation)
+        run.note(
+            loss=np.mean(losses),
+            accuracy=right / (steps * recipe.sgd.batch),
+            validation_accuracy=pair_accuracy(model.match, descriptors, *held_out),
+            validation_top1=top1(descriptors, validation.groups),
+        )
+    return model
+
+
+@torch.no_grad()
+def pair_accuracy(
+    match: MatchNetwork, descriptors: Float32, pairs: Int64, labels: Float32
+) -> float:
+    """Share of pairs that the third network tells right."""
+    match.eval()
+    a, b = (torch.from_numpy(descriptors[side]) for side in pairs.T)
+    return float(((match(a, b) > 0).numpy() == (labels > 0.5)).mean())
