@@ -1,0 +1,1 @@
+"""What measures the whole from outside: the demo, load generators, peers."""

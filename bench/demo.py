@@ -1,0 +1,110 @@
+"""The demo: robot A shares its map through the service, robot B finds its place in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from placecell_client import Client, encode
+
+from bench.robot import Robot, ask
+from bench.score import Score, score
+from bench.server import running_service
+from segments.blocks import alternate_blocks
+from segments.drives import Drive, open_drive
+from segments.extraction import Progress, record
+from segments.parameters import PROTOCOL_V1
+
+MAP = "robot_a"
+K = 25
+REQUESTS = 60
+"""Frames that robot B asks about: enough for percentiles, few enough to wait for."""
+
+SHORT_METRES = 24.0
+"""Below two blocks of 12 m a drive is short."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What the demo measured.
+
+    Attributes:
+        score: candidates right.
+        figures: of the map, the requests, the drive; for the terminal and for JSON.
+    """
+
+    score: Score
+    figures: dict[str, Any]
+
+
+def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:
+    """Two robots that drive the same streets of a synthetic town in opposite directions."""
+    from town import read_origin, two_robots
+
+    robots = []
+    paths = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
+    for name, path in zip(("robot A", "robot B"), paths, strict=True):
+        drive = open_drive(path)
+        recording = record(drive, PROTOCOL_V1, progress=progress)
+        robots.append(Robot(name, drive, [recording], read_origin(path)))
+    return robots[0], robots[1]
+
+
+def robots_of_drive(folder: Path, progress: Progress) -> tuple[Robot, Robot]:
+    """One drive as two robots: its odd blocks are the map, its even blocks ask.
+
+    Raises:
+        ValueError: the drive stands still, so that it has no second block.
+    """
+    drive = open_drive(folder)
+    odd, even = alternate_blocks(drive)
+    if not even:
+        raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
+    shortest = min(map(len, odd + even))
+    parameters = PROTOCOL_V1.for_drive(len(drive)).for_block(shortest)
+
+    def robot(name: str, blocks: Sequence[range]) -> Robot:
+        recordings = [record(drive, parameters, block, progress) for block in blocks]
+        return Robot(name, drive, recordings, np.eye(4))
+
+    return robot("robot A", odd), robot("robot B", even)
+
+
+def run(
+    mapper: Robot, asker: Robot, folder: Path, picture: Path, models: Sequence[str] = ()
+) -> Outcome:
+    """Start the service, upload A's map, let B ask, score, draw."""
+    with running_service(folder / "service", *models) as address, Client(address) as client:
+        compact = mapper.build_map(client, frame=mapper.drive.folder.name)
+        data = encode(compact)
+        client.put_map(MAP, data)
+        views = [(scan, segments) for scan, segments, _ in asker.views() if len(segments)]
+        spread = np.unique(np.linspace(0, len(views) - 1, REQUESTS).astype(int))
+        answers, milliseconds = ask(asker, client, [MAP], K, [views[index] for index in spread])
+        model_id = client.info().model_id
+    result = score(answers, compact.centroids, mapper.to_common)
+    p50, p99 = np.percentile(milliseconds, [50, 99])
+    figures = {
+        "model_id": model_id,
+        "path_m": round(asker.drive.path_length(), 1),
+        "segments_in_map": len(compact),
+        "map_bytes": len(data),
+        "bytes_per_segment": round(len(data) / max(len(compact), 1), 1),
+        "requests": len(milliseconds),
+        "queries": result.queries,
+        "queries_findable": result.findable,
+        **{f"right_at_{cut}": share for cut, share in result.right.items()},
+        "request_p50_ms": round(float(p50), 1),
+        "request_p99_ms": round(float(p99), 1),
+    }
+    from bench.picture import draw_matches
+
+    title = f"What {asker.name} sees, found in the map of {mapper.name}"
+    draw_matches(picture, mapper, asker, compact.centroids, answers, result.first_is_right, title)
+    return Outcome(result, figures)
+
+
+def is_short(drive: Drive) -> bool:
+    """Whether a drive has less than two whole blocks."""
+    return drive.path_length() < SHORT_METRES

@@ -1,0 +1,24 @@
+"""The command line: `placecell`, one file a subcommand; heavy imports wait until it runs."""
+
+import typer
+
+from cli.demo import demo
+from cli.evaluate import evaluate
+from cli.prepare import prepare
+from cli.serve import serve
+from cli.town import town
+from cli.train import train
+
+app = typer.Typer(
+    name="placecell",
+    help="Place recognition for robot teams: learned 3D segment descriptors, served over HTTP.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(demo)
+app.command()(town)
+app.command()(prepare)
+app.add_typer(train, name="train")
+app.command()(evaluate)
+app.command()(serve)

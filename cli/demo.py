@@ -1,0 +1,78 @@
+"""`placecell demo`: the whole way, from a drive to matches over HTTP."""
+
+import json
+import tempfile
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.sources import clear_errors, fail, show
+
+
+def demo(
+    drive: Annotated[
+        Path | None,
+        typer.Option(help="A recorded drive's folder instead of the town: alternate blocks of it."),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for the picture and the figures.")
+    ] = Path("out/demo"),
+    seed: Annotated[int, typer.Option(help="Of the town.")] = 7,
+    scans: Annotated[int, typer.Option(min=20, help="Scans of each robot in the town.")] = 120,
+) -> None:
+    """Let robot A share its map through a real service, and robot B find its place in it.
+
+    Ends with status 0 only if robot B was recognised.
+    """
+    from bench.demo import is_short, robots_of_drive, robots_of_town, run
+
+    with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-demo-") as scratch:
+        if drive is None:
+            typer.echo("Two robots drive through a synthetic town, the same streets opposite ways.")
+            mapper, asker = robots_of_town(Path(scratch), seed, scans, show)
+        else:
+            mapper, asker = robots_of_drive(drive, show)
+            if is_short(mapper.drive):
+                typer.echo(
+                    f"{drive}: the drive is short ({mapper.drive.path_length():.0f} m, "
+                    f"{len(mapper.drive)} scans): few places to recognise, and each seen from few "
+                    "scans; the figures below say little."
+                )
+        picture = output / "matches.png"
+        outcome = run(mapper, asker, Path(scratch), picture)
+    (output / "figures.json").write_text(json.dumps(outcome.figures, indent=2) + "\n")
+    print_outcome(outcome.figures)
+    typer.echo(f"picture: {picture}")
+    if not outcome.score.findable:
+        fail("no segment of robot B lies in robot A's map; nothing could be recognised")
+    if outcome.score.right[25] < 0.5:
+        fail("robot B was not recognised: too few right candidates")
+    typer.echo("It works: robot B found its place in robot A's map.")
+
+
+def print_outcome(figures: dict[str, object]) -> None:
+    """The figures as a table on the terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    names = {
+        "model_id": "model",
+        "path_m": "metres driven",
+        "segments_in_map": "segments in robot A's map",
+        "map_bytes": "map file, bytes",
+        "bytes_per_segment": "bytes a segment",
+        "requests": "requests of robot B",
+        "queries": "segments asked about",
+        "queries_findable": "of those, in the map",
+        "right_at_1": "  found by the first candidate",
+        "right_at_5": "  among the first 5",
+        "right_at_25": "  among the first 25",
+        "request_p50_ms": "milliseconds a request, median",
+        "request_p99_ms": "milliseconds a request, p99",
+    }
+    table = Table(show_header=False)
+    for key, value in figures.items():
+        shown = f"{value:.1%}" if key.startswith("right") else str(value)
+        table.add_row(names[key], f"{value:,}" if isinstance(value, int) else shown)
+    Console().print(table)

@@ -1,0 +1,72 @@
+"""`placecell evaluate`: how well the extractors recognise the segments of a drive."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.sources import clear_errors, load, parse_scans
+
+COLUMNS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
+
+
+def evaluate(
+    drive: Annotated[
+        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+    ],
+    scans: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FIRST:LAST", help="Only groups wholly within these scans, both included."
+        ),
+    ] = None,
+    every: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            help="A frame every so many scans. [default: 2; 1 on drives of fewer than 100 scans]",
+        ),
+    ] = None,
+    model: Annotated[
+        list[str] | None,
+        typer.Option(help="A model's name or folder; may be repeated. [default: all shipped]"),
+    ] = None,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="Write the figures here.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of the pairs that are drawn.")] = 0,
+) -> None:
+    """Measure every extractor on a drive, beside the eigenvalue baseline.
+
+    Definitions of the figures: docs/recognition.md.
+    """
+    from training.evaluation import evaluate as evaluate_recording
+
+    with clear_errors():
+        limits = parse_scans(scans) if scans else None
+        report = evaluate_recording(load(drive, every), limits, model or (), seed)
+        if json_file:
+            json_file.parent.mkdir(parents=True, exist_ok=True)
+            json_file.write_text(json.dumps(report, indent=2) + "\n")
+    print_table(report)
+
+
+def print_table(report: dict[str, Any]) -> None:
+    """The figures as a table on the terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    first, last = report["scans"]
+    table = Table(
+        title=f"{report['drive']}, scans {first} to {last}, protocol {report['protocol']}: "
+        f"{report['segments']:,} segments in {report['groups']:,} groups"
+    )
+    table.add_column("extractor", no_wrap=True)
+    for column in COLUMNS:
+        table.add_column(column, justify="right")
+    table.add_column("seen")
+    for name, figures in report["extractors"].items():
+        shown = ["-" if figures[column] is None else f"{figures[column]:.1%}" for column in COLUMNS]
+        table.add_row(name, *shown, "yes" if figures["seen"] else "no")
+    Console().print(table)

@@ -1,0 +1,37 @@
+"""The demo's score, by hand."""
+
+import numpy as np
+import pytest
+
+from bench.robot import Answer
+from bench.score import score
+
+
+def answer(centroid: list[float], *candidates: list[float]) -> Answer:
+    return Answer(np.array(centroid), np.array(candidates).reshape(-1, 3), np.zeros(3))
+
+
+def test_candidates_count_within_a_metre_and_a_half_of_the_true_place() -> None:
+    # The map's frame lies 100 m east of the common one.
+    to_common = np.eye(4)
+    to_common[0, 3] = 100.0
+    mapped = np.array([[0.0, 0.0, 0.0], [20.0, 0.0, 0.0]])
+    answers = [
+        answer([100.0, 1.4, 0.0], [0.0, 0.0, 0.0]),  # right at once
+        answer([120.0, 0.0, 0.0], [0.0, 0.0, 0.0], [20.0, 0.0, 0.0]),  # right second
+        answer([100.0, 0.0, 0.0], [20.0, 0.0, 0.0]),  # never right
+        answer([150.0, 0.0, 0.0], [20.0, 0.0, 0.0]),  # not in the map: not counted
+    ]
+    result = score(answers, mapped, to_common)
+    assert result.queries == 4
+    assert result.findable == 3
+    assert result.right == pytest.approx({1: 1 / 3, 5: 2 / 3, 25: 2 / 3})
+    assert result.first_is_right.tolist() == [True, False, False, False]
+
+
+def test_a_query_without_candidates_is_wrong_and_nothing_findable_gives_no_shares() -> None:
+    nothing = score([answer([0.0, 0.0, 0.0])], np.array([[50.0, 0.0, 0.0]]), np.eye(4))
+    assert nothing.findable == 0
+    assert nothing.right == {}
+    missed = score([answer([0.0, 0.0, 0.0])], np.array([[1.0, 0.0, 0.0]]), np.eye(4))
+    assert missed.right[25] == 0.0

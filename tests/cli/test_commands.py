@@ -1,0 +1,145 @@
+"""The command line, the whole way on a small town: town, prepare, train, evaluate, demo."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from cli import app
+from segments.manifest import Manifest
+
+FIGURES = {
+    "model_id",
+    "top1",
+    "top1_with_mate",
+    "cross_view_top1",
+    "cross_view_queries",
+    "recall_at_25",
+    "pair_auc",
+    "pair_accuracy",
+    "pair_by",
+    "seen",
+}
+
+
+def run(*words: str | Path | int, status: int = 0) -> Result:
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == status, result.output
+    return result
+
+
+@pytest.fixture(scope="module")
+def workshop(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two town drives, prepared, and a model trained on robot A's."""
+    folder = tmp_path_factory.mktemp("workshop")
+    run("town", folder / "drives", "--scans", 40, "--columns", 500, "--seed", 3)
+    drives = [folder / "drives" / name for name in ("robot_a", "robot_b")]
+    run("prepare", *drives, "--output", folder / "data")
+    run(
+        *("train", "group", folder / "data" / "robot_a.safetensors@0:30", "--epochs", 1),
+        *("--runs", folder / "runs", "--output", folder / "tiny", "--licence", "free"),
+    )
+    return folder
+
+
+def test_training_writes_a_model_with_its_card_and_provenance(workshop: Path) -> None:
+    manifest = Manifest.load(workshop / "tiny")
+    (source,) = manifest.training["sources"]
+    assert source["drive"] == "robot_a"
+    assert source["scans"] == [0, 30]
+    assert len(source["scan_hashes"]) == 31
+    assert manifest.training["seed"] == 0
+    card = (workshop / "tiny" / "README.md").read_text()
+    assert manifest.model_id in card
+    assert "placecell train group" in card
+    assert "free" in card
+
+
+def test_evaluate_writes_the_contract(workshop: Path) -> None:
+    file = workshop / "figures.json"
+    result = run(
+        *("evaluate", workshop / "data" / "robot_a.safetensors"),
+        *("--model", workshop / "tiny", "--json", file),
+    )
+    assert "eigenvalue" in result.output
+    report = json.loads(file.read_text())
+    assert set(report) >= {
+        *("drive", "scans", "segments_raw", "segments", "groups", "default", "extractors"),
+        *("protocol", "machine", "seed"),
+    }
+    assert report["protocol"] == "v1"
+    assert report["scans"] == [0, 39]
+    assert report["segments_raw"] >= report["segments"] > report["groups"] > 0
+    assert set(report["extractors"]) == {"tiny", "eigenvalue"}
+    for figures in report["extractors"].values():
+        assert set(figures) >= FIGURES
+    assert report["extractors"]["tiny"]["seen"]
+    assert not report["extractors"]["eigenvalue"]["seen"]
+
+
+def test_evaluate_takes_a_drive_as_it_lies_and_sees_no_training_in_later_scans(
+    workshop: Path,
+) -> None:
+    file = workshop / "later.json"
+    run(
+        *("evaluate", workshop / "drives" / "robot_a", "--scans", "31:39", "--every", 2),
+        *("--model", workshop / "tiny", "--json", file),
+    )
+    report = json.loads(file.read_text())
+    assert not report["extractors"]["tiny"]["seen"]
+    assert report["every"] == 2
+
+
+def test_a_prepared_recording_refuses_another_step(workshop: Path) -> None:
+    recording = workshop / "data" / "robot_a.safetensors"
+    result = run("evaluate", recording, "--every", 3, status=1)
+    assert "prepare the drive again" in result.output
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["evaluate", "nowhere"], "nowhere"),
+        (["evaluate", "nowhere", "--scans", "9:3"], "FIRST:LAST"),
+        (["prepare", "nowhere"], "nowhere"),
+        (["train", "group", "nowhere@0:3"], "nowhere"),
+        (["demo", "--drive", "nowhere"], "nowhere"),
+    ],
+)
+def test_errors_are_a_line_that_says_what_is_wrong(words: list[str], said: str) -> None:
+    result = run(*words, status=1)
+    assert said in result.output
+    assert "Traceback" not in result.output
+
+
+def test_no_segments_within_the_scans_is_said(workshop: Path) -> None:
+    recording = workshop / "data" / "robot_a.safetensors"
+    assert "no group" in run("evaluate", recording, "--scans", "900:901", status=1).output
+
+
+def test_an_altered_model_is_refused(workshop: Path, tmp_path: Path) -> None:
+    for file in (workshop / "tiny").iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    weights = bytearray((tmp_path / "model.onnx").read_bytes())
+    weights[len(weights) // 2] ^= 1
+    (tmp_path / "model.onnx").write_bytes(weights)
+    recording = workshop / "data" / "robot_a.safetensors"
+    result = run("evaluate", recording, "--model", tmp_path, status=1)
+    assert "SHA-256" in result.output
+
+
+def test_the_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> None:
+    result = run("demo", "--drive", workshop / "drives" / "robot_b", "--output", tmp_path)
+    figures = json.loads((tmp_path / "figures.json").read_text())
+    assert figures["queries_findable"] > 0
+    assert figures["bytes_per_segment"] > 0
+    assert (tmp_path / "matches.png").read_bytes().startswith(b"\x89PNG")
+    assert "It works" in result.output
+
+
+@pytest.mark.parametrize(
+    "command", [[], ["town"], ["prepare"], ["train"], ["evaluate"], ["serve"], ["demo"]]
+)
+def test_help_tells(command: list[str]) -> None:
+    assert "Usage" in run(*command, "--help").output
