@@ -6,8 +6,8 @@ from typing import Protocol
 import numpy as np
 import onnxruntime
 
-from segments.eigenvalue import eigenvalue_descriptors
-from segments.manifest import Manifest, ModelError
+from segments.eigenvalue import FEATURES, eigenvalue_descriptors
+from segments.manifest import FILE, Manifest, ModelError
 from segments.segments import Segments
 from segments.types import Float32
 from segments.voxels import voxelise
@@ -43,6 +43,9 @@ class OnnxExtractor:
     """A learned extractor: align, voxelise, and run the exported network."""
 
     def __init__(self, folder: Path, manifest: Manifest, threads: int = 0) -> None:
+        if MODEL_FILE not in manifest.files:
+            # Neither the model's id nor the check of its files would cover the network.
+            raise ModelError(f"{folder / FILE}: does not give the SHA-256 of {MODEL_FILE}")
         self.manifest = manifest
         options = onnxruntime.SessionOptions()
         options.intra_op_num_threads = threads
@@ -78,5 +81,11 @@ def load_extractor(folder: Path, threads: int = 0) -> Extractor:
     """
     manifest = Manifest.load(folder)
     if manifest.method == "eigenvalue":
+        lengths = [len(manifest.standardisation.get(name, ())) for name in ("mean", "deviation")]
+        if lengths != [len(FEATURES)] * 2:
+            raise ModelError(
+                f"{folder / FILE}: its standardisation needs 'mean' and 'deviation', "
+                f"{len(FEATURES)} numbers each"
+            )
         return EigenvalueExtractor(manifest)
     return OnnxExtractor(folder, manifest, threads)

@@ -10,7 +10,7 @@ import numpy as np
 import onnxruntime
 
 from segments.manifest import PAIR_FILE, Manifest, ModelError
-from segments.types import Float32, Int8
+from segments.types import Float64, Int8
 
 
 class PairClassifier:
@@ -29,13 +29,13 @@ class PairClassifier:
         except Exception as error:
             raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error
 
-    def probabilities(self, a: Int8, b: Int8) -> Float32:
-        """Of a match, float32 (n,), for codes int8 (n, d) each."""
+    def probabilities(self, a: Int8, b: Int8) -> Float64:
+        """Of a match, float64 (n,), for codes int8 (n, d) each."""
         if not len(a):
-            return np.zeros(0, dtype=np.float32)
+            return np.zeros(0)
         inputs = {"a": self._quantiser.decode(a), "b": self._quantiser.decode(b)}
         (probability,) = self._session.run(["probability"], inputs)
-        return np.asarray(probability, dtype=np.float32)
+        return np.asarray(probability, dtype=np.float64)
 
 
 def load_pair_classifier(folder: Path, manifest: Manifest) -> PairClassifier | None:

@@ -7,9 +7,11 @@ it is code, so a recording from elsewhere is safe to load. `docs/recordings.md` 
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import safetensors
+from numpy.typing import NDArray
 from safetensors.numpy import save_file
 
 from segments.parameters import Parameters
@@ -18,6 +20,15 @@ from segments.types import Bool, Int64
 
 FORMAT = "placecell-recording"
 VERSION = 1
+COLUMNS = {
+    "points": ("float32", (3,)),
+    "ends": ("int64", ()),
+    "sensors": ("float32", (3,)),
+    "frames": ("int64", ()),
+    "groups": ("int64", ()),
+    "distinct": ("bool", ()),
+}
+"""Of each column: the type of its elements and the shape of a row."""
 
 
 class RecordingError(ValueError):
@@ -72,15 +83,17 @@ class Recording:
         }
         file.parent.mkdir(parents=True, exist_ok=True)
         unfinished = file.with_name(file.name + ".unfinished")
+        columns = {
+            "points": self.segments.points,
+            "ends": self.segments.ends,
+            "sensors": self.segments.sensors,
+            "frames": self.frames,
+            "groups": self.groups,
+            "distinct": self.distinct,
+        }
         save_file(
-            {
-                "points": self.segments.points,
-                "ends": self.segments.ends,
-                "sensors": self.segments.sensors,
-                "frames": self.frames,
-                "groups": self.groups,
-                "distinct": self.distinct,
-            },
+            # safetensors writes memory as it lies, a view's too.
+            {name: np.ascontiguousarray(column) for name, column in columns.items()},
             unfinished,
             metadata={"header": json.dumps(header, sort_keys=True)},
         )
@@ -102,6 +115,7 @@ class Recording:
                     f"{file}: {header['format']} version {header['version']}; "
                     f"this program reads {FORMAT} version {VERSION}: prepare the drive again"
                 )
+            check_columns(columns, file)
             parameters = header["parameters"]
             return cls(
                 name=header["name"],
@@ -122,3 +136,23 @@ class Recording:
             json.JSONDecodeError,
         ) as error:
             raise RecordingError(f"{file}: not a recording of segments ({error})") from error
+
+
+def check_columns(columns: dict[str, NDArray[Any]], file: Path) -> None:
+    """Refuse columns that do not fit together: they would be read as other segments.
+
+    Raises:
+        RecordingError: a column has another type, shape or length, or holds impossible values.
+    """
+    count = len(columns["ends"])
+    for name, (kind, row) in COLUMNS.items():
+        column = columns[name]
+        if column.dtype != kind or column.shape[1:] != row:
+            raise RecordingError(f"{file}: {name} is {column.dtype} {column.shape}, not {kind}")
+        if name != "points" and len(column) != count:
+            raise RecordingError(f"{file}: {name} has {len(column)} rows, ends has {count}")
+    counts = np.diff(columns["ends"], prepend=0)
+    if (counts <= 0).any() or counts.sum() != len(columns["points"]):
+        raise RecordingError(f"{file}: ends do not divide the {len(columns['points'])} points")
+    if (columns["groups"] < 0).any():
+        raise RecordingError(f"{file}: groups has a negative number")

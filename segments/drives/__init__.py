@@ -17,7 +17,7 @@ def open_drive(folder: Path) -> Drive:
     Raises:
         DriveError: the folder is missing, is in no known layout, or is broken.
     """
-    folder = Path(folder)
+    folder = Path(folder).absolute()  # so that "." has a name
     if not folder.is_dir():
         raise DriveError(f"{folder}: no such folder")
     for reader in FORMATS:

@@ -82,18 +82,19 @@ def read_velodyne(file: Path) -> Float32:
 
 
 def find_scans(folder: Path) -> list[Path]:
-    """Velodyne files of a folder, in order.
+    """Velodyne files of a folder, in the order of their numbers, which may have gaps.
 
     Raises:
-        DriveError: there are none, or the numbering has a gap.
+        DriveError: there are none, or one has a name that is no number.
     """
     files = sorted(folder.glob("*.bin"))
     if not files:
         raise DriveError(f"{folder}: holds no scans (*.bin)")
-    if not all(file.stem.isdigit() for file in files):
-        odd = next(file for file in files if not file.stem.isdigit())
+    if not all(file.stem.isdecimal() for file in files):
+        odd = next(file for file in files if not file.stem.isdecimal())
         raise DriveError(f"{odd}: a scan's name must be its number, such as 000000.bin")
-    return files
+    # By number, not by name: 10.bin comes after 9.bin.
+    return sorted(files, key=lambda file: int(file.stem))
 
 
 def read_table(file: Path, columns: int, what: str) -> Float64:
@@ -129,9 +130,10 @@ def check_rotations(poses: Float64, file: Path) -> None:
     """Refuse poses whose rotation part is no rotation (a sign of another file format).
 
     Raises:
-        DriveError: some rotation is not orthonormal to within 1e-3.
+        DriveError: some rotation is not orthonormal to within 1e-3, or is a reflection.
     """
     rotation = poses[:, :3, :3]
     off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
+    off = np.maximum(off, np.where(np.linalg.det(rotation) > 0, 0.0, 2.0))
     if (off > 1e-3).any():
         raise DriveError(f"{file}, pose {int(off.argmax())}: its left 3x3 block is no rotation")

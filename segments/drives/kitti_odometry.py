@@ -18,8 +18,8 @@ class KittiOdometry(Drive):
     """A sequence of the KITTI odometry benchmark, or any drive laid out as one.
 
     `poses.txt` gives the left camera; they are moved to the sensor with `Tr` of `calib.txt`, so
-    that the world is the sensor's frame at the first scan: x ahead, z up. KITTI itself keeps the
-    poses beside the sequences, in `poses/NN.txt`: that place is looked at too.
+    that where the file's first pose is the identity, the world is the sensor's frame at the first
+    scan: x ahead, z up. KITTI itself keeps the poses beside the sequences, in `poses/NN.txt`: that place is looked at too.
     """
 
     name = "KITTI odometry"

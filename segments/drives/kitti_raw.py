@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from segments.drives.drive import Drive, DriveError, find_scans, read_table
+from segments.drives.drive import Drive, DriveError, check_rotations, find_scans, read_table
 from segments.types import Float64
 
 EARTH_RADIUS = 6_378_137.0
@@ -85,21 +85,26 @@ def read_rigid_calibration(file: Path) -> Float64:
     """`R` and `T` of a KITTI raw calibration file: float64 (4, 4).
 
     Raises:
-        DriveError: `R` or `T` is missing or malformed.
+        DriveError: `R` or `T` is missing or malformed, or `R` is no rotation.
     """
-    entries = {
-        key.strip(): values.split()
-        for key, colon, values in (line.partition(":") for line in file.read_text().splitlines())
-        if colon
-    }
     try:
+        entries = {
+            key.strip(): values.split()
+            for key, colon, values in (
+                line.partition(":") for line in file.read_text().splitlines()
+            )
+            if colon
+        }
         rotation = np.array(entries["R"], dtype=np.float64).reshape(3, 3)
         translation = np.array(entries["T"], dtype=np.float64).reshape(3)
-    except (KeyError, ValueError) as error:
+    except (OSError, KeyError, ValueError) as error:
         raise DriveError(f"{file}: needs 'R:' with 9 numbers and 'T:' with 3 ({error})") from error
     transform = np.eye(4)
     transform[:3, :3] = rotation
     transform[:3, 3] = translation
+    if not np.isfinite(transform).all():
+        raise DriveError(f"{file}: a value is not finite (NaN or infinity)")
+    check_rotations(transform[None], file)
     return transform
 
 

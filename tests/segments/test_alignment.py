@@ -1,0 +1,106 @@
+import numpy as np
+import pytest
+
+from segments.alignment import align, sensor_bearings
+from segments.segments import Segments
+from tests.segments.segment_builders import many_segments, one_segment, yaw_matrix
+
+# Nothing about it is symmetric; its centroid is (2, 1, 2).
+HOOK = np.array([[0, 0, 0], [4, 0, 1], [4, 1, 3], [0, 3, 4]], np.float32)
+CENTROID = np.array([2.0, 1.0, 2.0])
+
+
+def test_points_are_about_the_centroid_with_the_robot_on_positive_x() -> None:
+    # The robot is north of the hook: north (y) must become x, and west become y.
+    segment = one_segment(HOOK, sensor=(2.0, 11.0, 2.0))
+
+    aligned = align(segment)
+
+    by_hand = np.array([[-1, 2, -2], [-1, -2, -1], [0, -2, 1], [2, 2, 2]])
+    assert aligned.dtype == np.float32
+    assert aligned == pytest.approx(by_hand, abs=1e-6)
+
+
+@pytest.mark.parametrize("side", [0, 90, 180, 270])
+def test_surface_seen_from_each_side_ends_up_alike(side: int) -> None:
+    # The robot always looks at the hook's same side: world and robot turn about the centroid.
+    turn = yaw_matrix(np.radians(side))
+    points = (HOOK - CENTROID) @ turn.T
+    sensor = turn @ [7.0, 0.0, 1.5]
+
+    aligned = align(one_segment(points, sensor))
+
+    assert aligned == pytest.approx(HOOK - CENTROID, abs=1e-5)
+
+
+def test_from_another_side_another_side_faces_the_robot() -> None:
+    for bearing, face in {0.0: (1, 0), 90.0: (0, 1), 180.0: (-1, 0), 270.0: (0, -1)}.items():
+        direction = np.array([np.cos(np.radians(bearing)), np.sin(np.radians(bearing)), 0.0])
+        markers = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], np.float32)
+        aligned = align(one_segment(markers, 9 * direction))
+        facing = markers[np.argmax(aligned[:, 0])]
+        assert tuple(facing[:2]) == face
+        assert aligned[:, 0].max() == pytest.approx(1.0, abs=1e-6)
+
+
+def test_robot_lies_on_positive_x_for_random_segments() -> None:
+    segments = many_segments([50] * 20)
+    bearings = sensor_bearings(segments)
+    for index in range(len(segments)):
+        offset = segments.sensors[index] - segments.centroids()[index]
+        x, y, _ = yaw_matrix(-bearings[index]) @ offset
+        assert x > 0
+        assert y == pytest.approx(0.0, abs=1e-6)
+
+
+def test_world_turned_and_moved_makes_no_difference() -> None:
+    segments = many_segments([40, 60, 80])
+    turn, shift = yaw_matrix(2.1), np.array([120.0, -75.0, 8.0])
+    moved = Segments(
+        (segments.points @ turn.T + shift).astype(np.float32),
+        segments.ends,
+        (segments.sensors @ turn.T + shift).astype(np.float32),
+    )
+    # float32 coordinates of 120 m are good to 8 micrometres.
+    assert align(moved) == pytest.approx(align(segments), abs=1e-4)
+
+
+def test_distance_and_height_of_the_robot_make_no_difference() -> None:
+    near = one_segment(HOOK, CENTROID + [3.0, 4.0, 0.0])
+    far = one_segment(HOOK, CENTROID + [30.0, 40.0, 5.0])
+    assert align(near) == pytest.approx(align(far), abs=1e-5)
+
+
+def test_heights_are_about_the_centroid_and_otherwise_untouched() -> None:
+    aligned = align(one_segment(HOOK, (-5.0, 3.0, 60.0)), yaw=1.0)
+    assert aligned[:, 2].tolist() == [-2.0, -1.0, 1.0, 2.0]
+
+
+@pytest.mark.parametrize("above", [0.0, 10.0, -10.0])
+def test_robot_straight_above_or_below_leaves_the_segment_as_it_lies(above: float) -> None:
+    segment = one_segment(HOOK, CENTROID + [0.0, 0.0, above])
+    assert sensor_bearings(segment).tolist() == [0.0]
+    assert align(segment) == pytest.approx(HOOK - CENTROID, abs=1e-6)
+
+
+def test_extra_yaw_turns_counter_clockwise_after_alignment() -> None:
+    segment = one_segment(HOOK, CENTROID + [9.0, 0.0, 0.0])
+    quarter = align(segment, yaw=np.pi / 2)
+    by_hand = np.array([[1, -2, -2], [1, 2, -1], [0, 2, 1], [-2, -2, 2]])
+    assert quarter == pytest.approx(by_hand, abs=1e-6)
+
+
+def test_each_segment_has_its_own_yaw() -> None:
+    segments = many_segments([30, 40, 50])
+    yaws = np.array([0.3, -1.2, 2.5])
+    together = align(segments, yaws)
+    for index, yaw in enumerate(yaws):
+        alone = align(segments.take([index]), float(yaw))
+        rows = segments.owners == index
+        assert np.array_equal(together[rows], alone)
+
+
+def test_no_segments() -> None:
+    nothing = Segments.of([], np.zeros((0, 3)))
+    assert sensor_bearings(nothing).shape == (0,)
+    assert align(nothing).shape == (0, 3)

@@ -1,0 +1,42 @@
+import dataclasses
+import json
+
+import pytest
+
+from segments.parameters import PROTOCOL_V1, Parameters
+
+
+def test_protocol_v1() -> None:
+    """The protocol under which figures are compared: a change here makes another protocol."""
+    assert PROTOCOL_V1.as_dict() == {
+        "protocol": "v1",
+        "frame_step": 2,
+        "accumulated_scans": 10,
+        "min_range": 3.0,
+        "max_range": 60.0,
+        "local_map_radius": 40.0,
+        "map_voxel": 0.1,
+        "ground_cell": 0.5,
+        "ground_window": 15.0,
+        "ground_clearance": 0.3,
+        "growing_radius": 0.25,
+        "min_points": 100,
+        "max_points": 15_000,
+        "d_same": 1.5,
+        "grid": [38, 38, 18],
+        "grid_voxel": 0.2,
+        "th_H": 50,
+    }
+
+
+@pytest.mark.parametrize(
+    ("scans", "every", "step"),
+    [(99, None, 1), (100, None, 2), (501, None, 2), (10, 3, 3), (501, 1, 1)],
+)
+def test_frames_of_a_drive(scans: int, every: int | None, step: int) -> None:
+    assert PROTOCOL_V1.for_drive(scans, every) == dataclasses.replace(PROTOCOL_V1, frame_step=step)
+
+
+def test_parameters_survive_json() -> None:
+    content = json.loads(json.dumps(Parameters(th_H=49).as_dict()))
+    assert Parameters(**content | {"grid": tuple(content["grid"])}) == Parameters(th_H=49)
