@@ -4,6 +4,7 @@ import typer
 
 from cli.demo import demo
 from cli.evaluate import evaluate
+from cli.experiments import experiments
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.town import town
@@ -21,4 +22,5 @@ app.command()(town)
 app.command()(prepare)
 app.add_typer(train, name="train")
 app.command()(evaluate)
+app.command()(experiments)
 app.command()(serve)

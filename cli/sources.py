@@ -11,6 +11,7 @@ from rich.progress import track
 
 if TYPE_CHECKING:
     from segments.recording import Recording
+    from training.training_set import Source
 
 SOURCE_HELP = (
     "A drive's folder (KITTI odometry or raw layout) or a recording made by 'placecell prepare'; "
@@ -75,3 +76,12 @@ def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
     if at and re.fullmatch(r"\d+:\d+", scans):
         return Path(path), parse_scans(scans)
     return Path(text), None
+
+
+def source(text: str) -> "Source":
+    """A drive or a part of it."""
+    from training.training_set import Source
+
+    path, scans = split_source(text)
+    recording = load(path)
+    return Source(recording, *(scans or (0, recording.scans - 1)))

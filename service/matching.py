@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from segments.pairs import PairClassifier
 from segments.types import Int8
 from service.maps import Maps, StoredMap
 from service.problems import Problem
@@ -41,7 +44,11 @@ def scope_of(maps: Maps, names: list[str] | None, model_id: str) -> Scope:
 
 
 def candidates_of(
-    codes: Int8, searched: tuple[StoredMap, ...], k: int, step: float
+    codes: Int8,
+    searched: tuple[StoredMap, ...],
+    k: int,
+    step: float,
+    classifier: PairClassifier | None,
 ) -> list[CandidatesOut]:
     """The k nearest over all maps, nearest first; ties by map, then id.
 
@@ -50,6 +57,7 @@ def candidates_of(
         searched: maps with an index.
         k: candidates a query, at most.
         step: of the quantiser, so that distances are in the descriptor's unit.
+        classifier: for the probability of a match; None leaves it out.
     """
     # Distance in steps, map, row (rows of a map are sorted by id): sorts as wanted.
     found: list[list[tuple[float, int, int]]] = [[] for _ in codes]
@@ -64,18 +72,40 @@ def candidates_of(
                 (distance, place, row)
                 for distance, row in zip(query_distances, query_rows, strict=True)
             )
+    nearest = [sorted(hits)[:k] for hits in found]
+    probabilities = iter(_probabilities(codes, searched, nearest, classifier))
     return [
         CandidatesOut(
             candidates=[
-                _candidate(searched[place], row, distance * step)
-                for distance, place, row in sorted(hits)[:k]
+                _candidate(searched[place], row, distance * step, next(probabilities))
+                for distance, place, row in hits
             ]
         )
-        for hits in found
+        for hits in nearest
     ]
 
 
-def _candidate(stored: StoredMap, row: int, distance: float) -> CandidateOut:
+def _probabilities(
+    codes: Int8,
+    searched: tuple[StoredMap, ...],
+    nearest: list[list[tuple[float, int, int]]],
+    classifier: PairClassifier | None,
+) -> list[float] | list[None]:
+    """Of each candidate of each query, in order; all at once: a call costs more than a row."""
+    pairs = [
+        (query, searched[place].content.codes[row])
+        for query, hits in zip(codes, nearest, strict=True)
+        for _, place, row in hits
+    ]
+    if classifier is None or not pairs:
+        return [None] * len(pairs)
+    a, b = (np.stack(side) for side in zip(*pairs, strict=True))
+    return [float(value) for value in classifier.probabilities(a, b)]
+
+
+def _candidate(
+    stored: StoredMap, row: int, distance: float, probability: float | None
+) -> CandidateOut:
     content = stored.content
     x, y, z = content.centroids[row].tolist()
     return CandidateOut(
@@ -83,7 +113,7 @@ def _candidate(stored: StoredMap, row: int, distance: float) -> CandidateOut:
         id=int(content.ids[row]),
         robot=content.robots[content.robot[row]],
         distance=distance,
-        probability=None,
+        probability=probability,
         centroid=(x, y, z),
         frame=content.frame,
     )

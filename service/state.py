@@ -11,6 +11,7 @@ from fastapi import Depends, Request
 
 from segments.extractor import load_extractor
 from segments.manifest import ModelError
+from segments.pairs import PairClassifier, load_pair_classifier
 from service.describer import Describer
 from service.map_store import FolderMapStore, StoreLockedError
 from service.maps import Maps
@@ -31,12 +32,14 @@ class State:
     Attributes:
         settings: as started.
         describer: the loaded model.
+        classifier: the model's pair classifier, if it has one.
         maps: stored and searchable.
         turns: limits how many requests are computed at once.
     """
 
     settings: Settings
     describer: Describer
+    classifier: PairClassifier | None
     maps: Maps
     turns: anyio.CapacityLimiter
 
@@ -62,8 +65,10 @@ def open_state(settings: Settings) -> Iterator[State]:
     Raises:
         StartError: the model or the data directory cannot be used.
     """
+    folder = settings.models_dir / settings.model
     try:
-        extractor = load_extractor(settings.models_dir / settings.model, settings.threads)
+        extractor = load_extractor(folder, settings.threads)
+        classifier = load_pair_classifier(folder, extractor.manifest)
     except ModelError as error:
         raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
     manifest = extractor.manifest
@@ -78,6 +83,7 @@ def open_state(settings: Settings) -> Iterator[State]:
         yield State(
             settings=settings,
             describer=Describer(extractor, settings.limits),
+            classifier=classifier,
             maps=maps,
             turns=anyio.CapacityLimiter(settings.workers),
         )

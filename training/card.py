@@ -33,6 +33,9 @@ descriptors as stored; not comparable with a test drive, for there are fewer gro
 |---|---|
 {figures}
 
+Pairs are judged by: {pair_kind} (AUC on held-out groups by kind: {pair_auc}).
+Stated probabilities are off by {calibration_error:.3f} on average.
+
 ## Train it again
 
     {command}
@@ -40,6 +43,9 @@ descriptors as stored; not comparable with a test drive, for there are fewer gro
 
 WHAT = {
     "eigenvalue": "SegMatch's seven eigenvalue features, standardised: the paper's baseline.",
+    "siamese": "The paper's Siamese extractor: two branches and a third network, trained on pairs.",
+    "contrastive": "The paper's contrastive extractor: trained to bring matches together and keep "
+    "hard non-matches apart.",
     "group": "The paper's group-based extractor: trained to tell groups of segments apart.",
 }
 
@@ -72,6 +78,9 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             licences=training["licence"],
             held_out=training["validation_share"],
             figures="\n".join(figures),
+            pair_kind=manifest.pair["kind"],
+            pair_auc=", ".join(f"{name} {auc:.3f}" for name, auc in manifest.pair["auc"].items()),
+            calibration_error=manifest.pair["calibration_error"],
             command=training["command"],
         )
     )

@@ -10,36 +10,70 @@ import numpy as np
 
 from segments.extractor import Extractor, load_extractor
 from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder, shipped_models
+from segments.pairs import PairClassifier, load_pair_classifier
 from segments.recording import Recording
-from segments.types import Float32, Int64
+from segments.segments import Segments
+from segments.types import Int64
 from training import recognition
 
 
 def measure(
-    extractor: Extractor, descriptors: Float32, groups: Int64, sensors: Float32, seed: int
+    extractor: Extractor,
+    classifier: PairClassifier | None,
+    segments: Segments,
+    groups: Int64,
+    seed: int,
 ) -> dict[str, Any]:
-    """All figures of one extractor; None where nothing is there to be measured."""
-    found = recognition.retrieve(descriptors, groups)
-    crossed = recognition.retrieve(descriptors, groups, sensors, recognition.CROSS_VIEW_METRES)
-    positive, negative = recognition.draw_pairs(
-        groups, recognition.PAIRS, np.random.default_rng(seed)
-    )
-    near = recognition.pair_distances(descriptors, positive)
-    far = recognition.pair_distances(descriptors, negative)
-    paired = bool(len(near) and len(far))
-    return {
-        "model_id": extractor.manifest.model_id,
+    """All figures of one model; None where nothing is there to be measured.
+
+    `pair_auc` and `pair_accuracy` are by `pair_by`, the model's classifier where it has one; those
+    by distance stand beside them in any case.
+    """
+    manifest = extractor.manifest
+    codes = manifest.quantiser.encode(extractor.describe(segments))
+    stored = manifest.quantiser.decode(codes)
+    found = recognition.retrieve(stored, groups)
+    crossed = recognition.retrieve(stored, groups, segments.sensors, recognition.CROSS_VIEW_METRES)
+    figures = {
+        "model_id": manifest.model_id,
         "top1": mean(found.right),
         "top1_with_mate": mean(found.right[found.has_mate]),
         "cross_view_top1": mean(crossed.right[crossed.has_mate]),
         "cross_view_queries": int(crossed.has_mate.sum()),
         "recall_at_25": mean(found.recalled[found.has_mate]),
-        "pair_auc": recognition.area_under_roc(-near, -far) if paired else None,
-        "pair_accuracy": recognition.accuracy_at(extractor.manifest.pair_threshold, near, far)
-        if paired
-        else None,
-        "pair_by": "distance",
     }
+    positive, negative = recognition.draw_pairs(
+        groups, recognition.PAIRS, np.random.default_rng(seed)
+    )
+    if not len(positive) or not len(negative):
+        return figures | dict.fromkeys(PAIR_FIGURES) | {"pair_by": "distance"}
+    near, far = (recognition.pair_distances(stored, pairs) for pairs in (positive, negative))
+    auc = recognition.area_under_roc(-near, -far)
+    accuracy = recognition.accuracy_at(manifest.pair_threshold, near, far)
+    by_distance = {"pair_auc_by_distance": auc, "pair_accuracy_by_distance": accuracy}
+    if classifier is None:
+        paired = {"pair_auc": auc, "pair_accuracy": accuracy, "pair_by": "distance"}
+    else:
+        likely, unlikely = (
+            classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
+            for pairs in (positive, negative)
+        )
+        paired = {
+            "pair_auc": recognition.area_under_roc(likely, unlikely),
+            "pair_accuracy": recognition.accuracy_at(
+                -manifest.pair["threshold"], -likely, -unlikely
+            ),
+            "pair_by": "classifier",
+        }
+    return figures | paired | by_distance
+
+
+PAIR_FIGURES = (
+    "pair_auc",
+    "pair_accuracy",
+    "pair_auc_by_distance",
+    "pair_accuracy_by_distance",
+)
 
 
 def mean(values: np.ndarray[Any, Any]) -> float | None:
@@ -77,10 +111,10 @@ def evaluate(
     names = list(models) or shipped_models(models_folder)
     extractors = {}
     for name in dict.fromkeys([*names, BASELINE]):
-        extractor = load_extractor(model_folder(name, models_folder))
-        quantiser = extractor.manifest.quantiser
-        stored = quantiser.decode(quantiser.encode(extractor.describe(segments)))
-        figures = measure(extractor, stored, groups, segments.sensors, seed)
+        folder = model_folder(name, models_folder)
+        extractor = load_extractor(folder)
+        classifier = load_pair_classifier(folder, extractor.manifest)
+        figures = measure(extractor, classifier, segments, groups, seed)
         figures["seen"] = has_seen(extractor, recording, first, last)
         extractors[extractor.manifest.name] = figures
     return {

@@ -43,17 +43,24 @@ def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float
 
 def export_onnx(network: Exported, grid: tuple[int, int, int], file: Path) -> None:
     """Write the network; inputs `occupancy` (uint8) and `extents` (float32), any batch size."""
-    network.eval()
     example = (torch.zeros((2, *grid), dtype=torch.uint8), torch.ones((2, 3)))
+    to_onnx(network, example, ["occupancy", "extents"], "descriptor", file)
+
+
+def to_onnx(
+    network: nn.Module, example: tuple[Tensor, ...], inputs: list[str], output: str, file: Path
+) -> None:
+    """Write a module; the first dimension of every input is the batch, of any size."""
+    network.eval()
     batch = torch.export.Dim("batch")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own deprecations
         program = torch.onnx.export(
             network,
             example,
-            input_names=["occupancy", "extents"],
-            output_names=["descriptor"],
-            dynamic_shapes=({0: batch}, {0: batch}),
+            input_names=inputs,
+            output_names=[output],
+            dynamic_shapes=tuple({0: batch} for _ in example),
             opset_version=OPSET,
             dynamo=True,
             external_data=False,

@@ -133,7 +133,12 @@ class DescriptorNetwork(nn.Module):
         self.normalisation = Normalisation(mean, deviation)
         self.trunk = NETWORKS[network]((mean.shape[0], mean.shape[1], mean.shape[2]))
         self.dropout = nn.Dropout(dropout)
-        self.descriptor = nn.Linear(self.trunk.features + 3, DIMENSION)
+        self.descriptor = nn.Sequential(
+            nn.Linear(self.trunk.features + 3, DIMENSION, bias=False),
+            # Keeps descriptors spread over the sphere: where all lie close together the contrastive
+            # loss has no gradient to push them apart.
+            nn.BatchNorm1d(DIMENSION, affine=False),
+        )
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
         """Descriptors of length one, float32 (n, 64)."""

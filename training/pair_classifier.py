@@ -9,6 +9,7 @@ that does not tell pairs apart better than distance does is not served.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,8 @@ from sklearn.linear_model import LogisticRegression
 from torch import Tensor, nn
 
 from segments.types import Float32, Float64, Int64
-from training.recognition import area_under_roc
+from training.export import to_onnx
+from training.recognition import area_under_roc, best_threshold
 
 TREES = 60
 LEAF = 20
@@ -157,6 +159,12 @@ class HeadGraph(nn.Module):
         logits: Tensor = self.match(a @ self.axes.T + self.mean, b @ self.axes.T + self.mean)
         return logits
 
+    @torch.no_grad()
+    def scores(self, pairs: Pairs) -> Float64:
+        """Logits of stored pairs, float64 (n,)."""
+        logits = self.eval().logits(torch.from_numpy(pairs.a), torch.from_numpy(pairs.b))
+        return logits.numpy().astype(np.float64)
+
     def forward(self, a: Tensor, b: Tensor) -> Tensor:
         """(n, d) each -> (n,)."""
         return torch.sigmoid(self.calibration.slope * self.logits(a, b) + self.calibration.offset)
@@ -166,10 +174,10 @@ def forest_graph(
     forest: RandomForestClassifier, calibration: Calibration, dimension: int
 ) -> onnx.ModelProto:
     """A symmetric forest with its features before it and its calibration behind it, as ONNX."""
-    from skl2onnx import to_onnx
+    import skl2onnx
     from skl2onnx.common.data_types import FloatTensorType
 
-    converted = to_onnx(
+    converted = skl2onnx.to_onnx(
         forest,
         initial_types=[("features", FloatTensorType([None, dimension + 1]))],
         options={"zipmap": False},
@@ -218,9 +226,72 @@ def forest_graph(
     return model
 
 
-def compare(scores: dict[str, Float64], pairs: Pairs) -> dict[str, Any]:
-    """AUC of each kind of score (greater: more likely a match)."""
-    is_match = pairs.matches > 0.5
-    return {
-        name: area_under_roc(values[is_match], values[~is_match]) for name, values in scores.items()
+def choose(
+    training: Pairs,
+    calibration: Pairs,
+    selection: Pairs,
+    head: tuple[nn.Module, Float32, Float32] | None,
+    file: Path,
+) -> dict[str, Any]:
+    """Train the kinds, calibrate them, and write the one that tells pairs apart best.
+
+    Args:
+        training: what the forests learn from.
+        calibration: of validation groups, for Platt scaling.
+        selection: of other validation groups, to choose by.
+        head: the Siamese's third network, with the mean and the axes of the projection.
+        file: gets the ONNX graph.
+
+    Returns:
+        For the manifest: `kind`, `threshold` of the probability, and on the selection pairs the
+        `auc` of every kind, the paper's forest among them, and the `calibration_error` and
+        `reliability` (stated, true, pairs) of the one chosen.
+    """
+    forest = train_forest(training, symmetric, seed=0)
+    paper_forest = train_forest(training, concatenated, seed=0)
+
+    def by_forest(pairs: Pairs) -> Float64:
+        return log_odds(forest.predict_proba(symmetric(pairs))[:, 1])
+
+    scores: dict[str, Callable[[Pairs], Float64]] = {
+        "distance": lambda pairs: -pairs.distances(),
+        "forest": by_forest,
     }
+    if head is not None:
+        third_network = HeadGraph(*head, Calibration(1.0, 0.0))
+        scores["siamese head"] = third_network.scores
+    is_match = selection.matches > 0.5
+
+    def auc(values: Float64) -> float:
+        return area_under_roc(values[is_match], values[~is_match])
+
+    compared = {name: auc(score(selection)) for name, score in scores.items()}
+    kind = max(compared, key=lambda name: compared[name])
+    fitted = Calibration.fit(scores[kind](calibration), calibration.matches)
+    dimension = training.a.shape[1]
+    if kind == "forest":
+        onnx.save(forest_graph(forest, fitted, dimension), file)
+    elif kind == "distance":
+        # The score is minus the distance; the graph takes the distance itself.
+        export_pair(DistanceGraph(Calibration(-fitted.slope, fitted.offset)), dimension, file)
+    else:
+        assert head is not None
+        export_pair(HeadGraph(*head, fitted), dimension, file)
+    probability = fitted.apply(scores[kind](selection))
+    error, reliability = expected_calibration_error(probability, selection.matches)
+    paper = paper_forest.predict_proba(concatenated(selection))[:, 1]
+    on_calibration = fitted.apply(scores[kind](calibration))
+    truth = calibration.matches > 0.5
+    return {
+        "kind": kind,
+        "threshold": -best_threshold(-on_calibration[truth], -on_calibration[~truth]),
+        "auc": compared | {"paper forest, concatenated": auc(paper)},
+        "calibration_error": error,
+        "reliability": reliability,
+    }
+
+
+def export_pair(graph: nn.Module, dimension: int, file: Path) -> None:
+    """Write a pair classifier; inputs `a` and `b`, any number of rows."""
+    example = (torch.zeros((2, dimension)), torch.ones((2, dimension)))
+    to_onnx(graph, example, ["a", "b"], "probability", file)

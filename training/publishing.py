@@ -1,6 +1,6 @@
-"""From a trained network to a model's folder: projection, quantiser, threshold, card."""
+"""From a training to a model's folder: projection, quantiser, pair classifier, figures, card."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -8,79 +8,115 @@ import numpy as np
 
 from segments.eigenvalue import eigenvalue_descriptors
 from segments.extractor import MODEL_FILE, Extractor, load_extractor
-from segments.manifest import Manifest, preprocessing_of
+from segments.manifest import PAIR_FILE, Manifest, preprocessing_of
+from segments.pairs import load_pair_classifier
 from segments.quantiser import Quantiser
 from segments.types import Float32
 from training import recognition
 from training.card import write_card
 from training.evaluation import measure
-from training.networks import DescriptorNetwork, describe
+from training.methods import Trained
+from training.networks import describe
 from training.training_set import TrainingSet
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
 
 
-def publish_network(
-    folder: Path,
-    name: str,
-    method: str,
-    network_name: str,
-    network: DescriptorNetwork,
-    training: TrainingSet,
-    validation: TrainingSet,
-    provenance: dict[str, Any],
-) -> Manifest:
-    """Write `model.onnx`, `manifest.json` and the card of a trained network."""
+@dataclass(frozen=True, slots=True)
+class Data:
+    """What a model is made from.
+
+    Attributes:
+        training: the training set.
+        validation: groups held out, for thresholds, calibration and figures.
+        provenance: for the manifest: sources, seed, seconds, licence, command.
+    """
+
+    training: TrainingSet
+    validation: TrainingSet
+    provenance: dict[str, Any]
+
+
+def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
+    """Write `model.onnx`, `pair.onnx`, `manifest.json` and the card of a trained network."""
     # Torch's exporter is slow to import: only here.
     from training.export import Exported, export_onnx, principal_axes
 
     folder.mkdir(parents=True, exist_ok=True)
-    learned = describe(network, training)
+    learned = describe(trained.network, data.training)
     mean, axes = principal_axes(learned, STORED_DIMENSION)
-    export_onnx(Exported(network, mean, axes), training.parameters.grid, folder / MODEL_FILE)
+    export_onnx(
+        Exported(trained.network, mean, axes), data.training.parameters.grid, folder / MODEL_FILE
+    )
     manifest = Manifest(
-        name=name,
-        method=method,
-        network=network_name,
+        name=folder.name,
+        method=trained.method,
+        network=trained.network_name,
         dimension=STORED_DIMENSION,
         quantiser=Quantiser.fit(np.asarray((learned - mean) @ axes, dtype=np.float32)),
-        preprocessing=preprocessing_of(training.parameters),
-        training=provenance,
+        preprocessing=preprocessing_of(data.training.parameters),
+        training=data.provenance,
     ).with_files(folder, [MODEL_FILE])
-    return finish(folder, manifest, validation)
+    head = None if trained.match is None else (trained.match, mean, axes)
+    return finish(folder, manifest, data, head)
 
 
-def publish_eigenvalue(
-    folder: Path, training: TrainingSet, validation: TrainingSet, provenance: dict[str, Any]
-) -> Manifest:
-    """Write the baseline, standardised on the training set."""
+def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
+    """Write the baseline, standardised on the training set, with its pair classifier."""
     folder.mkdir(parents=True, exist_ok=True)
-    features = eigenvalue_descriptors(training.segments).astype(np.float64)
+    features = eigenvalue_descriptors(data.training.segments).astype(np.float64)
     mean, deviation = features.mean(axis=0), features.std(axis=0)
     manifest = Manifest(
-        name="eigenvalue",
+        name=folder.name,
         method="eigenvalue",
         network="",
         dimension=features.shape[1],
         quantiser=Quantiser.fit(((features - mean) / deviation).astype(np.float32)),
-        preprocessing=preprocessing_of(training.parameters),
+        preprocessing=preprocessing_of(data.training.parameters),
         standardisation={"mean": mean.tolist(), "deviation": deviation.tolist()},
-        training=provenance,
+        training=data.provenance,
     )
-    return finish(folder, manifest, validation)
+    return finish(folder, manifest, data, head=None)
 
 
-def finish(folder: Path, manifest: Manifest, validation: TrainingSet) -> Manifest:
-    """Choose the pair threshold and measure on the validation groups, as stored; then save."""
+def finish(
+    folder: Path, manifest: Manifest, data: Data, head: tuple[Any, Float32, Float32] | None
+) -> Manifest:
+    """Add pair classifier and thresholds, measure on the validation groups, as stored; save."""
+    from training.pair_classifier import Pairs, choose
+
     manifest.save(folder)
     extractor = load_extractor(folder)
-    stored = stored_descriptors(extractor, validation)
-    pairs = recognition.draw_pairs(validation.groups, recognition.PAIRS, np.random.default_rng(0))
-    near, far = (recognition.pair_distances(stored, some) for some in pairs)
-    manifest = replace(manifest, pair_threshold=recognition.best_threshold(near, far))
+
+    def pairs_of(part: TrainingSet) -> Pairs:
+        drawn = recognition.draw_pairs(part.groups, recognition.PAIRS, np.random.default_rng(0))
+        return Pairs.of(stored_descriptors(extractor, part), *drawn)
+
+    calibration, selection = data.validation.split(0.5, seed=0)
+    chosen = choose(
+        pairs_of(data.training),
+        pairs_of(calibration),
+        pairs_of(selection),
+        head,
+        folder / PAIR_FILE,
+    )
+    distances = pairs_of(data.validation)
+    is_match = distances.matches > 0.5
+    lengths = distances.distances()
+    manifest = replace(
+        manifest.with_files(folder, [*manifest.files, PAIR_FILE]),
+        pair=chosen,
+        pair_threshold=recognition.best_threshold(lengths[is_match], lengths[~is_match]),
+    )
     extractor.manifest = manifest
-    figures = measure(extractor, stored, validation.groups, validation.segments.sensors, seed=1)
+    figures = measure(
+        extractor,
+        load_pair_classifier(folder, manifest),
+        data.validation.segments,
+        data.validation.groups,
+        seed=1,
+    )
     figures.pop("model_id")
     manifest = replace(manifest, figures={"validation": figures})
     manifest.save(folder)

@@ -1,6 +1,7 @@
 """A training run: its seed, its folder, its checkpoints, its history; stopped, it resumes."""
 
 import json
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -65,7 +66,9 @@ class Run:
         if self.progress is not None:
             task = self.progress.add_task("training", total=count, completed=len(self.history))
         for epoch in range(len(self.history), count):
+            started = time.monotonic()
             yield epoch
+            self.history[-1]["seconds"] = round(time.monotonic() - started, 2)
             unfinished = checkpoint.with_suffix(".unfinished")
             state = {name: part.state_dict() for name, part in parts.items()}
             torch.save(state | {"history": self.history}, unfinished)
@@ -74,6 +77,11 @@ class Run:
             if self.progress is not None and task is not None:
                 shown = ", ".join(f"{name} {value:.3f}" for name, value in self.history[-1].items())
                 self.progress.update(task, advance=1, description=f"epoch {epoch + 1}: {shown}")
+
+    @property
+    def seconds(self) -> float:
+        """Spent on all epochs, those before a stop included."""
+        return sum(epoch["seconds"] for epoch in self.history)
 
     def note(self, **figures: float) -> None:
         """Add an epoch's figures to the history."""

@@ -46,7 +46,7 @@ def _match(state: State, body: bytes) -> str:
         codes = _codes(state, query)
         rows = tuple(range(len(codes)))
     step = state.describer.manifest.quantiser.step
-    found = candidates_of(codes, scope.searched, query.k, step)
+    found = candidates_of(codes, scope.searched, query.k, step, state.classifier)
     response = MatchResponse(
         model_id=state.model_id,
         queries=[found[row] if isinstance(row, int) else row for row in rows],

@@ -143,3 +143,32 @@ def test_the_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> No
 )
 def test_help_tells(command: list[str]) -> None:
     assert "Usage" in run(*command, "--help").output
+
+
+def test_the_experiments_run_and_report_and_a_second_call_trains_nothing(
+    workshop: Path, tmp_path: Path
+) -> None:
+    data = workshop / "data"
+    words = (
+        *("experiments", "--quick", "--output", tmp_path),
+        *("--train", data / "robot_a.safetensors", "--test", data / "robot_b.safetensors"),
+    )
+    run(*words)
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert set(report["models"]) == {
+        *("eigenvalue", "group-fast-0", "siamese-fast-0", "contrastive-fast-0"),
+        *("siamese-fast-0-dropout-0.0", "siamese-fast-0-dropout-0.5"),
+        "contrastive-fast-0-random-pairs",
+    }
+    text = (tmp_path / "report.md").read_text()
+    for picture in ("training", "roc", "candidates", "distances", "overfitting", "reliability"):
+        assert f"({picture}.png)" in text
+        assert (tmp_path / f"{picture}.png").read_bytes().startswith(b"\x89PNG")
+    before = {file: file.stat().st_mtime_ns for file in (tmp_path / "models").rglob("*.onnx")}
+    run(*words)
+    assert {f: f.stat().st_mtime_ns for f in (tmp_path / "models").rglob("*.onnx")} == before
+
+
+def test_experiments_want_both_drives_or_none(workshop: Path) -> None:
+    drive = workshop / "data" / "robot_a.safetensors"
+    assert "both" in run("experiments", "--train", drive, status=1).output

@@ -1,0 +1,25 @@
+"""The experiments: the plan, and the curves that are drawn."""
+
+import numpy as np
+import pytest
+
+from training.experiments import Plan, roc_curve
+
+
+def test_roc_curve_by_hand() -> None:
+    positive = np.array([0.9, 0.8, 0.3])
+    negative = np.linspace(0, 0.5, 101)
+    curve = np.array(roc_curve(positive, negative, points=3))
+    assert curve[:, 0] == pytest.approx([0.0, 0.5, 1.0])
+    assert curve[:, 1] == pytest.approx([2 / 3, 1.0, 1.0])
+
+
+def test_the_plan_holds_every_method_on_every_network_and_the_ablations_once() -> None:
+    trainings = list(Plan(seeds=3).trainings())
+    names = [training.name for training in trainings]
+    assert len(set(names)) == len(names)
+    compared = [(t.method, t.network) for t in trainings if not t.ablation]
+    for method in ("group", "siamese", "contrastive"):
+        assert compared.count((method, "fast")) == 3
+        assert compared.count((method, "paper")) == compared.count((method, "paper-reduced")) == 1
+    assert sum(bool(training.ablation) for training in trainings) == 4

@@ -1,0 +1,67 @@
+"""The three methods under their names, with what a training gives."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from training import contrastive, group_based, siamese
+from training.networks import DescriptorNetwork
+from training.run import Run
+from training.siamese import MatchNetwork
+from training.training_set import TrainingSet
+
+METHODS = ("group", "siamese", "contrastive")
+
+
+@dataclass(frozen=True, slots=True)
+class Trained:
+    """What a training gives.
+
+    Attributes:
+        method: its name.
+        network_name: of the trunk.
+        network: the descriptor network.
+        match: the third network, of the Siamese alone.
+    """
+
+    method: str
+    network_name: str
+    network: DescriptorNetwork
+    match: MatchNetwork | None = None
+
+
+def train(
+    method: str,
+    training: TrainingSet,
+    validation: TrainingSet,
+    run: Run,
+    network: str = "fast",
+    **changes: Any,
+) -> Trained:
+    """Train by one of `METHODS`.
+
+    Args:
+        changes: to the method's recipe, such as `epochs`; None leaves a setting as it is.
+
+    Raises:
+        ValueError: there is no such method.
+    """
+    given = {name: value for name, value in changes.items() if value is not None}
+    if method == "group":
+        group_recipe = replace(group_based.GroupBasedRecipe(), **given)
+        learned = group_based.train(training, validation, run, network, group_recipe)
+        return Trained(method, network, learned)
+    if method == "contrastive":
+        contrastive_recipe = replace(contrastive.ContrastiveRecipe(), **given)
+        learned = contrastive.train(training, validation, run, network, contrastive_recipe)
+        return Trained(method, network, learned)
+    if method == "siamese":
+        siamese_recipe = replace(siamese.SiameseRecipe(), **given)
+        pair = siamese.train(training, validation, run, network, siamese_recipe)
+        return Trained(method, network, pair.extractor, pair.match)
+    raise ValueError(f"no method {method!r}; there are {', '.join(METHODS)}")
+
+
+def run_folder(runs: Path, method: str, network: str, seed: int) -> Path:
+    """Where a training keeps its checkpoints and its history."""
+    return runs / f"{method}-{network}-{seed}"

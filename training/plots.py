@@ -1,0 +1,131 @@
+"""The figures of the experiments' report, named after the paper's."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Models = dict[str, dict[str, Any]]
+
+CURVES = {
+    "group": ("accuracy", "validation_top1", "classification accuracy; validation: top-1"),
+    "siamese": ("accuracy", "validation_accuracy", "accuracy over pairs"),
+    "contrastive": ("top1", "validation_top1", "top-1"),
+}
+"""Figure 3 (a) to (c): what the history calls training and validation, and the axis."""
+
+
+@contextmanager
+def figure(file: Path, columns: int = 1, size: float = 4.2) -> Iterator[list["Axes"]]:
+    """Axes side by side, saved as PNG at the end."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    drawn, axes = plt.subplots(
+        1, columns, figsize=(size * columns, size), layout="constrained", squeeze=False
+    )
+    yield list(axes[0])
+    drawn.savefig(file, dpi=100)
+    plt.close(drawn)
+
+
+def training_curves(models: Models, network: str, file: Path) -> None:
+    """Figure 3: each method's training, epoch by epoch, one line a seed."""
+    with figure(file, len(CURVES)) as axes:
+        for place, (method, (training, validation, label)) in zip(
+            axes, CURVES.items(), strict=True
+        ):
+            for model in models.values():
+                if (model["method"], model["network"], model["ablation"]) != (method, network, ""):
+                    continue
+                epochs = range(1, len(model["history"]) + 1)
+                for key, colour, name in (
+                    (training, "C0", "training"),
+                    (validation, "C1", "validation"),
+                ):
+                    values = [epoch[key] for epoch in model["history"]]
+                    shown = name if model["seed"] == 0 else None
+                    place.plot(epochs, values, color=colour, label=shown, linewidth=1)
+            place.set(title=method, xlabel="epoch", ylabel=label, ylim=(0, 1))
+            place.legend(loc="lower right")
+            place.grid(alpha=0.3)
+
+
+def roc_curves(models: Models, file: Path) -> None:
+    """Figure 4: how well pairs are told apart."""
+    with figure(file, size=5.5) as (axes,):
+        for name, model in models.items():
+            if model["seed"] == 0 and not model["ablation"]:
+                rates = list(zip(*model["roc"], strict=True))
+                axes.plot(*rates, label=f"{name}: {model['figures']['pair_auc']:.3f}")
+        axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
+        axes.set(xlabel="false positive rate", ylabel="true positive rate", title="pairs")
+        axes.legend(loc="lower right", fontsize=8, title="area under the curve")
+        axes.grid(alpha=0.3)
+
+
+def candidate_matches(models: Models, file: Path) -> None:
+    """Figure 5: share of segments whose nearest descriptor is of their group."""
+    chosen = {n: m for n, m in models.items() if m["seed"] == 0 and not m["ablation"]}
+    with figure(file, size=5.5) as (axes,):
+        values = [model["figures"]["top1"] for model in chosen.values()]
+        bars = axes.barh(list(chosen), values)
+        axes.bar_label(bars, [f"{value:.1%}" for value in values], padding=3)
+        axes.invert_yaxis()
+        axes.set(xlabel="correct candidate matches (top-1)", xlim=(0, 1))
+        axes.grid(axis="x", alpha=0.3)
+
+
+def distance_distributions(models: Models, names: list[str], file: Path) -> None:
+    """Distances of positive and negative pairs, with and without hard pairs in training."""
+    with figure(file, len(names)) as axes:
+        for place, name in zip(axes, names, strict=True):
+            distances = models[name]["distances"]
+            for kind, colour in (("positive", "C2"), ("negative", "C3")):
+                place.stairs(
+                    distances[kind],
+                    distances["edges"],
+                    fill=True,
+                    alpha=0.5,
+                    color=colour,
+                    label=kind,
+                )
+            place.set(title=name, xlabel="distance", ylabel="density")
+            place.legend()
+
+
+def overfitting(models: Models, file: Path) -> None:
+    """Siamese training and validation accuracy, by dropout."""
+    with figure(file, size=5.5) as (axes,):
+        swept = [m for m in models.values() if m["ablation"].startswith("dropout-")]
+        for index, model in enumerate(swept):
+            epochs = range(1, len(model["history"]) + 1)
+            for key, style in (("accuracy", "-"), ("validation_accuracy", "--")):
+                axes.plot(
+                    epochs,
+                    [epoch[key] for epoch in model["history"]],
+                    style,
+                    color=f"C{index}",
+                    label=f"{model['ablation'].replace('-', ' ')}, {key.replace('_', ' ')}",
+                )
+        axes.set(xlabel="epoch", ylabel="accuracy over pairs", title="Siamese, regularisation")
+        axes.legend(fontsize=8)
+        axes.grid(alpha=0.3)
+
+
+def reliability(models: Models, file: Path) -> None:
+    """Stated against true probability of a match, on held-out groups."""
+    with figure(file, size=5.5) as (axes,):
+        axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
+        for name, model in models.items():
+            if model["seed"] == 0 and not model["ablation"]:
+                stated, true, _ = zip(*model["pair"]["reliability"], strict=True)
+                axes.plot(stated, true, marker="o", markersize=3, label=name)
+        axes.set(xlabel="stated probability", ylabel="share of matches", title="reliability")
+        axes.legend(fontsize=8)
+        axes.grid(alpha=0.3)
