@@ -19,7 +19,8 @@ class KittiOdometry(Drive):
 
     `poses.txt` gives the left camera; they are moved to the sensor with `Tr` of `calib.txt`, so
     that where the file's first pose is the identity, the world is the sensor's frame at the first
-    scan: x ahead, z up. KITTI itself keeps the poses beside the sequences, in `poses/NN.txt`: that place is looked at too.
+    scan: x ahead, z up. KITTI itself keeps the poses beside the sequences, in `poses/NN.txt`: that
+    place is looked at too.
     """
 
     name = "KITTI odometry"
