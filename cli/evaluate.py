@@ -8,7 +8,7 @@ import typer
 
 from cli.sources import clear_errors, load, parse_scans
 
-COLUMNS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
+ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
 
 
 def evaluate(
@@ -58,15 +58,17 @@ def print_table(report: dict[str, Any]) -> None:
     from rich.table import Table
 
     first, last = report["scans"]
-    table = Table(
-        title=f"{report['drive']}, scans {first} to {last}, protocol {report['protocol']}: "
+    typer.echo(
+        f"{report['drive']}, scans {first} to {last}, protocol {report['protocol']}: "
         f"{report['segments']:,} segments in {report['groups']:,} groups"
     )
-    table.add_column("extractor", no_wrap=True)
-    for column in COLUMNS:
-        table.add_column(column, justify="right")
-    table.add_column("seen")
-    for name, figures in report["extractors"].items():
-        shown = ["-" if figures[column] is None else f"{figures[column]:.1%}" for column in COLUMNS]
-        table.add_row(name, *shown, "yes" if figures["seen"] else "no")
+    table = Table()
+    extractors = report["extractors"]
+    table.add_column("")
+    for name in extractors:
+        table.add_column(name, justify="right")
+    for row in ROWS:
+        shown = (figures[row] for figures in extractors.values())
+        table.add_row(row, *("-" if value is None else f"{value:.1%}" for value in shown))
+    table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
     Console().print(table)

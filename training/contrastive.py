@@ -27,11 +27,15 @@ from training.training_set import TrainingSet
 class ContrastiveRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    epochs: int = 60
+    epochs: int = 25
     margin: float = 1.0
     """m, of the squared distance; descriptors have length one, so it is 4 at most."""
-    hardest: int = 20
+    hardest: int = 200
     """Each segment's hard non-match is drawn among so many nearest."""
+    matches_share: float = 0.25
+    """Matches for each non-match. Near the loss's minimum a match pulls harder (its gradient grows
+    with distance) than a close non-match pushes (whose gradient vanishes with it): in equal
+    numbers they draw all descriptors together."""
     hard: bool = True
     """False: random pairs, for comparison."""
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.1, batch=128))
@@ -113,9 +117,9 @@ def train(
             matches, others = hard_pairs(descriptors, training.groups, recipe.hardest, random)
         else:
             matches, others = random_pairs(training.groups, random)
-        matches = random.permutation(matches)
-        share = len(matches) / len(others)
         others = random.permutation(others)
+        matches = random.permutation(matches)[: int(len(others) * recipe.matches_share)]
+        share = len(matches) / len(others)
         losses = []
         model.train()
         for step in range(steps):

@@ -26,7 +26,7 @@ from training.training_set import TrainingSet
 class SiameseRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    epochs: int = 60
+    epochs: int = 40
     pairs: int = 8192
     """An epoch: half of them matches."""
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.05, batch=128))
