@@ -94,6 +94,7 @@ def run(
         "requests": len(milliseconds),
         "queries": result.queries,
         "queries_findable": result.findable,
+        "right_by_chance": result.chance,
         **{f"right_at_{cut}": share for cut, share in result.right.items()},
         "request_p50_ms": round(float(p50), 1),
         "request_p99_ms": round(float(p99), 1),

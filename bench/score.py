@@ -11,6 +11,7 @@ from segments.types import Bool, Float64
 
 RIGHT_METRES = 1.5
 CUTS = (1, 5, 25)
+BETTER_THAN_CHANCE = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,7 @@ class Score:
     Attributes:
         queries: all of them.
         findable: those with a segment of the map within 1.5 m at all.
+        chance: the share of the findable ones that a random candidate would be right for.
         right: by cut, the share of the findable ones with a right candidate among the first so
             many; empty if none was findable.
         first_is_right: bool (queries,).
@@ -27,8 +29,14 @@ class Score:
 
     queries: int
     findable: int
+    chance: float
     right: dict[int, float]
     first_is_right: Bool
+
+    @property
+    def recognised(self) -> bool:
+        """Whether first candidates are right far more often than by chance."""
+        return bool(self.right) and self.right[1] > BETTER_THAN_CHANCE * self.chance
 
 
 def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64) -> Score:
@@ -39,12 +47,14 @@ def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64)
         to_common: transform (4, 4) from the map's frame to the common one.
     """
     truth = cKDTree(in_frame(to_common, map_centroids))
-    findable = np.array(
-        [bool(truth.query_ball_point(answer.centroid, RIGHT_METRES)) for answer in answers]
+    around = np.array(
+        [len(truth.query_ball_point(answer.centroid, RIGHT_METRES)) for answer in answers]
     )
+    findable = around > 0
+    chance = float(around[findable].mean() / len(map_centroids)) if findable.any() else 0.0
     ranks = np.array([first_right(answer, to_common) for answer in answers])
     right = {cut: float((ranks[findable] < cut).mean()) for cut in CUTS} if findable.any() else {}
-    return Score(len(answers), int(findable.sum()), right, ranks == 0)
+    return Score(len(answers), int(findable.sum()), chance, right, ranks == 0)
 
 
 def first_right(answer: Answer, to_common: Float64) -> float:

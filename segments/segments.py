@@ -69,7 +69,10 @@ class Segments:
 
     def take(self, indices: Int64 | Sequence[int]) -> "Segments":
         """The segments at these indices, in this order."""
-        chosen = np.asarray(indices, dtype=np.int64)
+        chosen = np.asarray(indices)
+        if chosen.dtype == bool:
+            raise TypeError("take indices, not a mask: use numpy.flatnonzero")
+        chosen = chosen.astype(np.int64)
         counts = self.counts[chosen]
         ends = np.cumsum(counts, dtype=np.int64)
         within = np.arange(counts.sum()) - np.repeat(ends - counts, counts)

@@ -116,7 +116,7 @@ def evaluate(
         classifier = load_pair_classifier(folder, extractor.manifest)
         figures = measure(extractor, classifier, segments, groups, seed)
         figures["seen"] = has_seen(extractor, recording, first, last)
-        extractors[extractor.manifest.name] = figures
+        extractors[folder.name if folder.name not in extractors else name] = figures
     return {
         "drive": recording.name,
         "scans": [first, last],

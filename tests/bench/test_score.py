@@ -25,6 +25,8 @@ def test_candidates_count_within_a_metre_and_a_half_of_the_true_place() -> None:
     result = score(answers, mapped, to_common)
     assert result.queries == 4
     assert result.findable == 3
+    assert result.chance == pytest.approx(1 / 2)
+    assert not result.recognised
     assert result.right == pytest.approx({1: 1 / 3, 5: 2 / 3, 25: 2 / 3})
     assert result.first_is_right.tolist() == [True, False, False, False]
 
@@ -35,3 +37,11 @@ def test_a_query_without_candidates_is_wrong_and_nothing_findable_gives_no_share
     assert nothing.right == {}
     missed = score([answer([0.0, 0.0, 0.0])], np.array([[1.0, 0.0, 0.0]]), np.eye(4))
     assert missed.right[25] == 0.0
+
+
+def test_recognised_means_far_better_than_chance() -> None:
+    mapped = np.stack([np.arange(0.0, 100.0, 10.0), np.zeros(10), np.zeros(10)], axis=1)
+    right = [answer([10.0 * at, 0.0, 0.0], [10.0 * at, 0.0, 0.0]) for at in range(4)]
+    wrong = [answer([10.0 * at, 0.0, 0.0], [90.0, 0.0, 0.0]) for at in range(4, 9)]
+    assert score(right + wrong, mapped, np.eye(4)).recognised  # 4 of 9 against 1 of 10
+    assert not score(right[:2] + wrong, mapped, np.eye(4)).recognised  # 2 of 7

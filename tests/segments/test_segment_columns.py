@@ -97,3 +97,9 @@ def test_empty() -> None:
         assert column.dtype == np.int64
     assert [corner.shape for corner in empty.bounds()] == [(0, 3), (0, 3)]
     assert len(empty.take([])) == 0
+
+
+def test_take_refuses_a_mask_which_would_be_read_as_indices_0_and_1() -> None:
+    two = Segments.of([np.ones((3, 3), np.float32), np.zeros((2, 3), np.float32)], np.ones((2, 3)))
+    with pytest.raises(TypeError, match="mask"):
+        two.take(np.array([True, False]))
