@@ -1,0 +1,50 @@
+"""Every shipped model through HTTP says what the library says."""
+
+import numpy as np
+import pytest
+from placecell_client import encode
+
+from segments.extractor import load_extractor
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from segments.pairs import load_pair_classifier
+from segments.segments import Segments
+from tests.service.conftest import Start
+from tests.service.service_builders import cloud, map_of, request_of
+
+SENSOR = (9.0, -3.0, 1.7)
+CLOUDS = [cloud(seed, points=300) for seed in range(6)]
+
+
+@pytest.mark.parametrize("name", shipped_models())
+def test_descriptor_and_probability_through_http_are_the_librarys(name: str, start: Start) -> None:
+    extractor = load_extractor(MODELS_FOLDER / name)
+    manifest = extractor.manifest
+    segments = Segments.of([item.astype(np.float32) for item in CLOUDS], np.tile(SENSOR, (6, 1)))
+    expected = extractor.describe(segments)
+    codes = manifest.quantiser.encode(expected)
+    with start(models_dir=MODELS_FOLDER, model=name) as client:
+        assert client.get("/info").json()["model"]["model_id"] == manifest.model_id
+        described = client.post("/describe", json=request_of(CLOUDS, SENSOR)).json()
+        told = np.array([item["descriptor"] for item in described["descriptors"]])
+        assert told == pytest.approx(expected, abs=1e-4)
+        client.put("/maps/m", content=encode(map_of(codes, manifest.model_id, first_id=0)))
+        matched = client.post("/match", json=request_of(CLOUDS, SENSOR) | {"k": 6}).json()
+    classifier = load_pair_classifier(MODELS_FOLDER / name, manifest)
+    assert classifier is not None
+    for query, answer in zip(codes, matched["queries"], strict=True):
+        found = answer["candidates"]
+        assert found[0]["distance"] == pytest.approx(0.0, abs=2 * manifest.quantiser.step)
+        against = codes[[candidate["id"] for candidate in found]]
+        probability = classifier.probabilities(
+            np.repeat(query[None], len(against), axis=0), against
+        )
+        assert [candidate["probability"] for candidate in found] == pytest.approx(
+            probability, abs=1e-3
+        )
+        assert ((probability >= 0) & (probability <= 1)).all()
+
+
+def test_the_default_is_shipped_and_all_stay_within_30_megabytes() -> None:
+    assert DEFAULT_MODEL in shipped_models()
+    total = sum(file.stat().st_size for file in MODELS_FOLDER.rglob("*") if file.is_file())
+    assert total < 30e6
