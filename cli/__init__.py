@@ -20,7 +20,7 @@ app = typer.Typer(
 app.command()(demo)
 app.command()(town)
 app.command()(prepare)
-app.add_typer(train, name="train")
+app.command()(train)
 app.command()(evaluate)
 app.command()(experiments)
 app.command()(serve)

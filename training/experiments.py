@@ -9,7 +9,7 @@ where it was.
 import json
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -25,11 +25,15 @@ from segments.parameters import Parameters
 from segments.types import Float64
 from training import methods, recognition
 from training.evaluation import machine, measure
-from training.publishing import Data, publish_eigenvalue, publish_network, stored_descriptors
+from training.publishing import (
+    Data,
+    collect,
+    publish_eigenvalue,
+    publish_network,
+    stored_descriptors,
+)
 from training.run import Run
 from training.training_set import Source, TrainingSet
-
-VALIDATION_SHARE = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,28 +107,17 @@ def run_experiments(
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """Do what of the plan is not yet done, measure all, and return the report's content."""
-    data = TrainingSet.of(training_sources)
-    training, validation = data.split(VALIDATION_SHARE, seed=0)
+    data = collect(training_sources, 0, licence, "placecell experiments")
+    training, validation = data.training, data.validation
     test = TrainingSet.of([test_source])
-    if not len(test) or not len(training):
-        raise ValueError("no segments to train on or to test on; are the scans right?")
-    provenance = {
-        "sources": [source.describe() for source in training_sources],
-        "segments": len(training),
-        "groups": len(training.group_sizes()),
-        "validation_share": VALIDATION_SHARE,
-        "licence": licence,
-        "machine": machine(),
-    }
+    if not len(test):
+        raise ValueError("no segments to test on; are the scans right?")
 
     def publish(name: str, seed: int, make: Callable[[Path, Data], Any]) -> None:
         """Train and publish a model unless its folder is there already."""
         folder = output / "models" / name
-        if (folder / MANIFEST_FILE).exists():
-            return
-        command = "placecell experiments"
-        known = provenance | {"seed": seed, "seconds": 0.0, "command": command}
-        make(folder, Data(training, validation, known))
+        if not (folder / MANIFEST_FILE).exists():
+            make(folder, replace(data, provenance=data.provenance | {"seed": seed}))
 
     publish("eigenvalue", 0, publish_eigenvalue)
     trainings = list(plan.trainings())
@@ -173,8 +166,7 @@ def _train(
         one.method, data.training, data.validation, run, one.network, **one.changes
     )
     provenance = data.provenance | {"seconds": round(run.seconds, 1)}
-    known = Data(data.training, data.validation, provenance)
-    publish_network(folder, trained, known)
+    publish_network(folder, trained, replace(data, provenance=provenance))
 
 
 def compare(folder: Path, test: TrainingSet) -> dict[str, Any]:

@@ -130,6 +130,8 @@ class DescriptorNetwork(nn.Module):
         self, network: str, mean: Float32, deviation: Float32, dropout: float = 0.0
     ) -> None:
         super().__init__()
+        if network not in NETWORKS:
+            raise ValueError(f"no network {network!r}; there are {', '.join(NETWORKS)}")
         self.normalisation = Normalisation(mean, deviation)
         self.trunk = NETWORKS[network]((mean.shape[0], mean.shape[1], mean.shape[2]))
         self.dropout = nn.Dropout(dropout)

@@ -1,5 +1,6 @@
 """From a training to a model's folder: projection, quantiser, pair classifier, figures, card."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,10 +15,13 @@ from segments.quantiser import Quantiser
 from segments.types import Float32
 from training import recognition
 from training.card import write_card
-from training.evaluation import measure
+from training.evaluation import machine, measure
 from training.methods import Trained
 from training.networks import describe
-from training.training_set import TrainingSet
+from training.training_set import Source, TrainingSet
+
+VALIDATION_SHARE = 0.1
+"""Of the groups, held out whole."""
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
@@ -36,6 +40,48 @@ class Data:
     training: TrainingSet
     validation: TrainingSet
     provenance: dict[str, Any]
+
+
+def collect(sources: Sequence[Source], seed: int, licence: str, command: str) -> Data:
+    """Training and validation set from parts of recordings, and what the manifest says of them.
+
+    Args:
+        seed: of the split; stated as the training's, too.
+        licence: of the drives.
+        command: that makes the model again.
+
+    Raises:
+        ValueError: there are too few groups to train on.
+    """
+    training, validation = TrainingSet.of(sources).split(VALIDATION_SHARE, seed)
+    # The validation groups are halved for calibration: each half must hold pairs of both kinds,
+    # and it is better to know before the training than after it.
+    halves = validation.split(0.5, seed=0)
+    if not all(has_pairs(part) for part in (training, *halves)):
+        raise ValueError(
+            f"{len(training) + len(validation)} segments in too few groups to train on; "
+            "are the drives long enough, and the scans right?"
+        )
+    return Data(
+        training,
+        validation,
+        {
+            "sources": [source.describe() for source in sources],
+            "segments": len(training),
+            "groups": len(training.group_sizes()),
+            "validation_share": VALIDATION_SHARE,
+            "licence": licence,
+            "seed": seed,
+            "seconds": 0.0,
+            "machine": machine(),
+            "command": command,
+        },
+    )
+
+
+def has_pairs(data: TrainingSet) -> bool:
+    """Whether some two segments match, and some two do not."""
+    return len(data.group_sizes()) >= 2 and int(data.group_sizes().max()) >= 2
 
 
 def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:

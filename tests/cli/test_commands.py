@@ -169,6 +169,17 @@ def test_the_experiments_run_and_report_and_a_second_call_trains_nothing(
     assert {f: f.stat().st_mtime_ns for f in (tmp_path / "models").rglob("*.onnx")} == before
 
 
+def test_training_on_too_little_or_by_an_unknown_network_says_so(
+    workshop: Path, tmp_path: Path
+) -> None:
+    recording = workshop / "data" / "robot_a.safetensors"
+    little = run("train", "group", f"{recording}@0:1", "--output", tmp_path / "m", status=1)
+    assert "too few groups" in little.output
+    words = ("train", "group", recording, "--output", tmp_path / "m", "--runs", tmp_path)
+    assert "paper-reduced" in run(*words, "--network", "huge", status=1).output
+    assert not (tmp_path / "m").exists()
+
+
 def test_experiments_want_both_drives_or_none(workshop: Path) -> None:
     drive = workshop / "data" / "robot_a.safetensors"
     assert "both" in run("experiments", "--train", drive, status=1).output
