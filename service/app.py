@@ -15,7 +15,9 @@ from service.state import State, open_state
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
 Send the segments of a scan, get their descriptors, or the segments of stored maps that look like
-them. Coordinates are metres in a z-up frame. Every error is `application/problem+json` (RFC 9457).
+them. Coordinates are metres in a z-up frame. `/describe` and `/match` speak JSON and, with the same
+meaning and arrays as blobs, `application/msgpack`. Every error is `application/problem+json` (RFC
+9457).
 """
 
 

@@ -2,15 +2,44 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
 from segments.extractor import Extractor
 from segments.segments import Segments
 from segments.types import Float32, Float64, Int8
+from service.packed_schemas import PackedSegment
 from service.problems import Problem, ProblemError, title_of, type_of
-from service.schemas import Failed, ItemErrorOut, SegmentIn
+from service.schemas import Failed, ItemErrorOut, Point, SegmentIn
 from service.settings import Limits
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scan:
+    """The segments of a request, whichever encoding they came in.
+
+    Attributes:
+        clouds: points of each segment, float64 (n, 3), metres, in the request's frame.
+        sensors: float64 (segments, 3), metres, the same frame: where the sensor was at capture.
+    """
+
+    clouds: tuple[Float64, ...]
+    sensors: Float64
+
+    def __len__(self) -> int:
+        return len(self.clouds)
+
+    @classmethod
+    def of(
+        cls, segments: Sequence[SegmentIn] | Sequence[PackedSegment], origin: Point | None
+    ) -> Self:
+        """From a request's segments, relative to its origin if it has one."""
+        shift = np.array(origin or (0.0, 0.0, 0.0))
+        return cls(
+            tuple(np.array(each.points, np.float64).reshape(-1, 3) + shift for each in segments),
+            np.array([each.sensor for each in segments], np.float64) + shift,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,17 +67,16 @@ class Describer:
         self._extractor = extractor
         self._limits = limits
 
-    def describe(self, segments: Sequence[SegmentIn]) -> Described:
+    def describe(self, scan: Scan) -> Described:
         """Descriptors of the segments of one scan.
 
         Raises:
             Problem: 413 if there are too many, 422 if none can be used.
         """
-        self._check_amount(segments)
-        clouds = [np.array(segment.points, np.float64).reshape(-1, 3) for segment in segments]
-        sensors = np.array([segment.sensor for segment in segments], np.float64)
-        failures = self._failures(clouds, sensors)
-        usable = [index for index in range(len(segments)) if index not in failures]
+        self._check_amount(scan)
+        clouds, sensors = scan.clouds, scan.sensors
+        failures = self._failures(scan)
+        usable = [index for index in range(len(scan)) if index not in failures]
         if usable:
             # In float64, before the cast: a float32 is 0.5 m coarse at map coordinates of 5,000 km.
             origin = np.quantile(sensors[usable], 0.5, axis=0, method="lower")
@@ -70,21 +98,20 @@ class Describer:
             )
         if not finite.any():
             raise _none_usable(failures)
-        places = iter(range(len(segments)))
+        places = iter(range(len(scan)))
         return Described(
             rows=tuple(
-                failures[index] if index in failures else next(places)
-                for index in range(len(segments))
+                failures[index] if index in failures else next(places) for index in range(len(scan))
             ),
             codes=self.manifest.quantiser.encode(descriptors[finite]),
             descriptors=descriptors[finite],
             centroids=near.centroids()[finite] + origin,
         )
 
-    def _check_amount(self, segments: Sequence[SegmentIn]) -> None:
-        points = sum(len(segment.points) for segment in segments)
+    def _check_amount(self, scan: Scan) -> None:
+        points = sum(map(len, scan.clouds))
         for kind, amount, limit in (
-            ("segments", len(segments), self._limits.segments),
+            ("segments", len(scan), self._limits.segments),
             ("points", points, self._limits.points),
         ):
             if amount > limit:
@@ -92,11 +119,11 @@ class Describer:
                     413, f"too-many-{kind}", f"{amount} {kind} in a request; the limit is {limit}."
                 )
 
-    def _failures(self, clouds: Sequence[Float64], sensors: Float64) -> dict[int, Failed]:
+    def _failures(self, scan: Scan) -> dict[int, Failed]:
         """By index, why a segment cannot be used."""
         limits = self._limits
         failures = {}
-        for index, (cloud, sensor) in enumerate(zip(clouds, sensors, strict=True)):
+        for index, (cloud, sensor) in enumerate(zip(scan.clouds, scan.sensors, strict=True)):
             if len(cloud) < limits.min_points:
                 failures[index] = _failed(
                     "too-few-points",

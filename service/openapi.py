@@ -9,18 +9,42 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
+from service.bodies import JSON, MSGPACK
+from service.packed_schemas import (
+    PackedDescribeRequest,
+    PackedDescribeResponse,
+    PackedMatchRequest,
+)
 from service.problems import ProblemBody
 from service.schemas import DescribeRequest, MatchRequest
 
 _REFERENCE = "#/components/schemas/{model}"
+_SCHEMAS: tuple[type[BaseModel], ...] = (
+    DescribeRequest,
+    MatchRequest,
+    PackedDescribeRequest,
+    PackedDescribeResponse,
+    PackedMatchRequest,
+    ProblemBody,
+)
 
 
-def json_body(schema: type[BaseModel]) -> dict[str, Any]:
-    """The description of a JSON body, for a route's `openapi_extra`."""
-    reference = {"$ref": _REFERENCE.format(model=schema.__name__)}
+def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
+    """The description of a body, JSON or msgpack, for a route's `openapi_extra`."""
     return {
-        "requestBody": {"required": True, "content": {"application/json": {"schema": reference}}}
+        "requestBody": {
+            "required": True,
+            "content": {
+                JSON: {"schema": _reference(schema)},
+                MSGPACK: {"schema": _reference(packed)},
+            },
+        }
     }
+
+
+def packed_response(schema: type[BaseModel]) -> dict[int | str, dict[str, Any]]:
+    """The description of an answer as msgpack, beside the JSON that FastAPI describes."""
+    return {200: {"content": {MSGPACK: {"schema": _reference(schema)}}}}
 
 
 def file_body(*media_types: str) -> dict[str, Any]:
@@ -38,7 +62,7 @@ def install(app: FastAPI) -> None:
                 title=app.title, version=app.version, description=app.description, routes=app.routes
             )
             components = document.setdefault("components", {}).setdefault("schemas", {})
-            for schema in (DescribeRequest, MatchRequest, ProblemBody):
+            for schema in _SCHEMAS:
                 content = schema.model_json_schema(ref_template=_REFERENCE)
                 components.update(content.pop("$defs", {}))
                 components[schema.__name__] = content
@@ -47,3 +71,7 @@ def install(app: FastAPI) -> None:
 
     # FastAPI's documented way to extend the description.
     app.openapi = described  # type: ignore[method-assign]
+
+
+def _reference(schema: type[BaseModel]) -> dict[str, str]:
+    return {"$ref": _REFERENCE.format(model=schema.__name__)}

@@ -1,14 +1,25 @@
-"""What goes over the wire."""
+"""What goes over the wire, as JSON; `packed_schemas` has the same as msgpack."""
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Generic, Literal, Self, TypeVar
 
+from placecell_client.compact_map import COORDINATE_LIMIT
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from service.settings import Limits
 
-Coordinate = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-1e8, le=1e8)]
+Coordinate = Annotated[
+    float, Field(strict=True, allow_inf_nan=False, ge=-COORDINATE_LIMIT, le=COORDINATE_LIMIT)
+]
 Point = tuple[Coordinate, Coordinate, Coordinate]
+Name = Annotated[str, Field(strict=True)]
 Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
+Codes = Annotated[
+    list[Annotated[list[Code], Field(fail_fast=True)]], Field(fail_fast=True, min_length=1)
+]
+
+SegmentT = TypeVar("SegmentT")
+CodesT = TypeVar("CodesT")
+DescriptorT = TypeVar("DescriptorT")
 
 # fail_fast: a list of a million wrong values is one error, not a million.
 
@@ -28,10 +39,38 @@ class SegmentIn(Request):
     sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
 
 
-SegmentsIn = Annotated[list[SegmentIn], Field(fail_fast=True, min_length=1)]
+class ScanRequest(Request, Generic[SegmentT]):
+    """The segments of one scan, in either encoding."""
+
+    segments: Annotated[list[SegmentT], Field(fail_fast=True)] = Field(min_length=1)
+    origin: Point | None = Field(
+        None, description="Added to all points and sensors, metres; for coordinates as float32."
+    )
 
 
-class DescribeRequest(Request):
+class QueryRequest(Request, Generic[SegmentT, CodesT]):
+    """Queries, as segments or as descriptors, and where to look for them, in either encoding."""
+
+    segments: Annotated[list[SegmentT], Field(fail_fast=True)] | None = Field(None, min_length=1)
+    origin: Point | None = Field(None, description="Of the segments, as for `/describe`.")
+    model_id: Name | None = Field(None, description="Of the model that made the codes.")
+    codes: CodesT | None = Field(None, description="Stored descriptors, as `/describe` gives them.")
+    maps: Annotated[list[Name], Field(fail_fast=True)] | None = Field(
+        None, min_length=1, description="Names; all maps of the loaded model unless said."
+    )
+    k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
+
+    @model_validator(mode="after")
+    def _one_kind_of_query(self) -> Self:
+        codes = self.codes is not None and self.model_id is not None
+        for_codes = codes and self.segments is None and self.origin is None
+        for_segments = self.segments is not None and self.codes is None and self.model_id is None
+        if not for_codes and not for_segments:
+            raise ValueError("give either segments, or model_id and codes")
+        return self
+
+
+class DescribeRequest(ScanRequest[SegmentIn]):
     """The segments of one scan."""
 
     model_config = ConfigDict(
@@ -42,10 +81,8 @@ class DescribeRequest(Request):
         }
     )
 
-    segments: SegmentsIn
 
-
-class MatchRequest(Request):
+class MatchRequest(QueryRequest[SegmentIn, Codes]):
     """Queries, as segments or as descriptors, and where to look for them."""
 
     model_config = ConfigDict(
@@ -55,24 +92,6 @@ class MatchRequest(Request):
             ]
         }
     )
-
-    segments: SegmentsIn | None = None
-    model_id: str | None = Field(None, description="Of the model that made the codes.")
-    codes: (
-        Annotated[list[Annotated[list[Code], Field(fail_fast=True)]], Field(fail_fast=True)] | None
-    ) = Field(None, min_length=1, description="Stored descriptors, as `/describe` gives them.")
-    maps: Annotated[list[str], Field(fail_fast=True)] | None = Field(
-        None, min_length=1, description="Names; all maps of the loaded model unless said."
-    )
-    k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
-
-    @model_validator(mode="after")
-    def _one_kind_of_query(self) -> Self:
-        by_codes = self.codes is not None and self.model_id is not None and self.segments is None
-        by_segments = self.segments is not None and self.codes is None and self.model_id is None
-        if not by_codes and not by_segments:
-            raise ValueError("give either segments, or model_id and codes")
-        return self
 
 
 class ItemErrorOut(BaseModel):
@@ -97,12 +116,16 @@ class DescriptorOut(BaseModel):
     centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
 
 
-class DescribeResponse(BaseModel):
-    """Descriptors in the order of the segments."""
+class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
+    """Descriptors in the order of the segments, in either encoding."""
 
     model_id: str
     dimension: int
-    descriptors: list[DescriptorOut | Failed]
+    descriptors: list[DescriptorT | Failed]
+
+
+class DescribeResponse(DescriptorsResponse[DescriptorOut]):
+    """Descriptors in the order of the segments."""
 
 
 class CandidateOut(BaseModel):

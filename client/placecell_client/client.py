@@ -1,6 +1,5 @@
 """The HTTP client."""
 
-import json
 from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, Self
@@ -8,7 +7,7 @@ from urllib.parse import quote
 
 import httpx
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from placecell_client.errors import ServiceError
 from placecell_client.map_file import MEDIA_TYPE, CompactMap, decode, encode
@@ -21,6 +20,7 @@ from placecell_client.results import (
     Matches,
     Skipped,
 )
+from placecell_client.wire import MEDIA_TYPES, Encoding, codes_of, dumps, loads, row_of, segments_of
 
 
 class Client:
@@ -33,6 +33,7 @@ class Client:
         base_url: such as `http://127.0.0.1:8000`.
         timeout: seconds without an answer.
         transport: instead of the network, for tests.
+        encoding: of points and descriptors on the wire; `json` is larger and slower, and readable.
     """
 
     def __init__(
@@ -40,7 +41,11 @@ class Client:
         base_url: str,
         timeout: float = 30.0,
         transport: httpx.BaseTransport | None = None,
+        encoding: Encoding = "msgpack",
     ) -> None:
+        if encoding not in MEDIA_TYPES:
+            raise ValueError(f"encoding {encoding!r} is none of {', '.join(MEDIA_TYPES)}")
+        self._encoding = encoding
         self._http = httpx.Client(base_url=base_url, timeout=timeout, transport=transport)
 
     def __enter__(self) -> Self:
@@ -60,7 +65,7 @@ class Client:
 
     def info(self) -> Info:
         """What the service is, and how much it takes at once."""
-        content = self._json("GET", "/info")
+        content = self._get("/info")
         return Info(
             version=content["version"],
             model_id=content["model"]["model_id"],
@@ -79,15 +84,15 @@ class Client:
         Raises:
             ValueError: the arrays do not fit each other or hold a value that is not finite.
         """
-        content = self._json("POST", "/describe", {"segments": _segments(segments, sensors)})
+        content = self._post("/describe", segments_of(segments, sensors, self._encoding))
         items, dimension = content["descriptors"], content["dimension"]
         codes = np.zeros((len(items), dimension), dtype=np.int8)
         descriptors = np.full((len(items), dimension), np.nan, dtype=np.float32)
         centroids = np.full((len(items), 3), np.nan)
         for index, item in enumerate(items):
             if "error" not in item:
-                codes[index] = item["codes"]
-                descriptors[index] = item["descriptor"]
+                codes[index] = row_of(item["codes"], "int8")
+                descriptors[index] = row_of(item["descriptor"], "<f4")
                 centroids[index] = item["centroid"]
         return Description(content["model_id"], codes, descriptors, centroids, _errors(items))
 
@@ -120,12 +125,13 @@ class Client:
             rows = [
                 index for index in range(len(description.codes)) if index not in description.errors
             ]
-            body |= {"model_id": description.model_id, "codes": description.codes[rows].tolist()}
+            codes = codes_of(description.codes[rows], self._encoding)
+            body |= {"model_id": description.model_id, "codes": codes}
         elif description is None and segments is not None and sensors is not None:
-            body["segments"] = _segments(segments, sensors)
+            body |= segments_of(segments, sensors, self._encoding)
         else:
             raise ValueError("give either a description, or segments and sensors")
-        content = self._json("POST", "/match", body)
+        content = self._post("/match", body)
         matches = Matches(
             model_id=content["model_id"],
             queries=tuple(
@@ -142,7 +148,7 @@ class Client:
 
     def maps(self) -> tuple[MapSummary, ...]:
         """The stored maps, by name."""
-        return tuple(MapSummary.of(item) for item in self._json("GET", "/maps")["maps"])
+        return tuple(MapSummary.of(item) for item in self._get("/maps")["maps"])
 
     def put_map(self, name: str, compact_map: CompactMap | bytes) -> MapSummary:
         """Store a map, in place of one of that name; returns when it is safely on disk."""
@@ -168,16 +174,13 @@ class Client:
         """Remove a map."""
         self._send("DELETE", _map_path(name))
 
-    def _json(self, method: str, path: str, body: dict[str, Any] | None = None) -> dict[str, Any]:
-        if body is None:
-            response = self._send(method, path)
-        else:
-            content = json.dumps(body, separators=(",", ":"), allow_nan=False).encode()
-            response = self._send(
-                method, path, content=content, headers={"Content-Type": "application/json"}
-            )
-        result: dict[str, Any] = response.json()
-        return result
+    def _get(self, path: str) -> dict[str, Any]:
+        return loads(self._send("GET", path))
+
+    def _post(self, path: str, body: dict[str, Any]) -> dict[str, Any]:
+        media_type = MEDIA_TYPES[self._encoding]
+        headers = {"Content-Type": media_type, "Accept": media_type}
+        return loads(self._send("POST", path, dumps(body, self._encoding), headers))
 
     def _send(
         self,
@@ -190,20 +193,6 @@ class Client:
         if not response.is_success:
             raise ServiceError.of(response)
         return response
-
-
-def _segments(segments: Sequence[ArrayLike], sensors: ArrayLike) -> list[dict[str, Any]]:
-    positions = np.asarray(sensors, dtype=np.float64)
-    if positions.shape not in {(3,), (len(segments), 3)}:
-        raise ValueError(f"sensors: shape {positions.shape}, not (3,) or ({len(segments)}, 3)")
-    items = []
-    for index, cloud in enumerate(segments):
-        points: NDArray[np.float64] = np.asarray(cloud, dtype=np.float64).reshape(-1, 3)
-        position = positions if positions.ndim == 1 else positions[index]
-        if not (np.isfinite(points).all() and np.isfinite(position).all()):
-            raise ValueError(f"segment {index}: a value is not finite")
-        items.append({"points": points.tolist(), "sensor": position.tolist()})
-    return items
 
 
 def _errors(items: list[dict[str, Any]]) -> dict[int, ItemError]:

@@ -74,7 +74,7 @@ async def put_map(name: Name, request: Request, state: StateOf) -> Response:
     nothing.
     """
     body = await read_body(request, {MEDIA_TYPE, OCTETS})
-    stored, is_new = await state.compute(state.maps.put, name, body)
+    stored, is_new = await state.compute(state.maps.put, name, body.content)
     return JSONResponse(
         _summary(stored).model_dump(mode="json"),
         status_code=201 if is_new else 200,

@@ -4,9 +4,11 @@ import numpy as np
 from fastapi import APIRouter, Request, Response
 
 from segments.types import Int8
-from service.bodies import JSON, parse, read_body
+from service.bodies import ENCODINGS, Body, answer_type, parse, read_body, render
+from service.describer import Scan
 from service.matching import candidates_of, scope_of
-from service.openapi import json_body
+from service.openapi import body_of, packed_response
+from service.packed_schemas import PackedMatchRequest
 from service.problems import Problem, ProblemError, documented
 from service.schemas import Failed, MatchRequest, MatchResponse, SkippedOut
 from service.state import State, StateOf
@@ -18,8 +20,8 @@ router = APIRouter(tags=["recognition"])
     "/match",
     summary="The nearest segments of one map, some, or all",
     response_model=MatchResponse,
-    responses=documented(400, 404, 409, 413, 415, 422),
-    openapi_extra=json_body(MatchRequest),
+    responses=packed_response(MatchResponse) | documented(400, 404, 406, 409, 413, 415, 422),
+    openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
 async def match(request: Request, state: StateOf) -> Response:
     """One result a query, in order: its candidates, nearest first, or why it could not be used.
@@ -27,20 +29,21 @@ async def match(request: Request, state: StateOf) -> Response:
     Queries are rounded to codes before the search, as the maps' descriptors are. Maps of other
     models are skipped, and listed; a 409 if the request names one.
     """
-    body = await read_body(request, {JSON})
-    return Response(await state.compute(_match, state, body), media_type=JSON)
+    answer = answer_type(request)
+    body = await read_body(request, ENCODINGS)
+    return Response(await state.compute(_match, state, body, answer), media_type=answer)
 
 
-def _match(state: State, body: bytes) -> str:
-    query = parse(MatchRequest, body, state.settings.limits)
+def _match(state: State, body: Body, answer: str) -> bytes:
+    query = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
     limit = state.settings.limits.k
     if query.k > limit:
         detail = f"k is {query.k}; the limit is {limit}."
-        raise Problem(422, "invalid-request", detail, [ProblemError(pointer="/k", detail=detail)])
+        raise _invalid("/k", detail)
     scope = scope_of(state.maps, query.maps, state.model_id)
     rows: tuple[int | Failed, ...]
     if query.segments is not None:
-        described = state.describer.describe(query.segments)
+        described = state.describer.describe(Scan.of(query.segments, query.origin))
         codes, rows = described.codes, described.rows
     else:
         codes = _codes(state, query)
@@ -56,10 +59,10 @@ def _match(state: State, body: bytes) -> str:
             for stored in scope.skipped
         ],
     )
-    return response.model_dump_json()
+    return render(response, answer)
 
 
-def _codes(state: State, query: MatchRequest) -> Int8:
+def _codes(state: State, query: MatchRequest | PackedMatchRequest) -> Int8:
     """The request's own codes, int8 (q, d), if they are of the loaded model."""
     if query.model_id != state.model_id:
         raise Problem(
@@ -67,21 +70,38 @@ def _codes(state: State, query: MatchRequest) -> Int8:
             "other-model",
             f"The codes were made by model {query.model_id!r:.100}; loaded is {state.model_id!r}.",
         )
-    codes = query.codes or []
+    codes = _rows(query, state.describer.manifest.dimension)
     limit = state.settings.limits.segments
     if len(codes) > limit:
         raise Problem(
             413, "too-many-segments", f"{len(codes)} queries in a request; the limit is {limit}."
         )
-    dimension = state.describer.manifest.dimension
+    return codes
+
+
+def _rows(query: MatchRequest | PackedMatchRequest, dimension: int) -> Int8:
+    """The codes by query, int8 (q, dimension)."""
+    if isinstance(query, PackedMatchRequest):
+        blob = query.codes
+        assert blob is not None
+        if len(blob) % dimension:
+            raise _invalid(
+                "/codes", f"{len(blob)} codes; the model's descriptors have {dimension} each."
+            )
+        return blob.reshape(-1, dimension)
+    codes = query.codes or []
     for index, row in enumerate(codes):
         if len(row) != dimension:
-            detail = f"{len(row)} codes; the model's descriptors have {dimension}."
-            pointer = f"/codes/{index}"
-            raise Problem(
-                422,
-                "invalid-request",
-                f"{pointer}: {detail}",
-                [ProblemError(pointer=pointer, detail=detail)],
+            raise _invalid(
+                f"/codes/{index}", f"{len(row)} codes; the model's descriptors have {dimension}."
             )
     return np.array(codes, dtype=np.int8)
+
+
+def _invalid(pointer: str, detail: str) -> Problem:
+    return Problem(
+        422,
+        "invalid-request",
+        f"{pointer}: {detail}",
+        [ProblemError(pointer=pointer, detail=detail)],
+    )

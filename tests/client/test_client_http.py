@@ -13,7 +13,8 @@ ERROR = {"type": "urn:x", "title": "Too few points", "detail": "4 points"}
 
 
 def client_of(answer: Callable[[httpx.Request], httpx.Response]) -> Client:
-    return Client("http://service", transport=httpx.MockTransport(answer))
+    # JSON, for these tests look into bodies; test_client_wire looks into both encodings.
+    return Client("http://service", transport=httpx.MockTransport(answer), encoding="json")
 
 
 def test_describe_sends_points_and_gives_arrays() -> None:

@@ -1,0 +1,135 @@
+"""What goes over the wire as msgpack: the schemas of JSON, with arrays as blobs.
+
+`client/MSGPACK.md` describes it byte by byte, for clients in any language.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from placecell_client.compact_map import COORDINATE_LIMIT
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails
+
+from segments.types import Float32, Int8
+from service.schemas import (
+    DescriptorsResponse,
+    Point,
+    QueryRequest,
+    Request,
+    ScanRequest,
+)
+
+POINT_BYTES = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """A msgpack map as it was read, before anyone asked whether a key stands twice."""
+
+    items: list[tuple[object, object]]
+
+
+def _points(blob: object) -> Float32:
+    """The points of a blob, float32 (n, 3): one look at all, none at each.
+
+    Raises:
+        ValueError: it holds no such points; the place and the words are those of JSON.
+    """
+    data = _bin(blob)
+    if len(data) % POINT_BYTES:
+        raise ValueError(f"{len(data)} bytes, not a multiple of {POINT_BYTES}: x, y, z as float32")
+    points = np.frombuffer(data, "<f4").reshape(-1, 3)
+    # Written so that NaN fails too.
+    good = np.abs(points) <= COORDINATE_LIMIT
+    if not good.all():
+        row, axis = (int(place) for place in np.argwhere(~good)[0])
+        raise _out_of_range((row, axis), float(points[row, axis]))
+    return points
+
+
+def _codes(blob: object) -> Int8:
+    """The codes of a blob, int8 (q * d,): only the model knows d."""
+    data = _bin(blob)
+    if not data:
+        raise ValueError("no codes")
+    return np.frombuffer(data, np.int8)
+
+
+def _bin(value: object) -> bytes:
+    if not isinstance(value, bytes):
+        raise ValueError("not a bin")
+    return value
+
+
+def _out_of_range(place: tuple[int, int], value: float) -> ValidationError:
+    error = InitErrorDetails(type="finite_number", loc=place, input=value)
+    if np.isfinite(value):
+        limit = COORDINATE_LIMIT
+        if value > 0:
+            error |= {"type": "less_than_equal", "ctx": {"le": limit}}
+        else:
+            error |= {"type": "greater_than_equal", "ctx": {"ge": -limit}}
+    return ValidationError.from_exception_data("points", [error])
+
+
+_BLOB = WithJsonSchema({"type": "string", "format": "binary"})
+PointsBlob = Annotated[Float32, PlainValidator(_points), _BLOB]
+CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
+
+
+class PackedRequest(Request):
+    """A msgpack map whose keys are strings, each once."""
+
+    model_config = ConfigDict(arbitrary_types_allowed=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keys(cls, value: object) -> dict[str, object]:
+        if not isinstance(value, Pairs):
+            raise ValueError("not a map")
+        content: dict[str, object] = {}
+        for key, item in value.items:
+            if not isinstance(key, str):
+                raise ValueError("a key is not a string")
+            if key in content:
+                raise ValueError(f"the key {key!r:.100} stands twice")
+            content[key] = item
+        return content
+
+
+class PackedSegment(PackedRequest):
+    """A segment: the points of one object, and where it was seen from."""
+
+    points: PointsBlob = Field(
+        description="float32, little-endian: x, y, z of the first point in metres, of the next, ..."
+    )
+    sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
+
+
+class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
+    """`DescribeRequest` as msgpack."""
+
+
+class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
+    """`MatchRequest` as msgpack; codes: int8, one query after the other."""
+
+
+class PackedDescriptor(BaseModel):
+    """A segment's descriptor."""
+
+    codes: bytes = Field(description="int8, d of them: the stored form.")
+    descriptor: bytes = Field(description="float32, little-endian, d of them.")
+    centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
+
+
+class PackedDescribeResponse(DescriptorsResponse[PackedDescriptor]):
+    """`DescribeResponse` as msgpack."""

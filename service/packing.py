@@ -1,0 +1,71 @@
+"""Between the bytes of a msgpack body and Python values, within bounds of memory."""
+
+from typing import Any
+
+import msgpack  # type: ignore[import-untyped]
+from pydantic import BaseModel
+
+from service.packed_schemas import Pairs
+from service.problems import Problem
+from service.settings import Limits
+
+KEYS = 16
+"""A map, at most; the schemas know fewer."""
+
+
+def unpack(body: bytes, limits: Limits) -> object:
+    """The one value of a body, its maps as `Pairs`.
+
+    Raises:
+        Problem: 413 if it holds too many values, 400 if it is not msgpack, or more than one value.
+    """
+    # The limit of bytes is not enough: one can stand for an empty list, which takes 64 of them. So
+    # lists and maps are counted as they end, and those that have not ended yet (at most 1,024,
+    # one in the other) are short. A segment is 9 values; the rest is for the names of maps, and
+    # so that a segment too many is told as such.
+    limit = 16 * limits.segments + 1_000
+    values = 0
+
+    def count(more: int) -> None:
+        nonlocal values
+        values += more + 1
+        if values > limit:
+            raise _too_many(limit)
+
+    def listed(items: list[Any]) -> list[Any]:
+        count(len(items))
+        return items
+
+    def paired(items: list[tuple[object, object]]) -> Pairs:
+        count(2 * len(items))
+        return Pairs(items)
+
+    try:
+        return msgpack.unpackb(
+            body,
+            list_hook=listed,
+            object_pairs_hook=paired,
+            max_array_len=limits.segments + 1_000,
+            max_map_len=KEYS,
+        )
+    except Problem:
+        raise
+    # Most of msgpack's own exceptions are ValueErrors, but not all.
+    except (ValueError, msgpack.UnpackException) as error:
+        if "max_array_len" in str(error):
+            raise _too_many(limit) from error
+        reason = str(error) or type(error).__name__
+        raise Problem(
+            400, "not-msgpack", f"The body cannot be read as msgpack: {reason:.200}."
+        ) from error
+
+
+def pack(response: BaseModel) -> bytes:
+    """A response as msgpack; `bytes` become blobs."""
+    return bytes(msgpack.packb(response.model_dump()))
+
+
+def _too_many(limit: int) -> Problem:
+    return Problem(
+        413, "too-many-values", f"The body holds more than {limit} values, blobs counted as one."
+    )

@@ -1,0 +1,102 @@
+"""The client gets the same from the service in both encodings, and MSGPACK.md is the service's."""
+
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from placecell_client import Client, ServiceError, encode
+from placecell_client.wire import MEDIA_TYPES
+
+from segments.manifest import Manifest
+from service.bodies import MSGPACK, Body, parse, render
+from service.describer import Scan
+from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
+from service.schemas import DescribeRequest, Failed, ItemErrorOut
+from service.settings import Limits
+from tests.client.test_msgpack_document import CLOUD, ORIGIN, example
+from tests.service.service_builders import cloud, map_of, random_codes
+
+FAR = np.array([5e5, 5.4e6, 300.0])
+SENSORS = np.array([9.0, -3.0, 1.7]) + np.linspace(0, 5, 8)[:, None]
+CLOUDS = [cloud(seed) for seed in range(7)] + [cloud(7)[:2]]
+
+
+@pytest.fixture
+def clients(service: Any, manifest: Manifest) -> list[Client]:
+    """One that speaks msgpack, one that speaks JSON, to a service with a map."""
+
+    def forward(request: httpx.Request) -> httpx.Response:
+        told = service.request(
+            request.method, request.url.path, content=request.content, headers=request.headers
+        )
+        if request.method == "POST" and told.is_success:
+            assert told.headers["content-type"] == request.headers["content-type"]
+        return httpx.Response(told.status_code, content=told.content, headers=told.headers)
+
+    stored = map_of(random_codes(300), manifest.model_id)
+    assert service.put("/maps/yard", content=encode(stored)).status_code == 201
+    return [
+        Client("http://service", transport=httpx.MockTransport(forward), encoding=encoding)
+        for encoding in MEDIA_TYPES
+    ]
+
+
+@pytest.mark.parametrize("shift", [np.zeros(3), FAR])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_both_encodings_say_the_same(clients: list[Client], shift: Any, dtype: type) -> None:
+    clouds = [(points + shift).astype(dtype) for points in CLOUDS]
+    packed, listed = (client.describe(clouds, SENSORS + shift) for client in clients)
+    np.testing.assert_array_equal(packed.codes, listed.codes)
+    np.testing.assert_allclose(packed.descriptors, listed.descriptors, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(packed.centroids, listed.centroids, rtol=0, atol=1e-6)
+    assert packed.errors == listed.errors
+    assert set(packed.errors) == {7}
+    by_codes = [client.match(packed) for client in clients]
+    assert by_codes[0] == by_codes[1]
+    by_segments = [client.match(segments=clouds, sensors=SENSORS + shift) for client in clients]
+    assert by_segments[0] == by_segments[1]
+    assert by_segments[0].queries == by_codes[0].queries
+
+
+def test_map_coordinates_lose_nothing(clients: list[Client]) -> None:
+    for client in clients:
+        here = client.describe(CLOUDS, SENSORS)
+        there = client.describe([points + FAR for points in CLOUDS], SENSORS + FAR)
+        np.testing.assert_allclose(there.descriptors, here.descriptors, rtol=0, atol=1e-3)
+        np.testing.assert_allclose(there.centroids, here.centroids + FAR, rtol=0, atol=1e-5)
+
+
+def test_both_are_refused_with_the_same_words(clients: list[Client]) -> None:
+    beyond = [CLOUDS[0], np.full((20, 3), 1e9)]
+    told = []
+    for client in clients:
+        with pytest.raises(ServiceError) as raised:
+            client.describe(beyond, np.zeros(3))
+        told.append((raised.value.status, raised.value.type, raised.value.detail))
+    assert told[0] == told[1]
+    with pytest.raises(ServiceError, match="/segments/0/points/0/0: Input should be a finite"):
+        clients[0].describe([np.full((20, 3), 1e300)], np.zeros(3))
+
+
+def test_the_documents_request_is_what_the_service_reads() -> None:
+    body = Body(MSGPACK, example("request"))
+    request = parse(DescribeRequest, PackedDescribeRequest, body, Limits())
+    scan = Scan.of(request.segments, request.origin)
+    np.testing.assert_array_equal(scan.clouds[0], CLOUD + ORIGIN)
+    np.testing.assert_array_equal(scan.sensors, np.add([[0.0, 0.0, 1.5]], ORIGIN))
+
+
+def test_the_documents_answer_is_what_the_service_writes() -> None:
+    described = PackedDescriptor(
+        codes=np.array([3, -7], np.int8).tobytes(),
+        descriptor=np.array([0.0625, -0.125], "<f4").tobytes(),
+        centroid=(500004.125, 5400002.0, 300.625),
+    )
+    failed = ItemErrorOut(
+        type="urn:placecell:problem:too-few-points", title="Too few points", detail="2 points."
+    )
+    response = PackedDescribeResponse(
+        model_id="tiny-1", dimension=2, descriptors=[described, Failed(error=failed)]
+    )
+    assert render(response, MSGPACK) == example("answer")
