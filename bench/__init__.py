@@ -1,1 +1,1 @@
-"""What measures the whole from outside: the demo, load generators, peers."""
+"""What measures from outside: the demo with its robots and its score, benchmarks."""

@@ -74,7 +74,14 @@ def robots_of_drive(folder: Path, progress: Progress) -> tuple[Robot, Robot]:
 def run(
     mapper: Robot, asker: Robot, folder: Path, picture: Path, models: Sequence[str] = ()
 ) -> Outcome:
-    """Start the service, upload A's map, let B ask, score, draw."""
+    """Start the service, upload A's map, let B ask, score, draw.
+
+    Raises:
+        ValueError: a robot saw no segments.
+    """
+    for robot in (mapper, asker):
+        if not any(len(recording.segments) for recording in robot.recordings):
+            raise ValueError(f"{robot.drive.folder}: the drive gives no segments for {robot.name}")
     with running_service(folder / "service", *models) as address, Client(address) as client:
         compact = mapper.build_map(client, frame=mapper.drive.folder.name)
         data = encode(compact)

@@ -25,12 +25,12 @@ def evaluate(
         int | None,
         typer.Option(
             min=1,
-            help="A frame every so many scans. [default: 2; 1 on drives of fewer than 100 scans]",
+            help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
         ),
     ] = None,
     model: Annotated[
         list[str] | None,
-        typer.Option(help="A model's name or folder; may be repeated. [default: all shipped]"),
+        typer.Option(help="A model's name or folder; may be repeated. (default: all shipped)"),
     ] = None,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="Write the figures here.")
@@ -42,12 +42,16 @@ def evaluate(
     Definitions of the figures: docs/recognition.md.
     """
     from training.evaluation import evaluate as evaluate_recording
+    from training.evaluation import open_models
 
     with clear_errors():
         limits = parse_scans(scans) if scans else None
-        report = evaluate_recording(load(drive, every), limits, model or (), seed)
+        # What may be wrong is looked at before the drive is cut, which takes a while.
+        models = open_models(model or ())
         if json_file:
             json_file.parent.mkdir(parents=True, exist_ok=True)
+        report = evaluate_recording(load(drive, every), limits, models, seed)
+        if json_file:
             json_file.write_text(json.dumps(report, indent=2) + "\n")
     print_table(report)
 

@@ -21,12 +21,18 @@ def experiments(
         str | None, typer.Option(help="What to test on.", metavar="DRIVE[@FIRST:LAST]")
     ] = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for runs, models and the report.")
-    ] = Path("out/experiments"),
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Folder for runs, models and the report. "
+            "(default: out/experiments, with --quick out/experiments-quick)",
+        ),
+    ] = None,
     network: Annotated[
         list[str] | None,
         typer.Option(
-            help="Networks; the first gets all seeds. [default: fast, paper-reduced, paper]"
+            help="Networks; the first gets all seeds. (default: fast, paper-reduced, paper)"
         ),
     ] = None,
     seeds: Annotated[int, typer.Option(min=1, help="Trainings on the first network.")] = 3,
@@ -45,14 +51,16 @@ def experiments(
     """
     from rich.progress import Progress
 
-    from training.experiments import Plan, run_experiments
-    from training.report import write_report
+    with clear_errors():
+        from training.experiments import Plan, run_experiments
+        from training.report import write_report
 
     plan = Plan(seeds=seeds)
     if network:
         plan = Plan(networks=tuple(network), seeds=seeds)
     if quick:
         plan = Plan(networks=("fast",), seeds=1, dropouts=(0.0, 0.5), epochs=2)
+    folder = output or Path("out/experiments-quick" if quick else "out/experiments")
     with clear_errors():
         if bool(train) != bool(test):
             raise ValueError("give both --train and --test, or neither for the synthetic town")
@@ -61,8 +69,8 @@ def experiments(
         else:
             training_sources, test_source = town_sources(scans=60 if quick else 400)
         with Progress() as progress:
-            report = run_experiments(training_sources, test_source, plan, output, licence, progress)
-        file = write_report(report, output)
+            report = run_experiments(training_sources, test_source, plan, folder, licence, progress)
+        file = write_report(report, folder)
     typer.echo(f"report: {file}")
 
 

@@ -19,7 +19,7 @@ def prepare(
         int | None,
         typer.Option(
             min=1,
-            help="A frame every so many scans. [default: 2; 1 on drives of fewer than 100 scans]",
+            help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
         ),
     ] = None,
 ) -> None:

@@ -30,6 +30,8 @@ def clear_errors() -> Iterator[None]:
     """Show errors that tell the user what to do as a line, not as a stack trace."""
     try:
         yield
+    except ModuleNotFoundError as error:
+        fail(f"needs {error.name}, which is not installed: make install")
     except (ValueError, OSError) as error:
         fail(error)
 

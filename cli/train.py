@@ -31,7 +31,7 @@ def train(
     ],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="The model's folder. [default: models/METHOD]"),
+        typer.Option("--output", "-o", help="The model's folder. (default: models/METHOD)"),
     ] = None,
     seed: Annotated[int, typer.Option(help="Of everything random.")] = 0,
     network: Annotated[
@@ -39,7 +39,7 @@ def train(
     ] = "fast",
     epochs: Annotated[
         int | None,
-        typer.Option(min=1, help="Passes over the training set. [default: the method's own]"),
+        typer.Option(min=1, help="Passes over the training set. (default: the method's own)"),
     ] = None,
     runs: Annotated[Path, typer.Option(help="Folder for checkpoints and histories.")] = Path(
         "runs"
@@ -58,7 +58,6 @@ def train(
     (III-E). eigenvalue: SegMatch's features, standardised on the drives; the baseline.
     """
     from segments.models import MODELS_FOLDER
-    from training.publishing import collect, publish_eigenvalue
 
     options = ["--network", network] if network != "fast" else []
     options += ["--epochs", str(epochs)] if epochs else []
@@ -67,6 +66,8 @@ def train(
     command += ["--licence", licence]
     folder = output or MODELS_FOLDER / method
     with clear_errors():
+        from training.publishing import collect, publish_eigenvalue
+
         data = collect([source(text) for text in sources], seed, licence, shlex.join(command))
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
@@ -89,14 +90,14 @@ def learn(
     from rich.progress import Progress
 
     from training import methods
-    from training.publishing import publish_network
+    from training.publishing import fingerprint, publish_network
     from training.run import Run
 
     checkpoints = methods.run_folder(runs, method, network, seed)
     if not resume:
         (checkpoints / "checkpoint.pt").unlink(missing_ok=True)
     with Progress() as progress:
-        run = Run(checkpoints, seed, progress)
+        run = Run(checkpoints, seed, fingerprint(data, method, network, epochs), progress)
         trained = methods.train(method, data.training, data.validation, run, network, epochs=epochs)
     provenance = data.provenance | {"seconds": round(run.seconds, 1)}
     return publish_network(folder, trained, replace(data, provenance=provenance))

@@ -62,7 +62,7 @@ def hard_pairs(
     """For each segment a hard match and a hard non-match, sub-sampled.
 
     The match is drawn from its group with a chance that grows with the distance's rank, so that
-    half of the time it is of the farther half; the non-match is drawn from the `hardest` nearest
+    three times in four it is of the farther half; the non-match is drawn from the `hardest` nearest
     segments of other groups.
 
     Returns:
@@ -89,8 +89,14 @@ def hard_pairs(
 
 def random_pairs(groups: Int64, random: np.random.Generator) -> tuple[Int64, Int64]:
     """For each segment a random match and a random non-match: what hard pairs improve on."""
-    flat = np.zeros((len(groups), 1), dtype=np.float32)
-    return hard_pairs(flat, groups, len(groups), random)
+    matches, others = [], []
+    for segment, group in enumerate(groups):
+        same = groups == group
+        others.append((segment, int(random.choice(np.flatnonzero(~same)))))
+        same[segment] = False
+        if same.any():
+            matches.append((segment, int(random.choice(np.flatnonzero(same)))))
+    return np.array(matches, dtype=np.int64).reshape(-1, 2), np.array(others, dtype=np.int64)
 
 
 def train(

@@ -81,42 +81,63 @@ def mean(values: np.ndarray[Any, Any]) -> float | None:
     return float(values.mean()) if len(values) else None
 
 
+Opened = dict[str, tuple[Extractor, PairClassifier | None]]
+"""Models by the name that a report gives them."""
+
+
+def open_models(models: Sequence[str] = (), models_folder: Path = MODELS_FOLDER) -> Opened:
+    """Load the models to be measured, the eigenvalue baseline always among them.
+
+    Args:
+        models: names in `models/` or paths; all shipped ones unless given. A path is reported
+            under its folder's name, or in full where that is another model's.
+
+    Raises:
+        ModelError: a model cannot be loaded.
+    """
+    folders = {BASELINE: models_folder / BASELINE}
+    for given in models or shipped_models(models_folder):
+        folder = model_folder(given, models_folder).resolve()
+        if folder not in folders.values():
+            folders[given if folder.name in folders else folder.name] = folder
+    opened = {}
+    for name, folder in folders.items():
+        extractor = load_extractor(folder)
+        opened[name] = (extractor, load_pair_classifier(folder, extractor.manifest))
+    return opened
+
+
 def evaluate(
-    recording: Recording,
-    scans: tuple[int, int] | None = None,
-    models: Sequence[str] = (),
-    seed: int = 0,
-    models_folder: Path = MODELS_FOLDER,
+    recording: Recording, scans: tuple[int, int] | None, models: Opened, seed: int = 0
 ) -> dict[str, Any]:
     """Measure extractors on a recording.
 
     Args:
-        scans: first and last; only groups wholly within are taken in.
-        models: names in `models/` or paths; all shipped ones unless given. The eigenvalue
-            baseline is always measured.
+        scans: first and last, both included; only groups wholly within are taken in. All unless
+            given.
 
     Returns:
         What `placecell evaluate --json` writes.
 
     Raises:
-        ModelError: a model cannot be loaded.
         ValueError: no segments lie within the scans.
     """
     first, last = scans or (0, recording.scans - 1)
+    if not len(recording.segments):
+        raise ValueError(f"{recording.name}: the drive gives no segments at all")
     inside = recording.within(first, last)
     chosen = np.flatnonzero(inside & recording.distinct)
     if not len(chosen):
-        raise ValueError(f"{recording.name}: no group lies wholly within scans {first} to {last}")
+        raise ValueError(
+            f"{recording.name}: no group lies wholly within scans {first} to {last} "
+            f"(the drive has 0 to {recording.scans - 1})"
+        )
     segments, groups = recording.segments.take(chosen), recording.groups[chosen]
-    names = list(models) or shipped_models(models_folder)
     extractors = {}
-    for name in dict.fromkeys([*names, BASELINE]):
-        folder = model_folder(name, models_folder)
-        extractor = load_extractor(folder)
-        classifier = load_pair_classifier(folder, extractor.manifest)
+    for name, (extractor, classifier) in models.items():
         figures = measure(extractor, classifier, segments, groups, seed)
         figures["seen"] = has_seen(extractor, recording, first, last)
-        extractors[folder.name if folder.name not in extractors else name] = figures
+        extractors[name] = figures
     return {
         "drive": recording.name,
         "scans": [first, last],
@@ -145,7 +166,7 @@ def machine() -> dict[str, Any]:
     return {
         "processor": processor_name(),
         "cores": len(os.sched_getaffinity(0)),
-        "system": platform.platform(terse=True),
+        "system": platform.system(),
         "python": platform.python_version(),
     }
 

@@ -28,6 +28,7 @@ from training.evaluation import machine, measure
 from training.publishing import (
     Data,
     collect,
+    fingerprint,
     publish_eigenvalue,
     publish_network,
     stored_descriptors,
@@ -113,6 +114,8 @@ def run_experiments(
     if not len(test):
         raise ValueError("no segments to test on; are the scans right?")
 
+    check_identity(output, fingerprint(data, plan.epochs, plan.epochs_3d))
+
     def publish(name: str, seed: int, make: Callable[[Path, Data], Any]) -> None:
         """Train and publish a model unless its folder is there already."""
         folder = output / "models" / name
@@ -158,10 +161,27 @@ def run_experiments(
     return report
 
 
+def check_identity(output: Path, identity: str) -> None:
+    """See that what lies in the output's folder was learned from the same data.
+
+    Raises:
+        ValueError: it was not.
+    """
+    file = output / "identity"
+    if file.exists() and file.read_text() != identity:
+        raise ValueError(
+            f"{output}: holds experiments on other drives or with other epochs; "
+            "name another folder with --output, or remove this one"
+        )
+    output.mkdir(parents=True, exist_ok=True)
+    file.write_text(identity)
+
+
 def _train(
     one: Training, output: Path, progress: Progress | None, folder: Path, data: Data
 ) -> None:
-    run = Run(output / "runs" / one.name, one.seed, progress)
+    identity = fingerprint(data, one.method, one.network, one.changes)
+    run = Run(output / "runs" / one.name, one.seed, identity, progress)
     trained = methods.train(
         one.method, data.training, data.validation, run, one.network, **one.changes
     )

@@ -4,6 +4,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import onnx
 import torch
 from torch import Tensor, nn
 
@@ -67,4 +68,21 @@ def to_onnx(
             verbose=False,
         )
     assert program is not None
-    program.save(str(file), external_data=False)
+    model = program.model_proto
+    forget_sources(model)
+    onnx.save(model, file)
+
+
+def forget_sources(model: onnx.ModelProto) -> None:
+    """Remove where each node came from: paths of the exporting machine would change the model's id.
+
+    What is left depends on the weights and the network alone.
+    """
+    for message in (model, model.graph, *model.functions):
+        message.ClearField("metadata_props")
+        message.ClearField("doc_string")
+    parts = [model.graph.node, model.graph.input, model.graph.output, model.graph.value_info]
+    for part in (*parts, model.graph.initializer, *(body.node for body in model.functions)):
+        for item in part:
+            item.ClearField("metadata_props")
+            item.ClearField("doc_string")

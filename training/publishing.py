@@ -1,6 +1,10 @@
 """From a training to a model's folder: projection, quantiser, pair classifier, figures, card."""
 
-from collections.abc import Sequence
+import hashlib
+import json
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -79,6 +83,25 @@ def collect(sources: Sequence[Source], seed: int, licence: str, command: str) ->
     )
 
 
+def fingerprint(data: Data, *settings: object) -> str:
+    """Of the segments that a training learns from, and of its settings."""
+    sources = [[source["scan_hashes"], source["scans"]] for source in data.provenance["sources"]]
+    text = json.dumps([sources, data.provenance["seed"], [str(value) for value in settings]])
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+@contextmanager
+def whole(folder: Path) -> Iterator[Path]:
+    """A folder to write into that takes its place when the block ends well, and not before."""
+    unfinished = folder.with_name(folder.name + ".unfinished")
+    shutil.rmtree(unfinished, ignore_errors=True)
+    unfinished.mkdir(parents=True)
+    yield unfinished
+    if folder.exists():
+        shutil.rmtree(folder)
+    unfinished.rename(folder)
+
+
 def has_pairs(data: TrainingSet) -> bool:
     """Whether some two segments match, and some two do not."""
     return len(data.group_sizes()) >= 2 and int(data.group_sizes().max()) >= 2
@@ -89,28 +112,26 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     # Torch's exporter is slow to import: only here.
     from training.export import Exported, export_onnx, principal_axes
 
-    folder.mkdir(parents=True, exist_ok=True)
     learned = describe(trained.network, data.training)
     mean, axes = principal_axes(learned, STORED_DIMENSION)
-    export_onnx(
-        Exported(trained.network, mean, axes), data.training.parameters.grid, folder / MODEL_FILE
-    )
-    manifest = Manifest(
-        name=folder.name,
-        method=trained.method,
-        network=trained.network_name,
-        dimension=STORED_DIMENSION,
-        quantiser=Quantiser.fit(np.asarray((learned - mean) @ axes, dtype=np.float32)),
-        preprocessing=preprocessing_of(data.training.parameters),
-        training=data.provenance,
-    ).with_files(folder, [MODEL_FILE])
     head = None if trained.match is None else (trained.match, mean, axes)
-    return finish(folder, manifest, data, head)
+    exported = Exported(trained.network, mean, axes)
+    with whole(folder) as unfinished:
+        export_onnx(exported, data.training.parameters.grid, unfinished / MODEL_FILE)
+        manifest = Manifest(
+            name=folder.name,
+            method=trained.method,
+            network=trained.network_name,
+            dimension=STORED_DIMENSION,
+            quantiser=Quantiser.fit(np.asarray((learned - mean) @ axes, dtype=np.float32)),
+            preprocessing=preprocessing_of(data.training.parameters),
+            training=data.provenance,
+        ).with_files(unfinished, [MODEL_FILE])
+        return finish(unfinished, manifest, data, head)
 
 
 def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
     """Write the baseline, standardised on the training set, with its pair classifier."""
-    folder.mkdir(parents=True, exist_ok=True)
     features = eigenvalue_descriptors(data.training.segments).astype(np.float64)
     mean, deviation = features.mean(axis=0), features.std(axis=0)
     manifest = Manifest(
@@ -123,7 +144,8 @@ def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
         standardisation={"mean": mean.tolist(), "deviation": deviation.tolist()},
         training=data.provenance,
     )
-    return finish(folder, manifest, data, head=None)
+    with whole(folder) as unfinished:
+        return finish(unfinished, manifest, data, head=None)
 
 
 def finish(

@@ -32,12 +32,14 @@ class Run:
     Attributes:
         folder: of checkpoint.pt and history.json.
         seed: of everything random.
+        identity: of data and recipe: a checkpoint of another is refused, not gone on with.
         progress: where the bar is shown; None: nowhere.
         history: figures of each epoch done.
     """
 
     folder: Path
     seed: int
+    identity: str = ""
     progress: Progress | None = None
     history: list[Figures] = field(default_factory=list)
 
@@ -53,12 +55,21 @@ class Run:
         optimiser: torch.optim.Optimizer,
         schedule: torch.optim.lr_scheduler.LRScheduler,
     ) -> Iterator[int]:
-        """The epochs still to do; what the loop's body changed is saved after each."""
+        """The epochs still to do; what the loop's body changed is saved after each.
+
+        Raises:
+            ValueError: the checkpoint is of another data set or recipe.
+        """
         self.folder.mkdir(parents=True, exist_ok=True)
         checkpoint = self.folder / "checkpoint.pt"
         parts: dict[str, Stateful] = {"model": model, "optimiser": optimiser, "schedule": schedule}
         if checkpoint.exists():
             state = torch.load(checkpoint, weights_only=True)
+            if state.get("identity", "") != self.identity:
+                raise ValueError(
+                    f"{checkpoint}: of a training on other drives or with other settings; "
+                    "begin anew (without --resume), or name another folder for runs"
+                )
             for name, part in parts.items():
                 part.load_state_dict(state[name])
             self.history = state["history"]
@@ -71,7 +82,7 @@ class Run:
             self.history[-1]["seconds"] = round(time.monotonic() - started, 2)
             unfinished = checkpoint.with_suffix(".unfinished")
             state = {name: part.state_dict() for name, part in parts.items()}
-            torch.save(state | {"history": self.history}, unfinished)
+            torch.save(state | {"history": self.history, "identity": self.identity}, unfinished)
             unfinished.replace(checkpoint)
             (self.folder / "history.json").write_text(json.dumps(self.history, indent=1) + "\n")
             if self.progress is not None and task is not None:

@@ -72,8 +72,11 @@ class Siamese(nn.Module):
 def sample_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[Int64, Float32]:
     """Random pairs, one to one: indices (count, 2) and 1 for matches, 0 for others (count,).
 
-    No pair stands twice, in either order, and none joins a segment with itself. With fewer
-    than count / 2 matches to be had, there are as many pairs of each kind as matches.
+    No pair stands twice, in either order, and none joins a segment with itself. Where fewer
+    than count / 2 of a kind are to be had, there are as many of each as of the scarcer.
+
+    Raises:
+        ValueError: no two segments match, or all do.
     """
     order = np.argsort(groups, kind="stable")
     sizes = np.bincount(groups)
@@ -84,7 +87,10 @@ def sample_pairs(groups: Int64, count: int, random: np.random.Generator) -> tupl
             for start, size in zip(starts, sizes, strict=True)
         ]
     )
-    half = min(count // 2, len(matches))
+    apart = (len(groups) ** 2 - int((sizes**2).sum())) // 2
+    half = min(count // 2, len(matches), apart)
+    if not half:
+        raise ValueError("no pairs to train on: there must be matches and non-matches")
     matches = random.permutation(matches)[:half]
     others: set[tuple[int, int]] = set()
     while len(others) < half:

@@ -20,7 +20,10 @@ class Drive(ABC):
     Attributes:
         folder: where the drive lies.
         scan_files: one Velodyne file a scan: float32 x, y, z, reflectance; metres, sensor frame.
-        poses: sensor-to-world transforms, float64 (scans, 4, 4); world is z-up at the first scan.
+        poses: sensor-to-world transforms, float64 (scans, 4, 4); the world is z-up, and its origin
+            is the sensor at the first scan: clouds are float32, which is half a metre coarse at
+            map coordinates of 5,000 km.
+        origin: where the world's origin lies in the frame of the file's poses, float64 (3,).
         times: seconds, float64 (scans,).
     """
 
@@ -30,6 +33,7 @@ class Drive(ABC):
     folder: Path
     scan_files: list[Path]
     poses: Float64
+    origin: Float64
     times: Float64
 
     @classmethod

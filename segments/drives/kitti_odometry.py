@@ -42,7 +42,10 @@ class KittiOdometry(Drive):
         camera_poses = as_transforms(camera)
         check_rotations(camera_poses, pose_file)
         sensor_to_camera = read_calibration(folder / "calib.txt")
-        self.poses = np.linalg.inv(sensor_to_camera) @ camera_poses @ sensor_to_camera
+        poses = np.linalg.inv(sensor_to_camera) @ camera_poses @ sensor_to_camera
+        self.origin = poses[0, :3, 3].copy()
+        poses[:, :3, 3] -= self.origin
+        self.poses = poses
         time_file = folder / "times.txt"
         self.times = read_table(time_file, 1, "a time in seconds a line")[:, 0]
         if len(self.times) != len(self.scan_files):

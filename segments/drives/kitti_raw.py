@@ -42,6 +42,7 @@ class KittiRaw(Drive):
         inertial = oxts_to_poses(np.stack(rows))
         inertial_to_sensor = read_rigid_calibration(find_calibration(folder))
         poses = inertial @ np.linalg.inv(inertial_to_sensor)
+        self.origin = np.zeros(3)
         self.poses = np.linalg.inv(poses[0]) @ poses
         self.times = read_timestamps(
             folder / "velodyne_points" / "timestamps.txt",

@@ -91,6 +91,39 @@ def test_evaluate_takes_a_drive_as_it_lies_and_sees_no_training_in_later_scans(
     assert report["every"] == 2
 
 
+def test_a_model_in_a_folder_named_as_the_baseline_is_not_dropped(
+    workshop: Path, tmp_path: Path
+) -> None:
+    namesake = tmp_path / "eigenvalue"
+    namesake.mkdir()
+    for file in (workshop / "tiny").iterdir():
+        (namesake / file.name).write_bytes(file.read_bytes())
+    file = tmp_path / "figures.json"
+    recording = workshop / "data" / "robot_a.safetensors"
+    run("evaluate", recording, "--model", namesake, "--json", file)
+    found = json.loads(file.read_text())["extractors"]
+    assert found["eigenvalue"]["model_id"] != Manifest.load(workshop / "tiny").model_id
+    assert found[str(namesake)]["model_id"] == Manifest.load(workshop / "tiny").model_id
+
+
+def test_a_training_that_cannot_begin_destroys_nothing(workshop: Path) -> None:
+    checkpoint = workshop / "runs" / "group-fast-0" / "checkpoint.pt"
+    before = checkpoint.read_bytes()
+    words = ("train", "group", "nowhere", "--runs", workshop / "runs")
+    run(*words, "--output", workshop / "none", status=1)
+    assert checkpoint.read_bytes() == before
+
+
+def test_resuming_on_other_drives_is_refused(workshop: Path, tmp_path: Path) -> None:
+    words = ("train", "group", workshop / "data" / "robot_b.safetensors", "--epochs", 1)
+    folders = ("--runs", workshop / "runs", "--output", tmp_path / "m")
+    assert "other drives" in run(*words, *folders, "--resume", status=1).output
+
+
+def test_help_shows_the_defaults() -> None:
+    assert "default: 2" in " ".join(run("evaluate", "--help").output.split())
+
+
 def test_a_prepared_recording_refuses_another_step(workshop: Path) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
     result = run("evaluate", recording, "--every", 3, status=1)
@@ -178,6 +211,14 @@ def test_training_on_too_little_or_by_an_unknown_network_says_so(
     words = ("train", "group", recording, "--output", tmp_path / "m", "--runs", tmp_path)
     assert "paper-reduced" in run(*words, "--network", "huge", status=1).output
     assert not (tmp_path / "m").exists()
+
+
+def test_experiments_on_other_drives_want_another_folder(workshop: Path, tmp_path: Path) -> None:
+    (tmp_path / "identity").write_text("of other drives")
+    data = workshop / "data"
+    words = ("--train", data / "robot_a.safetensors", "--test", data / "robot_b.safetensors")
+    said = run("experiments", "--quick", "--output", tmp_path, *words, status=1).output
+    assert "other drives" in said
 
 
 def test_experiments_want_both_drives_or_none(workshop: Path) -> None:

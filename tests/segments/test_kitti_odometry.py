@@ -194,3 +194,16 @@ def test_unknown_folder_is_told_what_is_known(tmp_path: Path) -> None:
 def test_from_inside_the_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     assert open_drive(Path()).folder.name == "00"
+
+
+def test_poses_far_away_are_moved_to_the_first_and_the_offset_is_kept(folder: Path) -> None:
+    near = open_drive(folder)
+    rows = np.loadtxt(folder / "poses.txt").reshape(-1, 3, 4)
+    (folder / "calib.txt").write_text("Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n")
+    straight = open_drive(folder)
+    rows[:, :, 3] += [450_000.0, 5_430_000.0, 120.0]
+    np.savetxt(folder / "poses.txt", rows.reshape(-1, 12), fmt="%.9f")
+    far = open_drive(folder)
+    assert far.poses == pytest.approx(straight.poses, abs=1e-6)
+    assert far.origin - straight.origin == pytest.approx([450_000.0, 5_430_000.0, 120.0])
+    assert near.origin == pytest.approx(near.poses[0, :3, 3])

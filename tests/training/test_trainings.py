@@ -60,6 +60,34 @@ def test_pair_sampler_is_one_to_one_without_duplicates() -> None:
     assert ((groups[pairs[:, 0]] == groups[pairs[:, 1]]) == (labels == 1)).all()
 
 
+def test_random_pairs_prefer_no_mate_and_no_stranger() -> None:
+    groups = np.array([0, 0, 0, 0, 1, 1, 1])
+    random = np.random.default_rng(0)
+    drawn = [contrastive.random_pairs(groups, random) for _ in range(600)]
+    mates = np.array([matches[0, 1] for matches, _ in drawn])
+    strangers = np.array([others[0, 1] for _, others in drawn])
+    assert np.bincount(mates)[1:] / 600 == pytest.approx([1 / 3] * 3, abs=0.06)
+    assert np.bincount(strangers)[4:] / 600 == pytest.approx([1 / 3] * 3, abs=0.06)
+
+
+def test_pair_sampler_ends_when_non_matches_run_out() -> None:
+    groups = np.array([0] * 10 + [1])  # 45 matches, 10 others
+    pairs, labels = siamese.sample_pairs(groups, 4000, np.random.default_rng(0))
+    assert labels.sum() == 10
+    assert len(pairs) == 20
+    with pytest.raises(ValueError, match="no pairs"):
+        siamese.sample_pairs(np.zeros(5, dtype=np.int64), 10, np.random.default_rng(0))
+
+
+def test_a_checkpoint_of_other_data_is_refused(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = group_based.GroupBasedRecipe(epochs=1, sgd=SMALL)
+    group_based.train(shapes, other_views, Run(tmp_path, 0, "these drives"), recipe=recipe)
+    with pytest.raises(ValueError, match="other drives"):
+        group_based.train(shapes, other_views, Run(tmp_path, 0, "those drives"), recipe=recipe)
+
+
 def test_pair_sampler_stays_one_to_one_when_matches_run_out() -> None:
     groups = np.array([0, 0, 0, 1, 1, 2, 3, 3, 3, 3])  # 3 + 1 + 6 matches
     pairs, labels = siamese.sample_pairs(groups, 1000, np.random.default_rng(5))
