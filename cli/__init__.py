@@ -2,6 +2,7 @@
 
 import typer
 
+from cli.bench import bench
 from cli.demo import demo
 from cli.evaluate import evaluate
 from cli.experiments import experiments
@@ -23,4 +24,5 @@ app.command()(prepare)
 app.command()(train)
 app.command()(evaluate)
 app.command()(experiments)
+app.add_typer(bench, name="bench")
 app.command()(serve)

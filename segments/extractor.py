@@ -1,6 +1,9 @@
 """Extractors: from segments to descriptors, the same in training's evaluation and in serving."""
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Protocol
 
 import numpy as np
@@ -13,7 +16,7 @@ from segments.types import Float32
 from segments.voxels import voxelise
 
 MODEL_FILE = "model.onnx"
-BATCH = 64
+BATCH = 16
 """Segments an inference; larger batches are slower on a CPU (their activations leave the cache)."""
 
 
@@ -40,33 +43,63 @@ class EigenvalueExtractor:
 
 
 class OnnxExtractor:
-    """A learned extractor: align, voxelise, and run the exported network."""
+    """A learned extractor: align, voxelise, and run the exported network.
+
+    The batches of a call are spread over the cores. Each core has a session of one thread: threads
+    within an inference wait for one another at every layer, and inferences within a session for
+    its memory.
+    """
 
     def __init__(self, folder: Path, manifest: Manifest, threads: int = 0) -> None:
         if MODEL_FILE not in manifest.files:
             # Neither the model's id nor the check of its files would cover the network.
             raise ModelError(f"{folder / FILE}: does not give the SHA-256 of {MODEL_FILE}")
         self.manifest = manifest
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = threads
-        options.log_severity_level = 3
+        threads = threads or cores()
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="describe")
+        self._idle: SimpleQueue[onnxruntime.InferenceSession] = SimpleQueue()
         try:
-            self._session = onnxruntime.InferenceSession(
-                folder / MODEL_FILE, options, providers=["CPUExecutionProvider"]
-            )
+            for _ in range(threads):
+                self._idle.put(one_thread_session(folder / MODEL_FILE))
+            # What compiles at its first use does so now, and not while a robot waits.
+            self.describe(Segments.of([np.zeros((1, 3), np.float32)], np.zeros((1, 3))))
         # onnxruntime's exceptions share no narrower base class than this.
         except Exception as error:
             raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
 
     def describe(self, segments: Segments) -> Float32:
-        """Descriptors, float32 (segments, dimension)."""
-        parts = [np.zeros((0, self.manifest.dimension), dtype=np.float32)]
-        for first in range(0, len(segments), BATCH):
+        """Descriptors, float32 (segments, dimension); the same whatever the number of threads."""
+
+        def infer(first: int) -> Float32:
             some = segments.take(np.arange(first, min(first + BATCH, len(segments))))
             occupancy, extents = voxelise(some, self.manifest.parameters)
             inputs = {"occupancy": occupancy, "extents": extents}
-            parts.append(self._session.run(["descriptor"], inputs)[0])
-        return np.concatenate(parts)
+            session = self._idle.get()
+            try:
+                descriptors: Float32 = session.run(["descriptor"], inputs)[0]
+            finally:
+                self._idle.put(session)
+            return descriptors
+
+        starts = range(0, len(segments), BATCH)
+        # A single batch is not worth the way to another thread.
+        parts = self._pool.map(infer, starts) if len(starts) > 1 else map(infer, starts)
+        return np.concatenate([np.zeros((0, self.manifest.dimension), np.float32), *parts])
+
+
+def one_thread_session(file: Path) -> onnxruntime.InferenceSession:
+    """A network whose inferences are computed by the thread that asks."""
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    options.log_severity_level = 3
+    return onnxruntime.InferenceSession(file, options, providers=["CPUExecutionProvider"])
+
+
+def cores() -> int:
+    """Processor cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def load_extractor(folder: Path, threads: int = 0) -> Extractor:
@@ -74,7 +107,7 @@ def load_extractor(folder: Path, threads: int = 0) -> Extractor:
 
     Args:
         folder: with `manifest.json` and what it names.
-        threads: for inference; 0: as many as there are cores.
+        threads: cores to use; 0: all that there are.
 
     Raises:
         ModelError: the folder holds no usable model.

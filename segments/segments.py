@@ -1,11 +1,25 @@
 """Segments: many point clouds in columns, the form that every step from here on takes."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 
 from segments.types import Float32, Float64, Int64
+
+
+def compiled(function: Callable[..., None]) -> Callable[..., None]:
+    """Machine code, made at the first call and kept on disk; other threads run meanwhile.
+
+    Where Numba finds no folder to write to (`NUMBA_CACHE_DIR`, beside the source, the user's cache)
+    each process compiles anew. What is kept does not notice a change in another file, so compiled
+    functions call none of another file.
+    """
+    try:
+        return numba.njit(cache=True, nogil=True)(function)
+    except RuntimeError:  # Numba's for 'no locator available'
+        return numba.njit(nogil=True)(function)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,12 +93,22 @@ class Segments:
         rows = np.repeat(self.starts[chosen], counts) + within
         return Segments(self.points[rows], ends, self.sensors[chosen])
 
+    def check_ends(self) -> None:
+        """Before compiled code reads: it would read beyond the points if it were told to.
+
+        Raises:
+            ValueError: a segment without points, or points of no segment.
+        """
+        total = self.ends[-1] if len(self) else 0
+        if total != len(self.points) or (self.counts <= 0).any():
+            raise ValueError(f"ends do not divide the {len(self.points)} points into segments")
+
     def centroids(self) -> Float64:
         """Mean of each segment's points, float64 (segments, 3), metres."""
-        if not len(self):
-            return np.zeros((0, 3))
-        sums = np.add.reduceat(self.points.astype(np.float64), self.starts, axis=0)
-        return np.asarray(sums / self.counts[:, None])
+        centroids = np.empty((len(self), 3))
+        self.check_ends()
+        _centroids(np.ascontiguousarray(self.points), self.ends, centroids)
+        return centroids
 
     def bounds(self) -> tuple[Float32, Float32]:
         """Lowest and highest corner of each segment's axis-aligned box, float32 (segments, 3)."""
@@ -94,3 +118,19 @@ class Segments:
             np.minimum.reduceat(self.points, self.starts, axis=0),
             np.maximum.reduceat(self.points, self.starts, axis=0),
         )
+
+
+@compiled
+def _centroids(points: Float32, ends: Int64, centroids: Float64) -> None:
+    start = 0
+    for segment in range(len(ends)):
+        x = y = z = 0.0
+        for point in range(start, ends[segment]):
+            x += points[point, 0]
+            y += points[point, 1]
+            z += points[point, 2]
+        count = ends[segment] - start
+        centroids[segment, 0] = x / count
+        centroids[segment, 1] = y / count
+        centroids[segment, 2] = z / count
+        start = ends[segment]

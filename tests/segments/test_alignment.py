@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from segments.alignment import align, sensor_bearings
-from segments.segments import Segments
+from segments.segments import Segments, compiled
+from segments.types import Int64
 from tests.segments.segment_builders import many_segments, one_segment, yaw_matrix
 
 # Nothing about it is symmetric; its centroid is (2, 1, 2).
@@ -98,6 +99,61 @@ def test_each_segment_has_its_own_yaw() -> None:
         alone = align(segments.take([index]), float(yaw))
         rows = segments.owners == index
         assert np.array_equal(together[rows], alone)
+
+
+def test_against_numpy_bit_for_bit() -> None:
+    segments = many_segments([1, 7, 100, 3000])
+    yaw = np.array([0.0, 1.0, -2.0, 3.0])
+    turn = yaw - sensor_bearings(segments)
+    for index in range(len(segments)):
+        centred = segments.cloud(index) - segments.centroids()[index]
+        cosine, sine = np.cos(turn)[index], np.sin(turn)[index]
+        by_hand = np.stack(
+            [
+                cosine * centred[:, 0] - sine * centred[:, 1],
+                sine * centred[:, 0] + cosine * centred[:, 1],
+                centred[:, 2],
+            ],
+            axis=1,
+        ).astype(np.float32)
+        assert np.array_equal(align(segments, yaw)[segments.owners == index], by_hand)
+
+
+def test_centroid_is_the_mean_in_double_precision() -> None:
+    # In float32 the sum of 15,000 coordinates of 1 km would be off by centimetres.
+    points = np.random.default_rng(0).uniform(999, 1000, (15_000, 3)).astype(np.float32)
+    (centroid,) = one_segment(points).centroids()
+    assert centroid == pytest.approx(points.astype(np.float64).mean(axis=0), abs=1e-9)
+
+
+def test_points_that_must_not_be_written_or_do_not_lie_in_order() -> None:
+    segments = many_segments([40, 60])
+    fixed = segments.points.copy()
+    fixed.flags.writeable = False
+    columns = np.asfortranarray(segments.points)
+    for points in (fixed, columns):
+        other = Segments(points, segments.ends, segments.sensors)
+        assert np.array_equal(align(other), align(segments))
+
+
+def test_compiles_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("numba.core.caching.CacheImpl._locator_classes", [])
+
+    @compiled
+    def double(values: Int64) -> None:
+        values *= 2
+
+    values = np.arange(3)
+    double(values)
+    assert values.tolist() == [0, 2, 4]
+
+
+@pytest.mark.parametrize("ends", [[50, 101], [50, 90], [0, 100], [60, 50, 100], [120, 100]])
+def test_ends_that_do_not_divide_the_points_are_refused(ends: list[int]) -> None:
+    points = np.zeros((100, 3), np.float32)
+    segments = Segments(points, np.array(ends), np.zeros((len(ends), 3), np.float32))
+    with pytest.raises(ValueError, match="do not divide the 100 points"):
+        align(segments)
 
 
 def test_no_segments() -> None:

@@ -1,4 +1,5 @@
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -126,6 +127,26 @@ def test_batch_equals_singles() -> None:
         alone, its_extents = voxelise(segments.take([index]), PROTOCOL_V1)
         assert np.array_equal(occupancy[index], alone[0])
         assert np.array_equal(extents[index], its_extents[0])
+
+
+def test_threads_make_no_difference() -> None:
+    segments = many_segments([5, 500, 60, 1200] * 4)
+    parts = [segments.take([index]) for index in range(len(segments))]
+    with ThreadPoolExecutor(4) as pool:
+        grids = list(pool.map(lambda part: voxelise(part, PROTOCOL_V1)[0], parts))
+    assert np.array_equal(np.concatenate(grids), voxelise(segments, PROTOCOL_V1)[0])
+
+
+@pytest.mark.parametrize("strange", [np.nan, np.inf, 1e30])
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
+def test_a_coordinate_that_is_no_number_fills_no_voxel_of_its_neighbour(strange: float) -> None:
+    good = many_segments([50])
+    bad = np.array([[0, 0, 0], [strange, 0, 0]], np.float32)
+    segments = Segments.of([bad, good.points], np.concatenate([good.sensors, good.sensors]))
+    occupancy, extents = voxelise(segments, PROTOCOL_V1)
+    assert occupancy[0].sum() == 0
+    assert np.array_equal(occupancy[1], voxelise(good, PROTOCOL_V1)[0][0])
+    assert not extents[0, 0] < 1e29
 
 
 def test_order_of_points_makes_no_difference() -> None:

@@ -1,0 +1,320 @@
+"""How fast segments become descriptors: every shipped network beside the paper's, in one run.
+
+Rates are of this machine at this hour, so all are measured in turn, again and again, and the
+median is given: what slows the machine down slows each of them. Compare within a run, not across.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import onnxruntime
+
+from segments.drives import open_drive
+from segments.extraction import Progress, record, silent
+from segments.extractor import MODEL_FILE, Extractor, load_extractor, one_thread_session
+from segments.manifest import Manifest
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from segments.parameters import PROTOCOL_V1, Parameters
+from segments.segments import Segments
+from segments.types import Float32, UInt8
+from segments.voxels import voxelise
+from training.evaluation import machine
+
+PAPER = "paper"
+
+Work = Callable[[int], int]
+"""Do the piece of work of this number; returns how many segments it had."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is measured, and how long.
+
+    Attributes:
+        batches: segments an inference.
+        threads: how many compute at once, each its own batch, as in the service.
+        repeats: measurements of each, of which the median is given.
+        seconds: of each measurement, at least.
+        segments: how many are taken from the drive.
+        latencies: segments described one by one for the percentiles.
+    """
+
+    batches: tuple[int, ...] = (1, 8, 64)
+    threads: tuple[int, ...] = (1, 2)
+    repeats: int = 5
+    seconds: float = 0.5
+    segments: int = 1024
+    latencies: int = 500
+
+
+@dataclass(frozen=True, slots=True)
+class Network:
+    """An ONNX file that is measured.
+
+    Attributes:
+        model: its name.
+        precision: `fp32` or `int8`.
+        file: where it lies.
+        served: whether the service would run this file, rather than another of the model's.
+        top1: of the model on its validation groups, as its manifest has it.
+    """
+
+    model: str
+    precision: str
+    file: Path
+    served: bool
+    top1: float | None
+
+
+def bench(
+    segments: Segments,
+    folder: Path,
+    plan: Plan,
+    seed: int = 0,
+    *,
+    models: Path = MODELS_FOLDER,
+    default: str = DEFAULT_MODEL,
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Measure all; the report as `placecell bench describe` writes it.
+
+    Args:
+        segments: real-sized ones; `plan.segments` of them are drawn.
+        folder: keeps the paper's network, so that it is exported once.
+
+    Raises:
+        ValueError: there are no segments.
+    """
+    if not len(segments):
+        raise ValueError("there is no segment to describe; take a longer drive")
+    random = np.random.default_rng(seed)
+    repeated = len(segments) < plan.segments
+    drawn = segments.take(random.choice(len(segments), plan.segments, replace=repeated))
+    extractor = load_extractor(models / default, max(plan.threads))
+    parameters = extractor.manifest.parameters
+    networks = [network for name in shipped_models(models) for network in files(models / name)]
+    if not any(network.model == PAPER for network in networks):
+        networks += paper_network(folder, parameters, extractor.manifest.dimension, seed)
+
+    works: dict[Any, tuple[Work, int]] = {}
+    occupancy, extents = voxelise(drawn, parameters)
+    for network in networks:
+        # As the extractor runs it: each thread has its own session.
+        sessions = [one_thread_session(network.file) for _ in range(max(plan.threads))]
+        for batch in plan.batches:
+            for threads in plan.threads:
+                work = inference(sessions[:threads], occupancy, extents, batch)
+                works[network, batch, threads] = (work, threads)
+    for threads in plan.threads:
+        works["preprocessing", threads] = (preprocessing(drawn, parameters), threads)
+    works["points in"] = (lambda _: len(extractor.describe(drawn)), 1)
+    rates = measure(works, plan, progress)
+
+    rows = [
+        {
+            "model": network.model,
+            "precision": network.precision,
+            "served": network.served,
+            "batch": batch,
+            "threads": threads,
+            "segments_per_second": rates[network, batch, threads],
+            "top1": network.top1,
+        }
+        for network in networks
+        for batch in plan.batches
+        for threads in plan.threads
+    ]
+    return {
+        "rows": rows,
+        "points_in_descriptors_out_segments_per_second": rates["points in"],
+        "default_over_paper": ratio(rows, default, max(plan.batches), max(plan.threads)),
+        "preprocessing_segments_per_second": {
+            str(threads): rates["preprocessing", threads] for threads in plan.threads
+        },
+        "single_segment_ms": latency(extractor, drawn, plan.latencies),
+        "default": extractor.manifest.model_id,
+        "machine": machine(),
+        "seed": seed,
+        "sizes": {
+            "segments": len(drawn),
+            "of": len(segments),
+            "points_mean": float(drawn.counts.mean()),
+            "points_median": float(np.median(drawn.counts)),
+            "grid": list(parameters.grid),
+        },
+        "plan": asdict(plan),
+    }
+
+
+def town_segments(
+    folder: Path, seed: int, progress: Progress = silent, scans: int = 20
+) -> Segments:
+    """Segments of a short drive through the synthetic town; the drive is left in the folder."""
+    from town import two_robots
+
+    path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
+    return record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress).segments
+
+
+def files(folder: Path) -> Iterator[Network]:
+    """The extractor's networks in a model's folder: `model.onnx` and others, such as in int8."""
+    manifest = Manifest.load(folder)
+    for name in sorted(manifest.files):
+        if name.startswith("model") and name.endswith(".onnx"):
+            served = name == MODEL_FILE
+            # The manifest's figures are those of the file that is served.
+            top1 = manifest.figures.get("validation", {}).get("top1") if served else None
+            yield Network(manifest.name, precision(folder / name), folder / name, served, top1)
+
+
+def precision(file: Path) -> str:
+    """`int8` for a network with quantised layers, told by its nodes' names, otherwise `fp32`."""
+    return "int8" if b"QuantizeLinear" in file.read_bytes() else "fp32"
+
+
+def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: int) -> list[Network]:
+    """The paper's network with random weights: as fast as a trained one. Empty without torch."""
+    file = folder / f"paper-{dimension}.onnx"
+    if not file.exists():
+        try:
+            import torch
+        except ImportError:
+            return []
+        from training.export import Exported, export_onnx
+        from training.networks import DIMENSION, DescriptorNetwork
+
+        torch.manual_seed(seed)
+        mean = np.zeros(parameters.grid, np.float32)
+        network = DescriptorNetwork(PAPER, mean, np.ones_like(mean))
+        axes = np.eye(DIMENSION, dimension, dtype=np.float32)
+        folder.mkdir(parents=True, exist_ok=True)
+        unfinished = file.with_suffix(".unfinished")
+        exported = Exported(network, np.zeros(DIMENSION, np.float32), axes)
+        export_onnx(exported, parameters.grid, unfinished)
+        unfinished.replace(file)
+    return [Network(PAPER, "fp32", file, served=True, top1=None)]
+
+
+def inference(
+    sessions: Sequence[onnxruntime.InferenceSession],
+    occupancy: UInt8,
+    extents: Float32,
+    batch: int,
+) -> Work:
+    """One batch through a network, another each time; the sessions take turns."""
+    batch = min(batch, len(occupancy))
+    places = len(occupancy) // batch
+
+    def work(number: int) -> int:
+        part = slice(number % places * batch, (number % places + 1) * batch)
+        inputs = {"occupancy": occupancy[part], "extents": extents[part]}
+        # `rate` counts in steps of the threads, so that a thread stays with its session.
+        sessions[number % len(sessions)].run(["descriptor"], inputs)
+        return batch
+
+    return work
+
+
+def preprocessing(segments: Segments, parameters: Parameters, batch: int = 64) -> Work:
+    """Alignment and voxelisation of a batch, another each time."""
+    parts = [
+        segments.take(np.arange(first, min(first + batch, len(segments))))
+        for first in range(0, len(segments), batch)
+    ]
+
+    def work(number: int) -> int:
+        part = parts[number % len(parts)]
+        voxelise(part, parameters)
+        return len(part)
+
+    return work
+
+
+def measure(works: dict[Any, tuple[Work, int]], plan: Plan, progress: Progress) -> dict[Any, float]:
+    """Segments a second of each work, by so many threads: the median of the repeats."""
+    rates: dict[Any, list[float]] = {key: [] for key in works}
+    with ThreadPoolExecutor(max(threads for _, threads in works.values())) as pool:
+        for work, threads in works.values():
+            rate(pool, work, threads, 0)  # the first runs allocate and compile
+        for _ in progress(range(plan.repeats), plan.repeats, "measuring"):
+            for key, (work, threads) in works.items():
+                rates[key].append(rate(pool, work, threads, plan.seconds))
+    return {key: round(float(np.median(each)), 1) for key, each in rates.items()}
+
+
+def rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: float) -> float:
+    """Segments a second of threads that do the work for so long, and once at least."""
+
+    def one(first: int) -> float:
+        start, done, number = perf_counter(), 0, first
+        while True:
+            done += work(number)
+            number += threads
+            elapsed = perf_counter() - start
+            if elapsed >= seconds:
+                # Each by its own clock: none waits for the last batch of another.
+                return done / elapsed
+
+    return sum(pool.map(one, range(threads)))
+
+
+def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:
+    """Milliseconds from the points of a single segment to its descriptor: p50 and p99."""
+    times = []
+    for number in range(count):
+        single = segments.take([number % len(segments)])
+        start = perf_counter()
+        extractor.describe(single)
+        times.append(1e3 * (perf_counter() - start))
+    p50, p99 = np.percentile(times, [50, 99])
+    return {"p50": round(float(p50), 3), "p99": round(float(p99), 3)}
+
+
+def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int) -> float | None:
+    """How many times the paper's rate the default model reaches; None if either is not there."""
+    found = {
+        row["model"]: row["segments_per_second"]
+        for row in rows
+        if row["served"] and (row["batch"], row["threads"]) == (batch, threads)
+    }
+    if default not in found or PAPER not in found:
+        return None
+    return round(float(found[default] / found[PAPER]), 2)
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """Accuracy against speed of every network, at the largest batch on all threads, as a PNG."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    most = (max(report["plan"]["batches"]), max(report["plan"]["threads"]))
+    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
+    for row in report["rows"]:
+        if (row["batch"], row["threads"]) != most:
+            continue
+        speed, name = row["segments_per_second"], f"{row['model']} {row['precision']}"
+        if row["top1"] is None:
+            axes.axvline(speed, color="grey", linestyle=":")
+            axes.annotate(f"{name}: accuracy not known", (speed, 0.02), rotation=90, ha="right")
+        else:
+            axes.plot(speed, row["top1"], "o", color="#1b9e77")
+            axes.annotate(name, (speed, row["top1"]), (5, 5), textcoords="offset points")
+    axes.set(
+        xscale="log",
+        ylim=(0, 1),
+        xlabel=f"inference, segments a second (batch {most[0]}, {most[1]} threads)",
+        ylabel="top1 on the model's validation groups",
+        title=report["machine"]["processor"],
+    )
+    axes.margins(x=0.3)
+    axes.grid(alpha=0.3)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, dpi=150)
+    plt.close(figure)
