@@ -25,7 +25,7 @@ from training.training_set import TrainingSet
 class GroupBasedRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    epochs: int = 50
+    epochs: int = 60
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
     fewest_segments: int = 2
