@@ -1,5 +1,6 @@
 """`placecell experiments`: the paper's experiments, from trainings to the report."""
 
+import shlex
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -36,6 +37,13 @@ def experiments(
         ),
     ] = None,
     seeds: Annotated[int, typer.Option(min=1, help="Trainings on the first network.")] = 3,
+    epochs: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            help="Of every training. (default: each method's own, fewer on the paper network)",
+        ),
+    ] = None,
     quick: Annotated[
         bool,
         typer.Option("--quick", help="A smoke run: few epochs, one seed, the fast network alone."),
@@ -52,15 +60,21 @@ def experiments(
     from rich.progress import Progress
 
     with clear_errors():
-        from training.experiments import Plan, run_experiments
+        from training.experiments import run_experiments
+        from training.plan import Plan
         from training.report import write_report
 
-    plan = Plan(seeds=seeds)
-    if network:
-        plan = Plan(networks=tuple(network), seeds=seeds)
+    plan = Plan(networks=tuple(network or Plan().networks), seeds=seeds, epochs=epochs)
     if quick:
-        plan = Plan(networks=("fast",), seeds=1, dropouts=(0.0, 0.5), epochs=2)
+        plan = Plan(networks=("fast",), seeds=1, dropouts=(0.0, 0.5), epochs=epochs or 2)
     folder = output or Path("out/experiments-quick" if quick else "out/experiments")
+    words = ["placecell", "experiments", *(f"--train={name(text)}" for text in train or ())]
+    words += [f"--test={name(test)}"] if test else []
+    words += [f"--network={each}" for each in network or ()]
+    words += [f"--seeds={seeds}"] if seeds != Plan().seeds else []
+    words += [f"--epochs={epochs}"] if epochs else []
+    words += ["--quick"] if quick else []
+    command = shlex.join(words)
     with clear_errors():
         if bool(train) != bool(test):
             raise ValueError("give both --train and --test, or neither for the synthetic town")
@@ -69,9 +83,16 @@ def experiments(
         else:
             training_sources, test_source = town_sources(scans=60 if quick else 400)
         with Progress() as progress:
-            report = run_experiments(training_sources, test_source, plan, folder, licence, progress)
+            report = run_experiments(
+                training_sources, test_source, plan, folder, licence, command, progress
+            )
         file = write_report(report, folder)
     typer.echo(f"report: {file}")
+
+
+def name(source: str) -> str:
+    """A source as it is told to others: without the folders it lies in."""
+    return source.rpartition("/")[2]
 
 
 def town_sources(scans: int) -> tuple[list["Source"], "Source"]:

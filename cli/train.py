@@ -1,7 +1,5 @@
 """`placecell train`: an extractor from drives, by one of the paper's methods."""
 
-import shlex
-from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -61,14 +59,13 @@ def train(
 
     options = ["--network", network] if network != "fast" else []
     options += ["--epochs", str(epochs)] if epochs else []
-    names = [text.rpartition("/")[2].replace(".safetensors", "") for text in sources]
-    command = ["placecell", "train", method, *names, "--seed", str(seed), *options]
-    command += ["--licence", licence]
     folder = output or MODELS_FOLDER / method
     with clear_errors():
-        from training.publishing import collect, publish_eigenvalue
+        from training.publishing import collect, publish_eigenvalue, retraining
 
-        data = collect([source(text) for text in sources], seed, licence, shlex.join(command))
+        parts = [source(text) for text in sources]
+        command = retraining(method, parts, licence, seed, *options)
+        data = collect(parts, licence).stating(seed=seed, command=command)
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
         else:
@@ -99,5 +96,4 @@ def learn(
     with Progress() as progress:
         run = Run(checkpoints, seed, fingerprint(data, method, network, epochs), progress)
         trained = methods.train(method, data.training, data.validation, run, network, epochs=epochs)
-    provenance = data.provenance | {"seconds": round(run.seconds, 1)}
-    return publish_network(folder, trained, replace(data, provenance=provenance))
+    return publish_network(folder, trained, data.stating(**run.cost()))

@@ -1,5 +1,6 @@
 """A model's card: what a reader must know before using it, written from its manifest."""
 
+import textwrap
 from pathlib import Path
 
 from segments.manifest import Manifest
@@ -34,11 +35,12 @@ descriptors as stored; not comparable with a test drive, for there are fewer gro
 {figures}
 
 Pairs are judged by: {pair_kind} (AUC on held-out groups by kind: {pair_auc}).
-Stated probabilities are off by {calibration_error:.3f} on average.
+Stated probabilities, of held-out segments with each of their {nearest} nearest among {database:,},
+are off by {calibration_error:.3f} on average.
 
 ## Train it again
 
-    {command}
+{command}
 """
 
 WHAT = {
@@ -80,7 +82,9 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             figures="\n".join(figures),
             pair_kind=manifest.pair["kind"],
             pair_auc=", ".join(f"{name} {auc:.3f}" for name, auc in manifest.pair["auc"].items()),
+            nearest=manifest.pair["nearest"],
+            database=manifest.pair["database"],
             calibration_error=manifest.pair["calibration_error"],
-            command=training["command"],
+            command=textwrap.indent(training["command"], "    "),
         )
     )

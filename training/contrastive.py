@@ -116,10 +116,12 @@ def train(
     model = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     steps = len(training) // recipe.sgd.batch
     optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
+    descriptors = None
     for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
         random = run.random(epoch)
-        descriptors = describe(model, training)
         if recipe.hard and epoch:
+            if descriptors is None:  # this run was stopped, and goes on
+                descriptors = describe(model, training)
             matches, others = hard_pairs(descriptors, training.groups, recipe.hardest, random)
         else:
             matches, others = random_pairs(training.groups, random)
@@ -145,6 +147,7 @@ def train(
             optimiser.step()
             schedule.step()
             losses.append(loss.item())
+        descriptors = describe(model, training)
         run.note(
             loss=float(np.mean(losses)),
             top1=top1(descriptors, training.groups),

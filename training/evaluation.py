@@ -13,7 +13,7 @@ from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder
 from segments.pairs import PairClassifier, load_pair_classifier
 from segments.recording import Recording
 from segments.segments import Segments
-from segments.types import Int64
+from segments.types import Int8, Int64
 from training import recognition
 
 
@@ -42,6 +42,9 @@ def measure(
         "cross_view_queries": int(crossed.has_mate.sum()),
         "recall_at_25": mean(found.recalled[found.has_mate]),
     }
+    if classifier is not None:
+        nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
+        figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
     positive, negative = recognition.draw_pairs(
         groups, recognition.PAIRS, np.random.default_rng(seed)
     )
@@ -66,6 +69,16 @@ def measure(
             "pair_by": "classifier",
         }
     return figures | paired | by_distance
+
+
+def calibration_error(
+    classifier: PairClassifier, codes: Int8, matches: Int64, others: Int64
+) -> float:
+    """How far the stated probabilities of these pairs are off, on average."""
+    pairs = np.concatenate([matches, others])
+    stated = classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
+    truth = np.repeat([1.0, 0.0], [len(matches), len(others)])
+    return recognition.expected_calibration_error(stated, truth)[0]
 
 
 PAIR_FIGURES = (

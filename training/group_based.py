@@ -13,6 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from segments.types import Int64
 from training.augmentation import Augmentation
 from training.networks import DIMENSION, DescriptorNetwork, describe, normalisation_statistics
 from training.recognition import top1
@@ -29,7 +30,8 @@ class GroupBasedRecipe:
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
     fewest_segments: int = 2
-    label_smoothing: float = 0.0
+    held_out: float = 0.05
+    """Of the segments in groups of four or more: never trained on, to follow the classification."""
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
@@ -44,7 +46,10 @@ class GroupClassifier(nn.Module):
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
         """Logits, float32 (n, groups)."""
-        descriptors = self.network(occupancy, extents)
+        return self.classify(self.network(occupancy, extents))
+
+    def classify(self, descriptors: Tensor) -> Tensor:
+        """Logits, float32 (n, groups), of descriptors (n, 64)."""
         cosines = descriptors @ nn.functional.normalize(self.groups, dim=1).T
         logits: Tensor = cosines * self.log_scale.exp()
         return logits
@@ -60,7 +65,8 @@ def train(
     """Train a descriptor network as a classifier of groups.
 
     The history holds, for each epoch, the loss, the classification accuracy on the altered copies
-    trained on, and the validation groups' top-1 (nearest descriptor of the same group).
+    trained on and on held-out segments of the same groups (figure 3 a), and the top-1 in the
+    validation groups, which are no classes (nearest descriptor of the same group).
     """
     recipe = recipe or GroupBasedRecipe()
     torch.manual_seed(run.seed)
@@ -68,12 +74,14 @@ def train(
     mean, deviation = normalisation_statistics(classes)
     extractor = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     model = GroupClassifier(extractor, len(classes.group_sizes()))
-    steps = len(classes) // recipe.sgd.batch
+    held_out = held_out_segments(classes, recipe.held_out, np.random.default_rng(run.seed))
+    learned = np.setdiff1d(np.arange(len(classes)), held_out)
+    steps = len(learned) // recipe.sgd.batch
     optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
-    cross_entropy = nn.CrossEntropyLoss(label_smoothing=recipe.label_smoothing)
+    cross_entropy = nn.CrossEntropyLoss()
     for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
         random = run.random(epoch)
-        order = random.permutation(len(classes))
+        order = random.permutation(learned)
         losses, right = [], 0
         model.train()
         for step in range(steps):
@@ -93,6 +101,33 @@ def train(
         run.note(
             loss=np.mean(losses),
             accuracy=right / (steps * recipe.sgd.batch),
+            **classification_accuracy(model, classes, held_out),
             validation_top1=top1(describe(extractor, validation), validation.groups),
         )
     return extractor
+
+
+def held_out_segments(classes: TrainingSet, share: float, random: np.random.Generator) -> Int64:
+    """A share of the segments whose groups have at least three others left to learn from."""
+    held_out: list[int] = []
+    left = classes.group_sizes()
+    for segment in random.permutation(len(classes)):
+        if len(held_out) >= share * len(classes):
+            break
+        group = classes.groups[segment]
+        if left[group] > 3:
+            left[group] -= 1
+            held_out.append(int(segment))
+    return np.array(sorted(held_out), dtype=np.int64)
+
+
+@torch.no_grad()
+def classification_accuracy(
+    model: GroupClassifier, classes: TrainingSet, held_out: Int64
+) -> dict[str, float]:
+    """Share of held-out segments, as they are, told to be of their group; nothing if none are."""
+    if not len(held_out):
+        return {}
+    descriptors = torch.from_numpy(describe(model.network, classes.take(held_out)))
+    told = model.classify(descriptors).argmax(dim=1).numpy()
+    return {"validation_accuracy": float((told == classes.groups[held_out]).mean())}

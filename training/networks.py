@@ -144,10 +144,18 @@ class DescriptorNetwork(nn.Module):
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
         """Descriptors of length one, float32 (n, 64)."""
-        features = self.trunk(self.normalisation(occupancy))
+        # bfloat16 halves a training's time where the processor has it; what is exported is float32.
+        mixed = self.training and has_bfloat16()
+        with torch.autocast("cpu", torch.bfloat16, enabled=mixed):
+            features = self.trunk(self.normalisation(occupancy)).float()
         # The extents give back the size of what the grid cut off; log1p keeps walls in scale.
         features = torch.cat([self.dropout(features), torch.log1p(extents)], dim=1)
         return nn.functional.normalize(self.descriptor(features), dim=1)
+
+
+def has_bfloat16() -> bool:
+    """Whether the processor multiplies bfloat16 itself; emulated, it would be slower."""
+    return bool(torch.cpu.get_capabilities().get("avx512_bf16", False))
 
 
 def normalisation_statistics(data: TrainingSet) -> tuple[Float32, Float32]:

@@ -3,8 +3,12 @@
 The paper trains a random forest on the two concatenated descriptors, which makes the answer
 depend on their order; that form is kept for the report. What is served is symmetric: a forest on
 the distance in each dimension, a logistic curve over the plain distance, or the Siamese's own third
-network. All are calibrated on validation groups, and plain distance is the control: a classifier
-that does not tell pairs apart better than distance does is not served.
+network. Plain distance is the control: a classifier that does not tell pairs apart better than
+distance does is not served.
+
+The kinds are compared on as many matches as non-matches, drawn at random, as the paper does. The
+probability is calibrated on what a robot asks about: held-out segments and their nearest in a
+large map, nearly all of which look alike.
 """
 
 from collections.abc import Callable
@@ -22,7 +26,7 @@ from torch import Tensor, nn
 
 from segments.types import Float32, Float64, Int64
 from training.export import to_onnx
-from training.recognition import area_under_roc, best_threshold
+from training.recognition import area_under_roc, best_threshold, expected_calibration_error
 
 TREES = 60
 LEAF = 20
@@ -53,6 +57,19 @@ class Pairs:
     def distances(self) -> Float64:
         """Euclidean, float64 (n,)."""
         return np.asarray(np.linalg.norm(self.a.astype(np.float64) - self.b, axis=1))
+
+
+@dataclass(frozen=True, slots=True)
+class HeldOut:
+    """Pairs of segments that nothing was learned from.
+
+    Attributes:
+        drawn: as many matches as non-matches, drawn at random.
+        nearest: each segment with its nearest in a database; that is what is asked in service.
+    """
+
+    drawn: Pairs
+    nearest: Pairs
 
 
 def concatenated(pairs: Pairs) -> Float32:
@@ -93,37 +110,17 @@ class Calibration:
     @classmethod
     def fit(cls, scores: Float64, matches: Float64) -> "Calibration":
         """By logistic regression on pairs that the score was not trained on."""
-        fitted = LogisticRegression(C=1e6, max_iter=1000).fit(scores[:, None], matches)
-        return cls(float(fitted.coef_[0, 0]), float(fitted.intercept_[0]))
+        if len(np.unique(matches)) == 2:
+            fitted = LogisticRegression(C=1e6, max_iter=1000).fit(scores[:, None], matches)
+            if fitted.coef_[0, 0] > 0:
+                return cls(float(fitted.coef_[0, 0]), float(fitted.intercept_[0]))
+        # The score says nothing here; what is left to state is how often there is a match at all.
+        rate = (matches.sum() + 1) / (len(matches) + 2)
+        return cls(0.0, float(np.log(rate / (1 - rate))))
 
     def apply(self, scores: Float64) -> Float64:
         """Probabilities of a match."""
         return np.asarray(1 / (1 + np.exp(-(self.slope * scores + self.offset))))
-
-
-def expected_calibration_error(
-    probability: Float64, matches: Float64, bins: int = 10
-) -> tuple[float, list[tuple[float, float, int]]]:
-    """How far the stated probabilities are off, and the reliability diagram's points.
-
-    Returns:
-        the mean of |stated - true| weighted by count; and for each filled bin of equal width the
-        mean stated probability, the share of matches, and the count.
-    """
-    which = np.minimum((probability * bins).astype(int), bins - 1)
-    points = []
-    for index in range(bins):
-        inside = which == index
-        if inside.any():
-            points.append(
-                (
-                    float(probability[inside].mean()),
-                    float(matches[inside].mean()),
-                    int(inside.sum()),
-                )
-            )
-    error = sum(abs(stated - true) * count for stated, true, count in points) / len(matches)
-    return error, points
 
 
 class DistanceGraph(nn.Module):
@@ -228,8 +225,8 @@ def forest_graph(
 
 def choose(
     training: Pairs,
-    calibration: Pairs,
-    selection: Pairs,
+    calibration: HeldOut,
+    selection: HeldOut,
     head: tuple[nn.Module, Float32, Float32] | None,
     file: Path,
 ) -> dict[str, Any]:
@@ -243,12 +240,11 @@ def choose(
         file: gets the ONNX graph.
 
     Returns:
-        For the manifest: `kind`, `threshold` of the probability, and on the selection pairs the
-        `auc` of every kind, the paper's forest among them, and the `calibration_error` and
-        `reliability` (stated, true, pairs) of the one chosen.
+        For the manifest: `kind`, `threshold` of the probability that tells drawn pairs apart best,
+        and on the selection pairs: the `auc` of every kind over drawn pairs, and of the kind chosen
+        the `calibration_error` and the `reliability` (stated, true, pairs) over nearest ones.
     """
     forest = train_forest(training, symmetric, seed=0)
-    paper_forest = train_forest(training, concatenated, seed=0)
 
     def by_forest(pairs: Pairs) -> Float64:
         return log_odds(forest.predict_proba(symmetric(pairs))[:, 1])
@@ -260,14 +256,15 @@ def choose(
     if head is not None:
         third_network = HeadGraph(*head, Calibration(1.0, 0.0))
         scores["siamese head"] = third_network.scores
-    is_match = selection.matches > 0.5
+    is_match = selection.drawn.matches > 0.5
 
     def auc(values: Float64) -> float:
         return area_under_roc(values[is_match], values[~is_match])
 
-    compared = {name: auc(score(selection)) for name, score in scores.items()}
+    compared = {name: auc(score(selection.drawn)) for name, score in scores.items()}
     kind = max(compared, key=lambda name: compared[name])
-    fitted = Calibration.fit(scores[kind](calibration), calibration.matches)
+    score = scores[kind]
+    fitted = Calibration.fit(score(calibration.nearest), calibration.nearest.matches)
     dimension = training.a.shape[1]
     if kind == "forest":
         onnx.save(forest_graph(forest, fitted, dimension), file)
@@ -277,15 +274,14 @@ def choose(
     else:
         assert head is not None
         export_pair(HeadGraph(*head, fitted), dimension, file)
-    probability = fitted.apply(scores[kind](selection))
-    error, reliability = expected_calibration_error(probability, selection.matches)
-    paper = paper_forest.predict_proba(concatenated(selection))[:, 1]
-    on_calibration = fitted.apply(scores[kind](calibration))
-    truth = calibration.matches > 0.5
+    probability = fitted.apply(score(selection.nearest))
+    error, reliability = expected_calibration_error(probability, selection.nearest.matches)
+    drawn = fitted.apply(score(calibration.drawn))
+    truth = calibration.drawn.matches > 0.5
     return {
         "kind": kind,
-        "threshold": -best_threshold(-on_calibration[truth], -on_calibration[~truth]),
-        "auc": compared | {"paper forest, concatenated": auc(paper)},
+        "threshold": -best_threshold(-drawn[truth], -drawn[~truth]),
+        "auc": compared,
         "calibration_error": error,
         "reliability": reliability,
     }

@@ -5,13 +5,17 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from training.siamese import SiameseRecipe
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Models = dict[str, dict[str, Any]]
 
 CURVES = {
-    "group": ("accuracy", "validation_top1", "classification accuracy; validation: top-1"),
+    "group": ("accuracy", "validation_accuracy", "classification accuracy"),
     "siamese": ("accuracy", "validation_accuracy", "accuracy over pairs"),
     "contrastive": ("top1", "validation_top1", "top-1"),
 }
@@ -48,7 +52,8 @@ def training_curves(models: Models, network: str, file: Path) -> None:
                     (training, "C0", "training"),
                     (validation, "C1", "validation"),
                 ):
-                    values = [epoch[key] for epoch in model["history"]]
+                    # Where no group was large enough, no segment could be held out.
+                    values = [epoch.get(key, np.nan) for epoch in model["history"]]
                     shown = name if model["seed"] == 0 else None
                     place.plot(epochs, values, color=colour, label=shown, linewidth=1)
             place.set(title=method, xlabel="epoch", ylabel=label, ylim=(0, 1))
@@ -63,9 +68,12 @@ def roc_curves(models: Models, file: Path) -> None:
             if model["seed"] == 0 and not model["ablation"]:
                 rates = list(zip(*model["roc"], strict=True))
                 axes.plot(*rates, label=f"{name}: {model['figures']['pair_auc']:.3f}")
+                forest = list(zip(*model["paper_forest"]["roc"], strict=True))
+                label = f"  by the paper's forest: {model['paper_forest']['auc']:.3f}"
+                axes.plot(*forest, "--", color=axes.lines[-1].get_color(), label=label, linewidth=1)
         axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
         axes.set(xlabel="false positive rate", ylabel="true positive rate", title="pairs")
-        axes.legend(loc="lower right", fontsize=8, title="area under the curve")
+        axes.legend(loc="lower right", fontsize=7, title="area under the curve")
         axes.grid(alpha=0.3)
 
 
@@ -99,11 +107,25 @@ def distance_distributions(models: Models, names: list[str], file: Path) -> None
             place.legend()
 
 
-def overfitting(models: Models, file: Path) -> None:
+def dropout(model: dict[str, Any]) -> float:
+    """Of a Siamese training, as it was changed or as the recipe has it."""
+    return float(model["changes"].get("dropout", SiameseRecipe().dropout))
+
+
+def by_dropout(models: Models, network: str) -> list[dict[str, Any]]:
+    """The Siamese of seed 0 with each dropout, least first."""
+    swept = [
+        model
+        for model in models.values()
+        if (model["method"], model["network"], model["seed"]) == ("siamese", network, 0)
+    ]
+    return sorted(swept, key=dropout)
+
+
+def overfitting(models: Models, network: str, file: Path) -> None:
     """Siamese training and validation accuracy, by dropout."""
     with figure(file, size=5.5) as (axes,):
-        swept = [m for m in models.values() if m["ablation"].startswith("dropout-")]
-        for index, model in enumerate(swept):
+        for index, model in enumerate(by_dropout(models, network)):
             epochs = range(1, len(model["history"]) + 1)
             for key, style in (("accuracy", "-"), ("validation_accuracy", "--")):
                 axes.plot(
@@ -111,7 +133,7 @@ def overfitting(models: Models, file: Path) -> None:
                     [epoch[key] for epoch in model["history"]],
                     style,
                     color=f"C{index}",
-                    label=f"{model['ablation'].replace('-', ' ')}, {key.replace('_', ' ')}",
+                    label=f"dropout {dropout(model)}, {key.replace('_', ' ')}",
                 )
         axes.set(xlabel="epoch", ylabel="accuracy over pairs", title="Siamese, regularisation")
         axes.legend(fontsize=8)
@@ -119,7 +141,7 @@ def overfitting(models: Models, file: Path) -> None:
 
 
 def reliability(models: Models, file: Path) -> None:
-    """Stated against true probability of a match, on held-out groups."""
+    """Stated against true probability of a match, of held-out segments and their nearest."""
     with figure(file, size=5.5) as (axes,):
         axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
         for name, model in models.items():

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import shlex
 import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -16,7 +17,7 @@ from segments.extractor import MODEL_FILE, Extractor, load_extractor
 from segments.manifest import PAIR_FILE, Manifest, preprocessing_of
 from segments.pairs import load_pair_classifier
 from segments.quantiser import Quantiser
-from segments.types import Float32
+from segments.types import Float32, Int64
 from training import recognition
 from training.card import write_card
 from training.evaluation import machine, measure
@@ -26,6 +27,8 @@ from training.training_set import Source, TrainingSet
 
 VALIDATION_SHARE = 0.1
 """Of the groups, held out whole."""
+
+SPLIT_SEED = 0
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
@@ -45,22 +48,26 @@ class Data:
     validation: TrainingSet
     provenance: dict[str, Any]
 
+    def stating(self, **facts: object) -> "Data":
+        """The same, its provenance saying more: `seed`, `seconds`, `command`."""
+        return replace(self, provenance=self.provenance | facts)
 
-def collect(sources: Sequence[Source], seed: int, licence: str, command: str) -> Data:
+
+def collect(sources: Sequence[Source], licence: str) -> Data:
     """Training and validation set from parts of recordings, and what the manifest says of them.
 
+    The split is the same whatever a training's seed, so that seeds compare.
+
     Args:
-        seed: of the split; stated as the training's, too.
         licence: of the drives.
-        command: that makes the model again.
 
     Raises:
         ValueError: there are too few groups to train on.
     """
-    training, validation = TrainingSet.of(sources).split(VALIDATION_SHARE, seed)
+    training, validation = TrainingSet.of(sources).split(VALIDATION_SHARE, SPLIT_SEED)
     # The validation groups are halved for calibration: each half must hold pairs of both kinds,
     # and it is better to know before the training than after it.
-    halves = validation.split(0.5, seed=0)
+    halves = map(validation.take, validation.halves(0.5, seed=0))
     if not all(has_pairs(part) for part in (training, *halves)):
         raise ValueError(
             f"{len(training) + len(validation)} segments in too few groups to train on; "
@@ -75,12 +82,28 @@ def collect(sources: Sequence[Source], seed: int, licence: str, command: str) ->
             "groups": len(training.group_sizes()),
             "validation_share": VALIDATION_SHARE,
             "licence": licence,
-            "seed": seed,
+            "seed": 0,
             "seconds": 0.0,
             "machine": machine(),
-            "command": command,
+            "command": "",
         },
     )
+
+
+def retraining(
+    method: str, sources: Sequence[Source], licence: str, seed: int, *options: object
+) -> str:
+    """The commands that train a model again, from the drives on."""
+    lines, prepared = [], []
+    for source in sources:
+        recording, file = source.recording, f"data/{source.recording.name}.safetensors"
+        step = recording.parameters.frame_step
+        lines.append(f"placecell prepare {shlex.quote(recording.name)} --every {step} -o data")
+        whole_drive = (source.first, source.last) == (0, recording.scans - 1)
+        prepared.append(file if whole_drive else f"{file}@{source.first}:{source.last}")
+    words = ["placecell", "train", method, *prepared, "--seed", seed, *options]
+    lines.append(shlex.join(map(str, [*words, "--licence", licence])))
+    return "\n".join(dict.fromkeys(lines))
 
 
 def fingerprint(data: Data, *settings: object) -> str:
@@ -152,24 +175,35 @@ def finish(
     folder: Path, manifest: Manifest, data: Data, head: tuple[Any, Float32, Float32] | None
 ) -> Manifest:
     """Add pair classifier and thresholds, measure on the validation groups, as stored; save."""
-    from training.pair_classifier import Pairs, choose
+    from training.pair_classifier import HeldOut, Pairs, choose
 
     manifest.save(folder)
     extractor = load_extractor(folder)
 
-    def pairs_of(part: TrainingSet) -> Pairs:
+    def pairs_of(part: TrainingSet, descriptors: Float32) -> Pairs:
         drawn = recognition.draw_pairs(part.groups, recognition.PAIRS, np.random.default_rng(0))
-        return Pairs.of(stored_descriptors(extractor, part), *drawn)
+        return Pairs.of(descriptors, *drawn)
 
-    calibration, selection = data.validation.split(0.5, seed=0)
-    chosen = choose(
-        pairs_of(data.training),
-        pairs_of(calibration),
-        pairs_of(selection),
-        head,
-        folder / PAIR_FILE,
+    learned, held_out = (
+        stored_descriptors(extractor, part) for part in (data.training, data.validation)
     )
-    distances = pairs_of(data.validation)
+    # A map as large as can be had: everything, so that what is held out has strangers to confuse.
+    database = np.concatenate([held_out, learned])
+    last = int(data.validation.groups.max())
+    groups = np.concatenate([data.validation.groups, data.training.groups + last + 1])
+
+    def half(queries: Int64) -> HeldOut:
+        nearest = recognition.nearest_pairs(database, groups, queries)
+        return HeldOut(
+            pairs_of(data.validation.take(queries), held_out[queries]),
+            Pairs.of(database, *nearest),
+        )
+
+    calibration, selection = map(half, data.validation.halves(0.5, seed=0))
+    chosen = choose(
+        pairs_of(data.training, learned), calibration, selection, head, folder / PAIR_FILE
+    ) | {"database": len(database), "nearest": recognition.CANDIDATES}
+    distances = pairs_of(data.validation, held_out)
     is_match = distances.matches > 0.5
     lengths = distances.distances()
     manifest = replace(

@@ -106,6 +106,27 @@ def draw_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[
     return positive, negative
 
 
+def nearest_pairs(
+    descriptors: Float32, groups: Int64, queries: Int64, candidates: int = CANDIDATES
+) -> tuple[Int64, Int64]:
+    """Each query with its nearest of all others: matches and non-matches, int64 (n, 2) each.
+
+    Together they are as many as queries times candidates, or all there are.
+    """
+    matches, others = [], []
+    squared = np.einsum("ij,ij->i", descriptors, descriptors)
+    several = min(candidates, len(descriptors) - 1)
+    for rows in np.array_split(queries, max(1, len(queries) // 500)):
+        distances = squared[None] - 2 * descriptors[rows] @ descriptors.T
+        distances[np.arange(len(rows)), rows] = np.inf
+        nearest = np.argpartition(distances, several - 1, axis=1)[:, :several]
+        pairs = np.stack([np.repeat(rows, several), nearest.reshape(-1)], axis=1)
+        match = groups[pairs[:, 0]] == groups[pairs[:, 1]]
+        matches.append(pairs[match])
+        others.append(pairs[~match])
+    return np.concatenate(matches), np.concatenate(others)
+
+
 def pair_distances(descriptors: Float32, pairs: Int64) -> Float64:
     """Euclidean distances of pairs, float64 (pairs,)."""
     offsets = descriptors[pairs[:, 0]].astype(np.float64) - descriptors[pairs[:, 1]]
@@ -132,3 +153,28 @@ def best_threshold(positive: Float64, negative: Float64) -> float:
 def accuracy_at(threshold: float, positive: Float64, negative: Float64) -> float:
     """Share of pairs told right when nearer than the threshold means a match."""
     return float(((positive <= threshold).mean() + (negative > threshold).mean()) / 2)
+
+
+def expected_calibration_error(
+    probability: Float64, matches: Float64, bins: int = 10
+) -> tuple[float, list[tuple[float, float, int]]]:
+    """How far the stated probabilities are off, and the reliability diagram's points.
+
+    Returns:
+        the mean of |stated - true| weighted by count; and for each filled bin of equal width the
+        mean stated probability, the share of matches, and the count.
+    """
+    which = np.minimum((probability * bins).astype(int), bins - 1)
+    points = []
+    for index in range(bins):
+        inside = which == index
+        if inside.any():
+            points.append(
+                (
+                    float(probability[inside].mean()),
+                    float(matches[inside].mean()),
+                    int(inside.sum()),
+                )
+            )
+    error = sum(abs(stated - true) * count for stated, true, count in points) / len(matches)
+    return error, points

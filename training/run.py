@@ -77,9 +77,10 @@ class Run:
         if self.progress is not None:
             task = self.progress.add_task("training", total=count, completed=len(self.history))
         for epoch in range(len(self.history), count):
-            started = time.monotonic()
+            started, computed = time.monotonic(), time.process_time()
             yield epoch
             self.history[-1]["seconds"] = round(time.monotonic() - started, 2)
+            self.history[-1]["cpu_seconds"] = round(time.process_time() - computed, 2)
             unfinished = checkpoint.with_suffix(".unfinished")
             state = {name: part.state_dict() for name, part in parts.items()}
             torch.save(state | {"history": self.history, "identity": self.identity}, unfinished)
@@ -89,10 +90,12 @@ class Run:
                 shown = ", ".join(f"{name} {value:.3f}" for name, value in self.history[-1].items())
                 self.progress.update(task, advance=1, description=f"epoch {epoch + 1}: {shown}")
 
-    @property
-    def seconds(self) -> float:
-        """Spent on all epochs, those before a stop included."""
-        return sum(epoch["seconds"] for epoch in self.history)
+    def cost(self) -> Figures:
+        """Seconds of all epochs, those before a stop included: by the clock and of all cores."""
+        return {
+            key: round(sum(epoch[key] for epoch in self.history), 1)
+            for key in ("seconds", "cpu_seconds")
+        }
 
     def note(self, **figures: float) -> None:
         """Add an epoch's figures to the history."""

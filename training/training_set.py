@@ -1,7 +1,7 @@
 """The training set: distinct segments of one or several recordings, with their groups."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,21 @@ class Source:
         }
 
 
+def check_apart(sources: Sequence[Source]) -> None:
+    """See that no scan stands in two of these.
+
+    Raises:
+        ValueError: one does.
+    """
+    seen: dict[str, str] = {}
+    for source in sources:
+        name = f"{source.recording.name} scans {source.first} to {source.last}"
+        hashes = set(source.recording.scan_hashes[source.first : source.last + 1])
+        for scan in hashes & seen.keys():
+            raise ValueError(f"{name} shares scans with {seen[scan]}; take each scan once")
+        seen |= dict.fromkeys(hashes, name)
+
+
 @dataclass(frozen=True, slots=True)
 class TrainingSet:
     """Distinct segments with labels.
@@ -52,7 +67,16 @@ class TrainingSet:
 
     @classmethod
     def of(cls, sources: Sequence[Source]) -> "TrainingSet":
-        """From parts of recordings."""
+        """From parts of recordings.
+
+        Raises:
+            ValueError: a scan stands in two of them, or they were cut with other constants.
+        """
+        check_apart(sources)
+        if len({replace(source.recording.parameters, frame_step=1) for source in sources}) > 1:
+            raise ValueError(
+                "the recordings were cut with different constants; prepare them anew together"
+            )
         parts, groups, count = [], [], 0
         for source in sources:
             indices = source.indices()
@@ -82,6 +106,11 @@ class TrainingSet:
 
     def split(self, share: float, seed: int) -> tuple["TrainingSet", "TrainingSet"]:
         """Training and validation set: a share of the groups, whole, is held out."""
+        learned, held_out = self.halves(share, seed)
+        return self.take(learned), self.take(held_out)
+
+    def halves(self, share: float, seed: int) -> tuple[Int64, Int64]:
+        """Indices of the segments of most groups, and of a share of the groups, drawn at random."""
         groups = np.random.default_rng(seed).permutation(len(self.group_sizes()))
         held_out = np.isin(self.groups, groups[: round(share * len(groups))])
-        return self.take(np.flatnonzero(~held_out)), self.take(np.flatnonzero(held_out))
+        return np.flatnonzero(~held_out), np.flatnonzero(held_out)

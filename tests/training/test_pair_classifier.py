@@ -12,7 +12,8 @@ from segments.manifest import PAIR_FILE, Manifest
 from segments.pairs import PairClassifier
 from segments.quantiser import Quantiser
 from training import pair_classifier
-from training.pair_classifier import Calibration, Pairs
+from training.pair_classifier import Calibration, HeldOut, Pairs
+from training.recognition import expected_calibration_error
 from training.siamese import MatchNetwork
 
 DIMENSION = 6
@@ -95,7 +96,7 @@ def test_calibration_recovers_the_true_probability() -> None:
 def test_calibration_error_by_hand() -> None:
     stated = np.array([0.05, 0.05, 0.95, 0.95])
     matches = np.array([0.0, 1.0, 1.0, 1.0])
-    error, points = pair_classifier.expected_calibration_error(stated, matches)
+    error, points = expected_calibration_error(stated, matches)
     assert [count for _, _, count in points] == [2, 2]
     assert np.array(points)[:, :2] == pytest.approx(np.array([[0.05, 0.5], [0.95, 1.0]]))
     assert error == pytest.approx((0.45 + 0.05) / 2)
@@ -104,7 +105,9 @@ def test_calibration_error_by_hand() -> None:
 @pytest.mark.parametrize(("curved", "kind"), [(False, "distance"), (True, "forest")])
 def test_what_loses_to_distance_is_not_served(curved: bool, kind: str, tmp_path: Path) -> None:
     learnt, fitted, held_out = (toy_pairs(3000, seed, curved=curved) for seed in range(3))
-    chosen = pair_classifier.choose(learnt, fitted, held_out, None, tmp_path / PAIR_FILE)
+    chosen = pair_classifier.choose(
+        learnt, HeldOut(fitted, fitted), HeldOut(held_out, held_out), None, tmp_path / PAIR_FILE
+    )
     assert chosen["kind"] == kind
     assert max(chosen["auc"], key=lambda name: chosen["auc"][name]) == kind
     probability = run_pair(tmp_path / PAIR_FILE, held_out)
@@ -115,7 +118,9 @@ def test_what_loses_to_distance_is_not_served(curved: bool, kind: str, tmp_path:
 
 def test_served_classifier_takes_codes_as_stored(tmp_path: Path) -> None:
     learnt, fitted, held_out = (toy_pairs(2000, seed) for seed in range(3))
-    chosen = pair_classifier.choose(learnt, fitted, held_out, None, tmp_path / PAIR_FILE)
+    chosen = pair_classifier.choose(
+        learnt, HeldOut(fitted, fitted), HeldOut(held_out, held_out), None, tmp_path / PAIR_FILE
+    )
     manifest = Manifest("toy", "group", "fast", DIMENSION, Quantiser(0.05), {}, pair=chosen)
     classifier = PairClassifier(tmp_path, manifest)
     pairs = toy_pairs(20, 9)
@@ -124,3 +129,30 @@ def test_served_classifier_takes_codes_as_stored(tmp_path: Path) -> None:
     expected = run_pair(tmp_path / PAIR_FILE, decoded)
     assert classifier.probabilities(a, b) == pytest.approx(expected, abs=1e-6)
     assert classifier.probabilities(a[:0], b[:0]).shape == (0,)
+
+
+def test_the_probability_is_calibrated_on_what_is_asked_and_the_threshold_on_drawn_pairs(
+    tmp_path: Path,
+) -> None:
+    # Drawn at random, half of the pairs match; among the nearest, one in ten.
+    learnt, fitted, held_out = (toy_pairs(3000, seed) for seed in range(3))
+
+    def mostly_strangers(pairs: Pairs) -> HeldOut:
+        kept = (pairs.matches < 0.5) | (np.arange(len(pairs.a)) % 18 == 1)
+        return HeldOut(pairs, Pairs(pairs.a[kept], pairs.b[kept], pairs.matches[kept]))
+
+    asked = mostly_strangers(held_out)
+    chosen = pair_classifier.choose(
+        learnt, mostly_strangers(fitted), asked, None, tmp_path / PAIR_FILE
+    )
+    probability = run_pair(tmp_path / PAIR_FILE, asked.nearest)
+    assert asked.nearest.matches.mean() == pytest.approx(0.1, abs=0.01)
+    assert probability.mean() == pytest.approx(0.1, abs=0.02)
+    assert chosen["calibration_error"] < 0.03
+    told = run_pair(tmp_path / PAIR_FILE, held_out) > chosen["threshold"]
+    assert (told == (held_out.matches > 0.5)).mean() > 0.8
+
+
+def test_calibration_of_a_model_that_never_finds_a_match() -> None:
+    fitted = Calibration.fit(np.linspace(-1, 1, 98), np.zeros(98))
+    assert fitted.apply(np.array([-3.0, 3.0])) == pytest.approx([0.01, 0.01])

@@ -109,3 +109,11 @@ def test_threshold_and_accuracy_by_hand() -> None:
     assert 0.2 < threshold < 0.5
     assert recognition.accuracy_at(threshold, near, far) == pytest.approx(5 / 6)
     assert recognition.accuracy_at(0.95, near, far) == pytest.approx((1 + 1 / 3) / 2)
+
+
+def test_nearest_pairs_by_hand() -> None:
+    descriptors = np.array([[0.0], [1.0], [1.5], [5.0]], dtype=np.float32)
+    groups = np.array([0, 1, 0, 1])
+    matches, others = recognition.nearest_pairs(descriptors, groups, np.array([0, 3]), candidates=2)
+    assert sorted(map(tuple, matches)) == [(0, 2), (3, 1)]
+    assert sorted(map(tuple, others)) == [(0, 1), (3, 2)]

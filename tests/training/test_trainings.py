@@ -7,13 +7,17 @@ import numpy as np
 import pytest
 import torch
 
+from segments.parameters import PROTOCOL_V1
+from segments.recording import Recording
+from segments.segments import Segments
+from tests.training.conftest import make_shapes
 from training import contrastive, group_based, siamese
 from training.augmentation import Augmentation
 from training.networks import describe
 from training.recognition import top1
 from training.run import Run
 from training.sgd import Sgd
-from training.training_set import TrainingSet
+from training.training_set import Source, TrainingSet
 
 SMALL = Sgd(learning_rate=0.05, batch=16)
 
@@ -153,14 +157,44 @@ def test_a_resumed_run_ends_as_one_that_was_never_stopped(
 
 def test_small_groups_are_left_out() -> None:
     points = np.zeros((10, 3), dtype=np.float32)
-    from segments.parameters import PROTOCOL_V1
-    from segments.segments import Segments
-
     data = TrainingSet(
         Segments.of([points] * 6, np.ones((6, 3))), np.array([0, 0, 0, 1, 2, 2]), PROTOCOL_V1
     )
     assert data.without_small_groups(2).groups.tolist() == [0, 0, 0, 1, 1]
     assert data.without_small_groups(3).groups.tolist() == [0, 0, 0]
+
+
+def test_held_out_segments_leave_each_group_three_to_learn_from(shapes: TrainingSet) -> None:
+    held_out = group_based.held_out_segments(shapes, 0.1, np.random.default_rng(0))
+    assert len(held_out) == 5  # a tenth of 48, rounded up
+    assert len(set(held_out.tolist())) == 5
+    most = group_based.held_out_segments(shapes, 1.0, np.random.default_rng(0))
+    left = np.bincount(np.delete(shapes.groups, most))
+    assert (left == 3).all()
+
+
+def test_recordings_cut_otherwise_are_not_mixed_and_no_scan_is_taken_twice() -> None:
+    recording = Recording(
+        name="toy",
+        parameters=PROTOCOL_V1,
+        segments=make_shapes(views=1, seed=0).segments,
+        frames=np.arange(8),
+        groups=np.arange(8),
+        distinct=np.ones(8, dtype=bool),
+        scans=8,
+        scan_hashes=tuple("abcdefgh"),
+        path_length=1.0,
+    )
+    other = replace(
+        recording,
+        parameters=replace(recording.parameters, growing_radius=0.5),
+        scan_hashes=tuple("ijklmnop"),
+    )
+    whole = Source(recording, 0, recording.scans - 1)
+    with pytest.raises(ValueError, match="different constants"):
+        TrainingSet.of([whole, Source(other, 0, other.scans - 1)])
+    with pytest.raises(ValueError, match="shares scans"):
+        TrainingSet.of([whole, Source(recording, 0, 0)])
 
 
 def test_split_keeps_groups_whole(shapes: TrainingSet) -> None:

@@ -1,0 +1,116 @@
+"""One model of the experiments on the test set, and what its network costs (paper IV-B)."""
+
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnxruntime
+
+from segments.alignment import align
+from segments.extractor import Extractor, load_extractor
+from segments.manifest import Manifest
+from segments.pairs import load_pair_classifier
+from segments.parameters import Parameters
+from segments.segments import Segments
+from segments.types import Float32, Float64, Int64
+from training import recognition
+from training.evaluation import measure
+from training.pair_classifier import Pairs, concatenated, train_forest
+from training.publishing import stored_descriptors
+from training.training_set import TrainingSet
+
+
+def compare(
+    folder: Path, test: TrainingSet, training: TrainingSet, *, paper_forest: bool
+) -> dict[str, Any]:
+    """One model on the test set: its figures, its ROC curve and its distances' distributions.
+
+    Args:
+        paper_forest: train the paper's forest, on concatenated descriptors, and measure it too.
+    """
+    manifest = Manifest.load(folder)
+    extractor = load_extractor(folder)
+    classifier = load_pair_classifier(folder, manifest)
+    figures = measure(extractor, classifier, test.segments, test.groups, seed=0)
+    stored = stored_descriptors(extractor, test)
+    codes = manifest.quantiser.encode(stored)
+    drawn = recognition.draw_pairs(test.groups, recognition.PAIRS, np.random.default_rng(0))
+    near, far = (recognition.pair_distances(stored, pairs) for pairs in drawn)
+    likely, unlikely = -near, -far
+    if classifier is not None:
+        likely, unlikely = (
+            classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]]) for pairs in drawn
+        )
+    compared = {}
+    if paper_forest:
+        forest_near, forest_far = by_paper_forest(extractor, training, stored, drawn)
+        compared = {
+            "auc": recognition.area_under_roc(forest_near, forest_far),
+            "roc": roc_curve(forest_near, forest_far),
+        }
+    edges = np.linspace(0, max(near.max(), far.max()), 61)
+    return {
+        "figures": figures,
+        "pair": manifest.pair,
+        "seconds": manifest.training["seconds"],
+        "cpu_seconds": manifest.training.get("cpu_seconds", 0.0),
+        "roc": roc_curve(likely, unlikely),
+        "paper_forest": compared,
+        "distances": {
+            "edges": edges.tolist(),
+            "positive": np.histogram(near, edges, density=True)[0].tolist(),
+            "negative": np.histogram(far, edges, density=True)[0].tolist(),
+        },
+    }
+
+
+def by_paper_forest(
+    extractor: Extractor, training: TrainingSet, stored: Float32, drawn: tuple[Int64, Int64]
+) -> tuple[Float64, Float64]:
+    """What the paper's forest, learned on the training set, says of drawn pairs of the test set."""
+    learned = recognition.draw_pairs(training.groups, recognition.PAIRS, np.random.default_rng(0))
+    pairs = Pairs.of(stored_descriptors(extractor, training), *learned)
+    forest = train_forest(pairs, concatenated, seed=0)
+    both = Pairs.of(stored, *drawn)
+    probability = forest.predict_proba(concatenated(both))[:, 1]
+    return probability[both.matches > 0.5], probability[both.matches < 0.5]
+
+
+def roc_curve(positive: Float64, negative: Float64, points: int = 101) -> list[list[float]]:
+    """False positive rate and true positive rate at evenly spread false positive rates."""
+    rates = np.linspace(0, 1, points)
+    thresholds = np.quantile(negative, 1 - rates)
+    return [
+        [float(rate), float((positive >= threshold).mean())]
+        for rate, threshold in zip(rates, thresholds, strict=True)
+    ]
+
+
+def fits_grid(data: TrainingSet) -> float:
+    """Share of segments that fit entirely into the voxel grid (the paper's: about 95%)."""
+    aligned = Segments(align(data.segments), data.segments.ends, data.segments.sensors)
+    lowest, highest = aligned.bounds()
+    limit = np.array(data.parameters.grid) * data.parameters.grid_voxel
+    return float((highest - lowest <= limit).all(axis=1).mean())
+
+
+def throughput(files: Mapping[str, Path], parameters: Parameters) -> dict[str, float]:
+    """Segments a second of each network's ONNX file, batches of 64, all cores."""
+    random = np.random.default_rng(0)
+    inputs = {
+        "occupancy": (random.random((64, *parameters.grid)) < 0.01).astype(np.uint8),
+        "extents": random.uniform(0.5, 5, (64, 3)).astype(np.float32),
+    }
+    rates = {}
+    for network, file in files.items():
+        session = onnxruntime.InferenceSession(file, providers=["CPUExecutionProvider"])
+        session.run(None, inputs)
+        seconds = []
+        for _ in range(10):
+            started = time.perf_counter()
+            session.run(None, inputs)
+            seconds.append(time.perf_counter() - started)
+        rates[network] = 64 / float(np.median(seconds))
+    return rates
