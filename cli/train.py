@@ -19,6 +19,7 @@ class Method(StrEnum):
     GROUP = "group"
     SIAMESE = "siamese"
     CONTRASTIVE = "contrastive"
+    CONTEXT = "context"
     EIGENVALUE = "eigenvalue"
 
 
@@ -53,9 +54,11 @@ def train(
 
     group: every group of segments is a class (paper, section III-C). siamese: random pairs, and a
     third network that says whether they match (III-D). contrastive: hard pairs and a margin
-    (III-E). eigenvalue: SegMatch's features, standardised on the drives; the baseline.
+    (III-E). context: the group-based network, and what stands around each segment. eigenvalue:
+    SegMatch's features, standardised on the drives; the baseline.
     """
     from segments.models import MODELS_FOLDER
+    from segments.parameters import SURROUNDINGS_V1
 
     options = ["--network", network] if network != "fast" else []
     options += ["--epochs", str(epochs)] if epochs else []
@@ -65,7 +68,8 @@ def train(
 
         parts = [source(text) for text in sources]
         command = retraining(method, parts, licence, seed, *options)
-        data = collect(parts, licence).stating(seed=seed, command=command)
+        around = SURROUNDINGS_V1 if method is Method.CONTEXT else None
+        data = collect(parts, licence, around).stating(seed=seed, command=command)
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
         else:

@@ -12,6 +12,7 @@ import onnxruntime
 from segments.eigenvalue import FEATURES, eigenvalue_descriptors
 from segments.manifest import FILE, Manifest, ModelError
 from segments.segments import Segments
+from segments.surroundings import describe_surroundings
 from segments.types import Float32
 from segments.voxels import voxelise
 
@@ -25,8 +26,13 @@ class Extractor(Protocol):
 
     manifest: Manifest
 
-    def describe(self, segments: Segments) -> Float32:
-        """Descriptors, float32 (segments, dimension)."""
+    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
+        """Descriptors, float32 (segments, dimension).
+
+        Args:
+            surroundings: of each segment (`describe_surroundings`); None: the segments were seen
+                together, and surround one another. Of no matter to a model that does not look.
+        """
 
 
 class EigenvalueExtractor:
@@ -37,8 +43,9 @@ class EigenvalueExtractor:
         self._mean = np.array(manifest.standardisation["mean"], dtype=np.float32)
         self._deviation = np.array(manifest.standardisation["deviation"], dtype=np.float32)
 
-    def describe(self, segments: Segments) -> Float32:
+    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, 7)."""
+        del surroundings  # of no matter to these features
         return (eigenvalue_descriptors(segments) - self._mean) / self._deviation
 
 
@@ -67,13 +74,18 @@ class OnnxExtractor:
         except Exception as error:
             raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
 
-    def describe(self, segments: Segments) -> Float32:
+    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, dimension); the same whatever the number of threads."""
+        looks = self.manifest.surroundings
+        if looks is not None and surroundings is None:
+            surroundings = describe_surroundings(segments, None, looks)
 
         def infer(first: int) -> Float32:
             some = segments.take(np.arange(first, min(first + BATCH, len(segments))))
             occupancy, extents = voxelise(some, self.manifest.parameters)
             inputs = {"occupancy": occupancy, "extents": extents}
+            if looks is not None and surroundings is not None:
+                inputs["surroundings"] = surroundings[first : first + BATCH]
             session = self._idle.get()
             try:
                 descriptors: Float32 = session.run(["descriptor"], inputs)[0]

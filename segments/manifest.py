@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from segments.parameters import PREPROCESSING_VERSION, Parameters
+from segments.parameters import PREPROCESSING_VERSION, Parameters, SurroundingsParameters
 from segments.quantiser import Quantiser
 
 FILE = "manifest.json"
@@ -62,7 +62,7 @@ class Manifest:
         decisive = {
             "method": self.method,
             "dimension": self.dimension,
-            "quantiser": asdict(self.quantiser),
+            "quantiser": self.quantiser.as_dict(),
             "preprocessing": self.preprocessing,
             "files": {name: sha for name, sha in self.files.items() if name != PAIR_FILE},
             "standardisation": self.standardisation,
@@ -77,6 +77,7 @@ class Manifest:
     def save(self, folder: Path) -> None:
         """Write `manifest.json`."""
         content = {"model_id": self.model_id} | asdict(self)
+        content["quantiser"] = self.quantiser.as_dict()
         (folder / FILE).write_text(json.dumps(content, indent=2) + "\n")
 
     @classmethod
@@ -112,6 +113,24 @@ class Manifest:
         return manifest
 
     @property
+    def code_bytes(self) -> int:
+        """Bytes of a stored descriptor."""
+        return self.quantiser.code_bytes(self.dimension)
+
+    @property
+    def surroundings(self) -> SurroundingsParameters | None:
+        """How the surroundings are described; None if the model looks at each segment alone."""
+        constants = self.preprocessing.get("surroundings")
+        if constants is None:
+            return None
+        return SurroundingsParameters(
+            constants["voxel"],
+            tuple(constants["rings"]),
+            tuple(constants["heights"]),
+            constants["sectors"],
+        )
+
+    @property
     def parameters(self) -> Parameters:
         """Protocol v1 with this model's grid."""
         return Parameters(
@@ -119,13 +138,19 @@ class Manifest:
         )
 
 
-def preprocessing_of(parameters: Parameters) -> dict[str, Any]:
+def preprocessing_of(
+    parameters: Parameters, surroundings: SurroundingsParameters | None = None
+) -> dict[str, Any]:
     """The constants from a segment's points to the network's input, for a manifest."""
-    return {
+    constants: dict[str, Any] = {
         "version": PREPROCESSING_VERSION,
         "grid": list(parameters.grid),
         "grid_voxel": parameters.grid_voxel,
     }
+    if surroundings is not None:
+        # As JSON has it, so that the id is the same before and after it was written.
+        constants["surroundings"] = json.loads(json.dumps(asdict(surroundings)))
+    return constants
 
 
 def file_hash(file: Path) -> str:

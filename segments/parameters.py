@@ -74,5 +74,33 @@ class Parameters:
 
 PROTOCOL_V1 = Parameters()
 
+
+@dataclass(frozen=True, slots=True)
+class SurroundingsParameters:
+    """Constants of what is counted around a segment. Lengths are metres."""
+
+    voxel: float = 0.6
+    """Edge of the voxels that are counted."""
+    rings: tuple[float, ...] = (*map(float, range(1, 21)), 22, 24, 26, 28, 30, 33, 36, 40)
+    """Outer radii, horizontal."""
+    heights: tuple[float, ...] = (-2.0, -1.0, -0.3, 0.3, 1.0, 2.0, 4.0)
+    """Limits between the layers, above the segment's centroid; the outer ones are open."""
+    sectors: int = 16
+    """Directions that are counted apart and averaged: a dense corner weighs no more than others."""
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rings and layers."""
+        return len(self.rings), len(self.heights) + 1
+
+    @property
+    def size(self) -> int:
+        """Numbers that describe a segment's surroundings."""
+        rings, layers = self.shape
+        return rings * layers
+
+
+SURROUNDINGS_V1 = SurroundingsParameters()
+
 PREPROCESSING_VERSION = "1"
 """Version of the steps from a segment's points to the network's input; part of a model's id."""

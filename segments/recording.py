@@ -14,9 +14,10 @@ import safetensors
 from numpy.typing import NDArray
 from safetensors.numpy import save_file
 
-from segments.parameters import Parameters
+from segments.parameters import Parameters, SurroundingsParameters
 from segments.segments import Segments
-from segments.types import Bool, Int64
+from segments.surroundings import describe_surroundings
+from segments.types import Bool, Float32, Int64
 
 FORMAT = "placecell-recording"
 VERSION = 1
@@ -69,6 +70,10 @@ class Recording:
         np.minimum.at(earliest, self.groups, self.frames)
         np.maximum.at(latest, self.groups, self.frames)
         return ((earliest >= first) & (latest <= last))[self.groups]
+
+    def surroundings(self, parameters: SurroundingsParameters) -> Float32:
+        """What stood around each segment in its frame, float32 (segments, size)."""
+        return describe_surroundings(self.segments, self.frames, parameters)
 
     def save(self, file: Path) -> None:
         """Write the recording as safetensors."""

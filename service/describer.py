@@ -48,7 +48,7 @@ class Described:
 
     Attributes:
         rows: by index in the request, the row in the three arrays, or why there is none.
-        codes: int8 (rows, d).
+        codes: int8 (rows, code bytes).
         descriptors: float32 (rows, d).
         centroids: float64 (rows, 3), metres, in the request's frame.
     """

@@ -7,6 +7,7 @@ from threading import Lock
 
 from placecell_client.map_file import CompactMap, MapFileError, decode
 
+from segments.manifest import Manifest
 from service.map_index import ExactIndex, MapIndex
 from service.map_store import MapStore
 from service.problems import Problem
@@ -36,11 +37,12 @@ class StoredMap:
 class Maps:
     """All maps, by name. Safe to use from many threads: readers see a map whole, old or new."""
 
-    def __init__(self, store: MapStore, model_id: str, dimension: int) -> None:
+    def __init__(self, store: MapStore, manifest: Manifest) -> None:
         """Load what is stored; a damaged file is set aside with a line in the log."""
         self._store = store
-        self._model_id = model_id
-        self._dimension = dimension
+        self._model_id = manifest.model_id
+        self._code_bytes = manifest.code_bytes
+        self._quantiser = manifest.quantiser
         self._writing = Lock()
         self._by_name: dict[str, StoredMap] = {}
         for name in store.names():
@@ -100,12 +102,12 @@ class Maps:
                 "other-model",
                 f"The map was made by model {content.model_id!r}; loaded is {self._model_id!r}.",
             )
-        if content.dimension != self._dimension:
+        if content.code_bytes != self._code_bytes:
             raise Problem(
                 422,
                 "invalid-map-file",
-                f"The map's descriptors have {content.dimension} dimensions; "
-                f"the model's have {self._dimension}.",
+                f"The map's codes have {content.code_bytes} bytes a segment; "
+                f"the model's have {self._code_bytes}.",
             )
         stored = self._stored(name, data, content)
         with self._writing:
@@ -131,13 +133,13 @@ class Maps:
         return data if hashlib.sha256(data).hexdigest() == stored.etag else None
 
     def _stored(self, name: str, data: bytes, content: CompactMap) -> StoredMap:
-        ours = content.model_id == self._model_id and content.dimension == self._dimension
+        ours = content.model_id == self._model_id and content.code_bytes == self._code_bytes
         return StoredMap(
             name=name,
             etag=hashlib.sha256(data).hexdigest(),
             bytes=len(data),
             content=content,
-            index=ExactIndex(content.codes) if ours else None,
+            index=ExactIndex(content.codes, self._quantiser) if ours else None,
         )
 
 

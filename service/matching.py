@@ -53,7 +53,7 @@ def candidates_of(
     """The k nearest over all maps, nearest first; ties by map, then id.
 
     Args:
-        codes: int8 (q, d), the queries.
+        codes: int8 (q, code bytes), the queries.
         searched: maps with an index.
         k: candidates a query, at most.
         step: of the quantiser, so that distances are in the descriptor's unit.

@@ -190,7 +190,12 @@ class ModelOut(BaseModel):
     method: str
     network: str
     dimension: int
-    step: float = Field(description="What one code is worth in the descriptor's unit.")
+    code_bytes: int = Field(description="Of a stored descriptor: the length of `codes`.")
+    surroundings: bool = Field(
+        description="Whether a segment's descriptor takes in the other segments of its request: "
+        "then send all segments of a scan together."
+    )
+    step: float = Field(description="What one level is worth in the descriptor's unit.")
     pair_threshold: float = Field(description="Distance below which a pair is called a match.")
     preprocessing: dict[str, Any]
 

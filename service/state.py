@@ -75,7 +75,7 @@ def open_state(settings: Settings) -> Iterator[State]:
     with ExitStack() as stack:
         try:
             store = stack.enter_context(FolderMapStore.open(settings.data_dir))
-            maps = Maps(store, manifest.model_id, manifest.dimension)
+            maps = Maps(store, manifest)
         except StoreLockedError as error:
             raise StartError(f"data directory {error}") from error
         except OSError as error:

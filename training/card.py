@@ -14,7 +14,7 @@ CARD = """# Model `{name}`
 | id | `{model_id}` |
 | method | {method} |
 | network | {network} |
-| descriptor | {dimension} dimensions, one byte each as stored |
+| descriptor | {dimension} dimensions, {code_bytes} bytes as stored |
 | trained | in {seconds:.0f} s on {cores} cores, seed {seed} |
 
 ## Trained on
@@ -48,6 +48,8 @@ WHAT = {
     "siamese": "The paper's Siamese extractor: two branches and a third network, trained on pairs.",
     "contrastive": "The paper's contrastive extractor: trained to bring matches together and keep "
     "hard non-matches apart.",
+    "context": "A segment by itself, trained as the group-based extractor, and what stands around "
+    "it, by linear discriminant analysis.",
     "group": "The paper's group-based extractor: trained to tell groups of segments apart.",
 }
 
@@ -73,6 +75,7 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             method=manifest.method,
             network=manifest.network or "none",
             dimension=manifest.dimension,
+            code_bytes=manifest.code_bytes,
             seconds=training["seconds"],
             cores=training["machine"]["cores"],
             seed=training["seed"],

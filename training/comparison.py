@@ -33,7 +33,7 @@ def compare(
     manifest = Manifest.load(folder)
     extractor = load_extractor(folder)
     classifier = load_pair_classifier(folder, manifest)
-    figures = measure(extractor, classifier, test.segments, test.groups, seed=0)
+    figures = measure(extractor, classifier, test.segments, test.groups, 0, test.surroundings)
     stored = stored_descriptors(extractor, test)
     codes = manifest.quantiser.encode(stored)
     drawn = recognition.draw_pairs(test.groups, recognition.PAIRS, np.random.default_rng(0))

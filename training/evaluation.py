@@ -13,7 +13,7 @@ from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder
 from segments.pairs import PairClassifier, load_pair_classifier
 from segments.recording import Recording
 from segments.segments import Segments
-from segments.types import Int8, Int64
+from segments.types import Float32, Int8, Int64
 from training import recognition
 
 
@@ -23,25 +23,23 @@ def measure(
     segments: Segments,
     groups: Int64,
     seed: int,
+    surroundings: Float32 | None = None,
 ) -> dict[str, Any]:
     """All figures of one model; None where nothing is there to be measured.
+
+    Of a model that looks around, `alone` has those of the same segments as if nothing stood there.
 
     `pair_auc` and `pair_accuracy` are by `pair_by`, the model's classifier where it has one; those
     by distance stand beside them in any case.
     """
     manifest = extractor.manifest
-    codes = manifest.quantiser.encode(extractor.describe(segments))
+    codes = manifest.quantiser.encode(extractor.describe(segments, surroundings))
     stored = manifest.quantiser.decode(codes)
-    found = recognition.retrieve(stored, groups)
-    crossed = recognition.retrieve(stored, groups, segments.sensors, recognition.CROSS_VIEW_METRES)
-    figures = {
-        "model_id": manifest.model_id,
-        "top1": mean(found.right),
-        "top1_with_mate": mean(found.right[found.has_mate]),
-        "cross_view_top1": mean(crossed.right[crossed.has_mate]),
-        "cross_view_queries": int(crossed.has_mate.sum()),
-        "recall_at_25": mean(found.recalled[found.has_mate]),
-    }
+    figures = {"model_id": manifest.model_id} | retrieval(stored, segments, groups)
+    if manifest.surroundings is not None:
+        nothing = np.zeros((len(segments), manifest.surroundings.size), dtype=np.float32)
+        alone = manifest.quantiser.encode(extractor.describe(segments, nothing))
+        figures["alone"] = retrieval(manifest.quantiser.decode(alone), segments, groups)
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
         figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
@@ -69,6 +67,19 @@ def measure(
             "pair_by": "classifier",
         }
     return figures | paired | by_distance
+
+
+def retrieval(stored: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
+    """The figures of nearest neighbours."""
+    found = recognition.retrieve(stored, groups)
+    crossed = recognition.retrieve(stored, groups, segments.sensors, recognition.CROSS_VIEW_METRES)
+    return {
+        "top1": mean(found.right),
+        "top1_with_mate": mean(found.right[found.has_mate]),
+        "cross_view_top1": mean(crossed.right[crossed.has_mate]),
+        "cross_view_queries": int(crossed.has_mate.sum()),
+        "recall_at_25": mean(found.recalled[found.has_mate]),
+    }
 
 
 def calibration_error(
@@ -148,7 +159,9 @@ def evaluate(
     segments, groups = recording.segments.take(chosen), recording.groups[chosen]
     extractors = {}
     for name, (extractor, classifier) in models.items():
-        figures = measure(extractor, classifier, segments, groups, seed)
+        around = extractor.manifest.surroundings
+        seen = None if around is None else recording.surroundings(around)[chosen]
+        figures = measure(extractor, classifier, segments, groups, seed, seen)
         figures["seen"] = has_seen(extractor, recording, first, last)
         extractors[name] = figures
     return {

@@ -9,6 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from segments.types import Float32
+from training.context import Projection
 from training.networks import DescriptorNetwork
 
 OPSET = 20
@@ -32,6 +33,31 @@ class Exported(nn.Module):
         return projected
 
 
+class ExportedContext(nn.Module):
+    """The descriptor network and the surroundings, projected, side by side, and rotated."""
+
+    mean: Tensor
+    axes: Tensor
+    rotation: Tensor
+
+    def __init__(self, segment: Exported, projection: Projection, rotation: Float32) -> None:
+        super().__init__()
+        self.segment = segment
+        self.register_buffer("mean", torch.from_numpy(projection.mean))
+        self.register_buffer("axes", torch.from_numpy(projection.axes))
+        self.register_buffer("rotation", torch.from_numpy(rotation))
+        self.weight = projection.weight
+
+    def forward(self, occupancy: Tensor, extents: Tensor, surroundings: Tensor) -> Tensor:
+        """float32 (n, stored dimension)."""
+        projected = nn.functional.normalize((surroundings - self.mean) @ self.axes, dim=1)
+        # Where nothing stands around nothing is said of it.
+        seen = (surroundings.sum(dim=1, keepdim=True) > 0).float() * self.weight
+        side_by_side = torch.cat([self.segment(occupancy, extents), projected * seen], dim=1)
+        descriptors: Tensor = side_by_side @ self.rotation
+        return descriptors
+
+
 def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float32]:
     """Mean (d,) and the principal axes (d, dimension) of training descriptors."""
     mean = descriptors.mean(axis=0)
@@ -42,10 +68,19 @@ def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float
     return mean.astype(np.float32), np.ascontiguousarray(chosen, dtype=np.float32)
 
 
-def export_onnx(network: Exported, grid: tuple[int, int, int], file: Path) -> None:
-    """Write the network; inputs `occupancy` (uint8) and `extents` (float32), any batch size."""
-    example = (torch.zeros((2, *grid), dtype=torch.uint8), torch.ones((2, 3)))
-    to_onnx(network, example, ["occupancy", "extents"], "descriptor", file)
+def export_onnx(
+    network: Exported | ExportedContext, grid: tuple[int, int, int], file: Path
+) -> None:
+    """Write the network; any batch size.
+
+    Inputs: `occupancy` (uint8), `extents` and, in context, `surroundings` (float32).
+    """
+    example: tuple[Tensor, ...] = (torch.zeros((2, *grid), dtype=torch.uint8), torch.ones((2, 3)))
+    inputs = ["occupancy", "extents"]
+    if isinstance(network, ExportedContext):
+        example += (torch.ones((2, len(network.mean))),)
+        inputs.append("surroundings")
+    to_onnx(network, example, inputs, "descriptor", file)
 
 
 def to_onnx(

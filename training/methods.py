@@ -4,13 +4,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from training import contrastive, group_based, siamese
+from training import context, contrastive, group_based, siamese
+from training.context import Projection
 from training.networks import DescriptorNetwork
 from training.run import Run
 from training.siamese import MatchNetwork
 from training.training_set import TrainingSet
 
 METHODS = ("group", "siamese", "contrastive")
+"""The paper's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +24,14 @@ class Trained:
         network_name: of the trunk.
         network: the descriptor network.
         match: the third network, of the Siamese alone.
+        projection: of the surroundings, of `context` alone.
     """
 
     method: str
     network_name: str
     network: DescriptorNetwork
     match: MatchNetwork | None = None
+    projection: Projection | None = None
 
 
 def train(
@@ -38,7 +42,7 @@ def train(
     network: str = "fast",
     **changes: Any,
 ) -> Trained:
-    """Train by one of `METHODS`.
+    """Train by one of `METHODS`, or `context`.
 
     Args:
         changes: to the method's recipe, such as `epochs`; None leaves a setting as it is.
@@ -59,7 +63,14 @@ def train(
         siamese_recipe = replace(siamese.SiameseRecipe(), **given)
         pair = siamese.train(training, validation, run, network, siamese_recipe)
         return Trained(method, network, pair.extractor, pair.match)
-    raise ValueError(f"no method {method!r}; there are {', '.join(METHODS)}")
+    if method == "context":
+        recipe = context.ContextRecipe()
+        assert training.surroundings is not None
+        projection = context.fit_projection(training.surroundings, training.groups, recipe)
+        segment_recipe = replace(recipe.segment, **given)
+        learned = group_based.train(training, validation, run, network, segment_recipe)
+        return Trained(method, network, learned, projection=projection)
+    raise ValueError(f"no method {method!r}; there are {', '.join(METHODS)}, context")
 
 
 def run_folder(runs: Path, method: str, network: str, seed: int) -> Path:

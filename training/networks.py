@@ -13,6 +13,7 @@ from torch import Tensor, nn
 
 from segments.types import Float32
 from segments.voxels import voxelise
+from training.processor import has_bfloat16
 from training.training_set import TrainingSet
 
 DIMENSION = 64
@@ -86,7 +87,7 @@ class Paper(nn.Module):
             nn.Linear(third * (grid[0] // 4) * (grid[1] // 4) * (grid[2] // 4), 512, bias=False),
             nn.BatchNorm1d(512),
             nn.ReLU(inplace=True),
-        )
+        ).to(memory_format=torch.channels_last_3d)  # type: ignore[call-overload]  # trains faster
         self.features = 512
 
     def forward(self, grids: Tensor) -> Tensor:
@@ -151,11 +152,6 @@ class DescriptorNetwork(nn.Module):
         # The extents give back the size of what the grid cut off; log1p keeps walls in scale.
         features = torch.cat([self.dropout(features), torch.log1p(extents)], dim=1)
         return nn.functional.normalize(self.descriptor(features), dim=1)
-
-
-def has_bfloat16() -> bool:
-    """Whether the processor multiplies bfloat16 itself; emulated, it would be slower."""
-    return bool(torch.cpu.get_capabilities().get("avx512_bf16", False))
 
 
 def normalisation_statistics(data: TrainingSet) -> tuple[Float32, Float32]:

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from segments.eigenvalue import eigenvalue_descriptors
-from segments.extractor import MODEL_FILE, Extractor, load_extractor
+from segments.extractor import MODEL_FILE, Extractor, OnnxExtractor, load_extractor
 from segments.manifest import PAIR_FILE, Manifest, preprocessing_of
 from segments.pairs import load_pair_classifier
+from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.quantiser import Quantiser
 from segments.types import Float32, Int64
 from training import recognition
@@ -53,18 +54,22 @@ class Data:
         return replace(self, provenance=self.provenance | facts)
 
 
-def collect(sources: Sequence[Source], licence: str) -> Data:
+def collect(
+    sources: Sequence[Source], licence: str, surroundings: SurroundingsParameters | None = None
+) -> Data:
     """Training and validation set from parts of recordings, and what the manifest says of them.
 
     The split is the same whatever a training's seed, so that seeds compare.
 
     Args:
         licence: of the drives.
+        surroundings: how to describe them, for a model that looks around.
 
     Raises:
         ValueError: there are too few groups to train on.
     """
-    training, validation = TrainingSet.of(sources).split(VALIDATION_SHARE, SPLIT_SEED)
+    everything = TrainingSet.of(sources, surroundings)
+    training, validation = everything.split(VALIDATION_SHARE, SPLIT_SEED)
     # The validation groups are halved for calibration: each half must hold pairs of both kinds,
     # and it is better to know before the training than after it.
     halves = map(validation.take, validation.halves(0.5, seed=0))
@@ -133,23 +138,33 @@ def has_pairs(data: TrainingSet) -> bool:
 def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     """Write `model.onnx`, `pair.onnx`, `manifest.json` and the card of a trained network."""
     # Torch's exporter is slow to import: only here.
-    from training.export import Exported, export_onnx, principal_axes
+    from training.context import rotation
+    from training.export import Exported, ExportedContext, export_onnx, principal_axes
 
     learned = describe(trained.network, data.training)
     mean, axes = principal_axes(learned, STORED_DIMENSION)
     head = None if trained.match is None else (trained.match, mean, axes)
-    exported = Exported(trained.network, mean, axes)
+    segment = Exported(trained.network, mean, axes)
+    exported: Exported | ExportedContext = segment
+    around, dimension, bits = None, STORED_DIMENSION, 8
+    if trained.projection is not None:
+        # Two halves at half the bits: as many bytes as the segment by itself.
+        around, dimension, bits = SURROUNDINGS_V1, 2 * STORED_DIMENSION, 4
+        exported = ExportedContext(segment, trained.projection, rotation(dimension))
     with whole(folder) as unfinished:
         export_onnx(exported, data.training.parameters.grid, unfinished / MODEL_FILE)
         manifest = Manifest(
             name=folder.name,
             method=trained.method,
             network=trained.network_name,
-            dimension=STORED_DIMENSION,
-            quantiser=Quantiser.fit(np.asarray((learned - mean) @ axes, dtype=np.float32)),
-            preprocessing=preprocessing_of(data.training.parameters),
+            dimension=dimension,
+            quantiser=Quantiser(1.0, bits),
+            preprocessing=preprocessing_of(data.training.parameters, around),
             training=data.provenance,
         ).with_files(unfinished, [MODEL_FILE])
+        extractor = OnnxExtractor(unfinished, manifest)
+        described = extractor.describe(data.training.segments, data.training.surroundings)
+        manifest = replace(manifest, quantiser=Quantiser.fit(described, bits))
         return finish(unfinished, manifest, data, head)
 
 
@@ -218,6 +233,7 @@ def finish(
         data.validation.segments,
         data.validation.groups,
         seed=1,
+        surroundings=data.validation.surroundings,
     )
     figures.pop("model_id")
     manifest = replace(manifest, figures={"validation": figures})
@@ -229,4 +245,4 @@ def finish(
 def stored_descriptors(extractor: Extractor, data: TrainingSet) -> Float32:
     """Descriptors after a round trip through their stored form."""
     quantiser = extractor.manifest.quantiser
-    return quantiser.decode(quantiser.encode(extractor.describe(data.segments)))
+    return quantiser.decode(quantiser.encode(extractor.describe(data.segments, data.surroundings)))

@@ -12,6 +12,8 @@ import torch
 from rich.progress import Progress
 from torch import nn
 
+from training.processor import keep_freed_memory
+
 Figures = dict[str, float]
 
 
@@ -60,6 +62,7 @@ class Run:
         Raises:
             ValueError: the checkpoint is of another data set or recipe.
         """
+        keep_freed_memory()
         self.folder.mkdir(parents=True, exist_ok=True)
         checkpoint = self.folder / "checkpoint.pt"
         parts: dict[str, Stateful] = {"model": model, "optimiser": optimiser, "schedule": schedule}

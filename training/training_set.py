@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from segments.parameters import Parameters
+from segments.parameters import Parameters, SurroundingsParameters
 from segments.recording import Recording
 from segments.segments import Segments
-from segments.types import Int64
+from segments.types import Float32, Int64
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,15 +59,23 @@ class TrainingSet:
         segments: each drive's in its own frame.
         groups: int64 (segments,): from 0, different over drives.
         parameters: of the grid.
+        surroundings: float32 (segments, size): what stood around each in its frame, duplicates
+            included, as in a robot's request; None if nobody asked.
     """
 
     segments: Segments
     groups: Int64
     parameters: Parameters
+    surroundings: Float32 | None = None
 
     @classmethod
-    def of(cls, sources: Sequence[Source]) -> "TrainingSet":
+    def of(
+        cls, sources: Sequence[Source], surroundings: SurroundingsParameters | None = None
+    ) -> "TrainingSet":
         """From parts of recordings.
+
+        Args:
+            surroundings: how to describe them, if at all.
 
         Raises:
             ValueError: a scan stands in two of them, or they were cut with other constants.
@@ -78,14 +86,20 @@ class TrainingSet:
                 "the recordings were cut with different constants; prepare them anew together"
             )
         parts, groups, count = [], [], 0
+        around = []
         for source in sources:
             indices = source.indices()
             parts.append(source.recording.segments.take(indices))
             labels = np.unique(source.recording.groups[indices], return_inverse=True)[1]
             groups.append(labels + count)
             count += int(labels.max(initial=-1)) + 1
+            if surroundings is not None:
+                around.append(source.recording.surroundings(surroundings)[indices])
         return cls(
-            Segments.concatenate(parts), np.concatenate(groups), sources[0].recording.parameters
+            Segments.concatenate(parts),
+            np.concatenate(groups),
+            sources[0].recording.parameters,
+            np.concatenate(around) if around else None,
         )
 
     def __len__(self) -> int:
@@ -94,7 +108,8 @@ class TrainingSet:
     def take(self, indices: Int64) -> "TrainingSet":
         """These segments, their groups numbered anew from 0."""
         labels = np.unique(self.groups[indices], return_inverse=True)[1]
-        return TrainingSet(self.segments.take(indices), labels, self.parameters)
+        around = None if self.surroundings is None else self.surroundings[indices]
+        return TrainingSet(self.segments.take(indices), labels, self.parameters, around)
 
     def group_sizes(self) -> Int64:
         """Segments of each group, int64 (groups,)."""

@@ -86,7 +86,9 @@ class Client:
         """
         content = self._post("/describe", segments_of(segments, sensors, self._encoding))
         items, dimension = content["descriptors"], content["dimension"]
-        codes = np.zeros((len(items), dimension), dtype=np.int8)
+        # The service answers with an error as a whole where no segment could be used.
+        code_bytes = next(len(item["codes"]) for item in items if "error" not in item)
+        codes = np.zeros((len(items), code_bytes), dtype=np.int8)
         descriptors = np.full((len(items), dimension), np.nan, dtype=np.float32)
         centroids = np.full((len(items), 3), np.nan)
         for index, item in enumerate(items):

@@ -54,8 +54,8 @@ class CompactMap:
         return len(self.ids)
 
     @property
-    def dimension(self) -> int:
-        """Codes a segment."""
+    def code_bytes(self) -> int:
+        """Bytes of a segment's codes."""
         return int(self.codes.shape[1])
 
     @property

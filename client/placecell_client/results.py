@@ -22,7 +22,7 @@ class Description:
 
     Attributes:
         model_id: of the model that made them.
-        codes: int8 (n, d), the stored form, for maps and for `Client.match`.
+        codes: int8 (n, code bytes), the stored form, for maps and for `Client.match`.
         descriptors: float32 (n, d), before they were rounded to codes.
         centroids: float64 (n, 3), metres, in the frame of the request.
         errors: by index, the segments that could not be used; their codes are 0, the rest is NaN.

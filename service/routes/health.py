@@ -36,6 +36,8 @@ async def info(request: Request, state: StateOf) -> InfoResponse:
             method=manifest.method,
             network=manifest.network,
             dimension=manifest.dimension,
+            code_bytes=manifest.code_bytes,
+            surroundings=manifest.surroundings is not None,
             step=manifest.quantiser.step,
             pair_threshold=manifest.pair_threshold,
             preprocessing=manifest.preprocessing,

@@ -63,14 +63,14 @@ def _match(state: State, body: Body, answer: str) -> bytes:
 
 
 def _codes(state: State, query: MatchRequest | PackedMatchRequest) -> Int8:
-    """The request's own codes, int8 (q, d), if they are of the loaded model."""
+    """The request's own codes, int8 (q, code bytes), if they are of the loaded model."""
     if query.model_id != state.model_id:
         raise Problem(
             409,
             "other-model",
             f"The codes were made by model {query.model_id!r:.100}; loaded is {state.model_id!r}.",
         )
-    codes = _rows(query, state.describer.manifest.dimension)
+    codes = _rows(query, state.describer.manifest.code_bytes)
     limit = state.settings.limits.segments
     if len(codes) > limit:
         raise Problem(
@@ -79,22 +79,20 @@ def _codes(state: State, query: MatchRequest | PackedMatchRequest) -> Int8:
     return codes
 
 
-def _rows(query: MatchRequest | PackedMatchRequest, dimension: int) -> Int8:
-    """The codes by query, int8 (q, dimension)."""
+def _rows(query: MatchRequest | PackedMatchRequest, code_bytes: int) -> Int8:
+    """The codes by query, int8 (q, code bytes)."""
     if isinstance(query, PackedMatchRequest):
         blob = query.codes
         assert blob is not None
-        if len(blob) % dimension:
-            raise _invalid(
-                "/codes", f"{len(blob)} codes; the model's descriptors have {dimension} each."
-            )
-        return blob.reshape(-1, dimension)
+        if len(blob) % code_bytes:
+            detail = f"{len(blob)} bytes; the model's codes have {code_bytes} each."
+            raise _invalid("/codes", detail)
+        return blob.reshape(-1, code_bytes)
     codes = query.codes or []
     for index, row in enumerate(codes):
-        if len(row) != dimension:
-            raise _invalid(
-                f"/codes/{index}", f"{len(row)} codes; the model's descriptors have {dimension}."
-            )
+        if len(row) != code_bytes:
+            detail = f"{len(row)} bytes; the model's codes have {code_bytes}."
+            raise _invalid(f"/codes/{index}", detail)
     return np.array(codes, dtype=np.int8)
 
 

@@ -55,3 +55,29 @@ def test_distances_between_codes_are_distances() -> None:
     codes = np.array([[3, -4], [0, 0]], dtype=np.int8)
     a, b = quantiser.decode(codes)
     assert float(np.linalg.norm(a - b)) == 5 * 0.25
+
+
+def test_two_levels_of_four_bits_share_a_byte() -> None:
+    quantiser = Quantiser(step=0.5, bits=4)
+    codes = quantiser.encode(np.array([[0.5, -1.0, 9.0, -9.0]], np.float32))
+    assert codes.shape == (1, quantiser.code_bytes(4)) == (1, 2)
+    # 1 below, -2 = 0xe above; 7 below, -7 = 0x9 above.
+    assert codes.view(np.uint8).tolist() == [[0xE1, 0x97]]
+    assert quantiser.levels(codes).tolist() == [[1, -2, 7, -7]]
+    assert quantiser.decode(codes).tolist() == [[0.5, -1.0, 3.5, -3.5]]
+
+
+def test_four_bits_round_trip_all_levels() -> None:
+    levels = np.stack(np.meshgrid(np.arange(-7, 8), np.arange(-7, 8)), axis=-1).reshape(-1, 2)
+    quantiser = Quantiser(step=1.0, bits=4)
+    assert (quantiser.levels(quantiser.encode(levels.astype(np.float32))) == levels).all()
+
+
+def test_no_other_bits() -> None:
+    with pytest.raises(ValueError, match="3 bits"):
+        Quantiser(step=1.0, bits=3)
+
+
+def test_manifests_of_bytes_say_what_they_always_said() -> None:
+    assert Quantiser(0.5).as_dict() == {"step": 0.5}
+    assert Quantiser(**Quantiser(0.5, 4).as_dict()) == Quantiser(0.5, 4)  # type: ignore[arg-type]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from segments.manifest import Manifest
+from segments.quantiser import Quantiser
 from segments.segments import Segments
 from service.map_index import ExactIndex
 from tests.service.service_builders import assert_problem, cloud, random_codes, request_of
@@ -124,7 +125,7 @@ def test_the_index_is_exact_and_breaks_ties_by_row(dimension: int, queries: int)
     codes = np.repeat(random_codes(40, 1, dimension), 10, axis=0)
     codes[::10] = -128  # the farthest corner, so that sums are as large as they can be
     wanted = np.concatenate([codes[:: 400 // queries][:queries], codes[:1]])
-    distances, rows = ExactIndex(codes).search(wanted, 25)
+    distances, rows = ExactIndex(codes, Quantiser(0.01)).search(wanted, 25)
     exact = ((wanted[:, None].astype(np.int64) - codes[None]) ** 2).sum(axis=2)
     order = np.argsort(exact, axis=1, kind="stable")[:, :25]
     np.testing.assert_array_equal(rows, order)

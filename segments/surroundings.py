@@ -1,0 +1,112 @@
+"""What stands around a segment: the strongest evidence of where it is (beyond the paper).
+
+A segment by itself is often like a hundred others; what stands around it is not. The other
+segments of the same scan are counted in rings about its centroid, by height above it. Directions
+are averaged out, so that robots need not agree on where north is, nor come from the same side.
+"""
+
+import numpy as np
+
+from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from segments.segments import Segments, compiled
+from segments.types import Float32, Float64, Int64
+
+CELLS = 1 << 13
+"""Voxels along an edge of a segment's box, at most."""
+
+
+def describe_surroundings(
+    segments: Segments,
+    frames: Int64 | None = None,
+    parameters: SurroundingsParameters = SURROUNDINGS_V1,
+) -> Float32:
+    """Histograms of what stands around each segment.
+
+    Args:
+        segments: in a common z-up frame.
+        frames: int64 (segments,), which were seen together; None: all of them.
+
+    Returns:
+        float32 (segments, rings x heights): log(1 + voxels) in each ring and layer, averaged over
+        the directions; all zero for a segment that stands alone.
+    """
+    found = np.zeros((len(segments), *parameters.shape), dtype=np.float32)
+    members = [np.arange(len(segments))]
+    if frames is not None:
+        order = np.argsort(frames, kind="stable")
+        members = np.split(order, np.flatnonzero(np.diff(frames[order])) + 1)
+    for together in members:
+        some = segments.take(together)
+        voxels, owners = voxels_by_owner(some, parameters.voxel)
+        counted = np.zeros((len(some), *parameters.shape), dtype=np.float32)
+        _count(
+            *(voxels, owners, some.centroids()),
+            *(np.array(parameters.rings), np.array(parameters.heights), parameters.sectors),
+            counted,
+        )
+        found[together] = counted
+    return found.reshape(len(segments), parameters.size)
+
+
+def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
+    """One point for each voxel that a segment fills, the mean of its points there.
+
+    The voxels of a segment begin at its lowest corner: neither the frame's origin nor the other
+    segments make a difference.
+
+    Args:
+        voxel: edge, metres.
+
+    Returns:
+        points, float64 (n, 3); and of each the segment that it belongs to, int64 (n,).
+    """
+    if not len(segments):
+        return np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
+    owners = segments.owners
+    cells = ((segments.points - segments.bounds()[0][owners]) / voxel).astype(np.int64)
+    keys = owners
+    for axis in range(3):
+        # No segment is thousands of metres long; what lies beyond shares the last cell.
+        keys = keys * CELLS + np.minimum(cells[:, axis], CELLS - 1)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    sums = np.add.reduceat(segments.points[order].astype(np.float64), first, axis=0)
+    counts = np.diff(first, append=len(order))
+    return sums / counts[:, None], owners[order[first]]
+
+
+@compiled
+def _count(
+    voxels: Float64,
+    owners: Int64,
+    centroids: Float64,
+    rings: Float64,
+    heights: Float64,
+    sectors: int,
+    found: Float32,
+) -> None:
+    """Fill found, (segments, rings, heights + 1): rings by outer radius, heights by upper limit."""
+    reach = rings[-1]
+    counts = np.zeros((len(rings), len(heights) + 1, sectors))
+    for segment in range(len(centroids)):
+        counts[:] = 0
+        for voxel in range(len(voxels)):
+            x = voxels[voxel, 0] - centroids[segment, 0]
+            y = voxels[voxel, 1] - centroids[segment, 1]
+            if owners[voxel] == segment or abs(x) >= reach or abs(y) >= reach:
+                continue
+            distance = np.sqrt(x * x + y * y)
+            if distance >= reach:
+                continue
+            ring = np.searchsorted(rings, distance, side="right")
+            height = voxels[voxel, 2] - centroids[segment, 2]
+            layer = np.searchsorted(heights, height, side="right")
+            sector = int((np.arctan2(y, x) / (2 * np.pi) + 0.5) * sectors) % sectors
+            counts[ring, layer, sector] += 1
+        for ring in range(counts.shape[0]):
+            for layer in range(counts.shape[1]):
+                total = 0.0
+                for sector in range(sectors):
+                    if counts[ring, layer, sector]:
+                        total += np.log1p(counts[ring, layer, sector])
+                found[segment, ring, layer] = total / sectors

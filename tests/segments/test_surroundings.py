@@ -1,0 +1,92 @@
+"""What stands around a segment: counted by hand, and what it does not depend on."""
+
+import numpy as np
+import pytest
+
+from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from segments.segments import Segments
+from segments.surroundings import describe_surroundings, voxels_by_owner
+
+TWO_RINGS = SurroundingsParameters(voxel=1.0, rings=(2.0, 5.0), heights=(0.0,), sectors=4)
+
+
+def points(*rows: tuple[float, float, float]) -> np.ndarray:
+    return np.array(rows, dtype=np.float32)
+
+
+def scene(clouds: list[np.ndarray]) -> Segments:
+    return Segments.of(clouds, np.zeros((len(clouds), 3)))
+
+
+def street(seed: int = 0, count: int = 12) -> Segments:
+    random = np.random.default_rng(seed)
+    clouds = [
+        random.normal(0, 0.8, (200, 3)) + [*random.uniform(-15, 15, 2), random.uniform(0, 2)]
+        for _ in range(count)
+    ]
+    return scene([cloud.astype(np.float32) for cloud in clouds])
+
+
+def test_by_hand() -> None:
+    # Around the first, at its centroid's height or above: one voxel a metre east; two voxels, four
+    # metres west, in one sector. Below: one voxel, four metres west. One is too far to count.
+    segments = scene(
+        [
+            points((0.5, 0.5, 0.5)),
+            points((1.5, 0.5, 0.5), (-3.5, 0.5, 0.6), (-3.5, 0.5, 1.6), (-3.5, 0.5, -0.5)),
+            points((9.5, 0.5, 0.5)),
+        ]
+    )
+    found = describe_surroundings(segments, parameters=TWO_RINGS).reshape(3, 2, 2)
+    inner, outer = np.log(2) / 4, np.log(3) / 4
+    assert found[0] == pytest.approx(np.array([[0, inner], [np.log(2) / 4, outer]]))
+
+
+def test_a_voxel_of_several_points_counts_once_at_their_mean() -> None:
+    voxels, owners = voxels_by_owner(
+        scene([points((0.9, 0.9, 0.1), (1.1, 1.1, 0.1)), points((0.2, 0, 0), (5.0, 0, 0))]), 1.0
+    )
+    # Though a grid of whole metres would part the first two.
+    assert voxels == pytest.approx(np.array([[1.0, 1.0, 0.1], [0.2, 0, 0], [5.0, 0, 0]]))
+    assert owners.tolist() == [0, 1, 1]
+
+
+def test_a_segment_alone_has_no_surroundings() -> None:
+    assert not describe_surroundings(street(count=1)).any()
+    none = describe_surroundings(scene([]))
+    assert none.shape == (0, SURROUNDINGS_V1.size)
+
+
+def test_frames_do_not_see_one_another() -> None:
+    segments = street()
+    frames = np.array([7, 3] * 6)
+    found = describe_surroundings(segments, frames)
+    for frame in (3, 7):
+        members = np.flatnonzero(frames == frame)
+        assert (found[members] == describe_surroundings(segments.take(members))).all()
+
+
+def test_order_does_not_matter() -> None:
+    segments = street()
+    order = np.random.default_rng(1).permutation(len(segments))
+    shuffled = describe_surroundings(segments.take(order))
+    assert shuffled == pytest.approx(describe_surroundings(segments)[order], abs=1e-5)
+
+
+@pytest.mark.parametrize("degrees", [90, 37, 180])
+def test_north_hardly_matters(degrees: float) -> None:
+    segments = street()
+    angle = np.radians(degrees)
+    turn = np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
+    )
+    turned = Segments(
+        (segments.points @ turn.T + [100, -50, 3]).astype(np.float32),
+        segments.ends,
+        segments.sensors,
+    )
+    before, after = describe_surroundings(segments), describe_surroundings(turned)
+    own = [np.corrcoef(a, b)[0, 1] for a, b in zip(before, after, strict=True)]
+    others = [np.corrcoef(a, b)[0, 1] for a, b in zip(before, np.roll(after, 1, 0), strict=True)]
+    assert min(own) > 0.8
+    assert min(own) > max(others)
