@@ -20,8 +20,9 @@ from segments.extractor import MODEL_FILE, Extractor, load_extractor, one_thread
 from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from segments.parameters import PROTOCOL_V1, Parameters
+from segments.recording import Recording
 from segments.segments import Segments
-from segments.types import Float32, UInt8
+from segments.surroundings import describe_surroundings
 from segments.voxels import voxelise
 from training.evaluation import machine
 
@@ -72,7 +73,7 @@ class Network:
 
 
 def bench(
-    segments: Segments,
+    scans: Sequence[Segments],
     folder: Path,
     plan: Plan,
     seed: int = 0,
@@ -84,17 +85,14 @@ def bench(
     """Measure all; the report as `placecell bench describe` writes it.
 
     Args:
-        segments: real-sized ones; `plan.segments` of them are drawn.
+        scans: the segments of each; so many are drawn that they hold `plan.segments` at least.
         folder: keeps the paper's network, so that it is exported once.
 
     Raises:
         ValueError: there are no segments.
     """
-    if not len(segments):
-        raise ValueError("there is no segment to describe; take a longer drive")
-    random = np.random.default_rng(seed)
-    repeated = len(segments) < plan.segments
-    drawn = segments.take(random.choice(len(segments), plan.segments, replace=repeated))
+    scans = draw_scans(scans, plan.segments, seed)
+    drawn = Segments.concatenate(scans)
     extractor = load_extractor(models / default, max(plan.threads))
     parameters = extractor.manifest.parameters
     networks = [network for name in shipped_models(models) for network in files(models / name)]
@@ -103,16 +101,20 @@ def bench(
 
     works: dict[Any, tuple[Work, int]] = {}
     occupancy, extents = voxelise(drawn, parameters)
+    around = np.concatenate([describe_surroundings(scan) for scan in scans])
+    inputs: dict[str, np.ndarray[Any, Any]]
+    inputs = {"occupancy": occupancy, "extents": extents, "surroundings": around}
     for network in networks:
         # As the extractor runs it: each thread has its own session.
         sessions = [one_thread_session(network.file) for _ in range(max(plan.threads))]
         for batch in plan.batches:
             for threads in plan.threads:
-                work = inference(sessions[:threads], occupancy, extents, batch)
+                work = inference(sessions[:threads], inputs, batch)
                 works[network, batch, threads] = (work, threads)
     for threads in plan.threads:
         works["preprocessing", threads] = (preprocessing(drawn, parameters), threads)
-    works["points in"] = (lambda _: len(extractor.describe(drawn)), 1)
+        works["surroundings", threads] = (each(scans, describe_surroundings), threads)
+    works["points in"] = (each(scans, extractor.describe), max(plan.threads))
     rates = measure(works, plan, progress)
 
     rows = [
@@ -136,13 +138,16 @@ def bench(
         "preprocessing_segments_per_second": {
             str(threads): rates["preprocessing", threads] for threads in plan.threads
         },
+        "surroundings_segments_per_second": {
+            str(threads): rates["surroundings", threads] for threads in plan.threads
+        },
         "single_segment_ms": latency(extractor, drawn, plan.latencies),
         "default": extractor.manifest.model_id,
         "machine": machine(),
         "seed": seed,
         "sizes": {
             "segments": len(drawn),
-            "of": len(segments),
+            "scans": len(scans),
             "points_mean": float(drawn.counts.mean()),
             "points_median": float(np.median(drawn.counts)),
             "grid": list(parameters.grid),
@@ -151,14 +156,38 @@ def bench(
     }
 
 
-def town_segments(
+def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segments]:
+    """Scans with so many segments in all, each again and again where there are too few.
+
+    Raises:
+        ValueError: there are no segments.
+    """
+    filled = [scan for scan in scans if len(scan)]
+    if not filled:
+        raise ValueError("there is no segment to describe; take a longer drive")
+    random, drawn = np.random.default_rng(seed), list[Segments]()
+    while sum(map(len, drawn)) < segments:
+        drawn += [filled[index] for index in random.permutation(len(filled))]
+    ends = np.cumsum([len(scan) for scan in drawn])
+    return drawn[: int(np.searchsorted(ends, segments)) + 1]
+
+
+def scans_of(recording: Recording) -> list[Segments]:
+    """The segments of each scan that is a frame, as a robot would send them."""
+    return [
+        recording.segments.take(np.flatnonzero(recording.frames == scan))
+        for scan in np.unique(recording.frames)
+    ]
+
+
+def town_scans(
     folder: Path, seed: int, progress: Progress = silent, scans: int = 20
-) -> Segments:
-    """Segments of a short drive through the synthetic town; the drive is left in the folder."""
+) -> list[Segments]:
+    """Of a short drive through the synthetic town; the drive is left in the folder."""
     from town import two_robots
 
     path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
-    return record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress).segments
+    return scans_of(record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress))
 
 
 def files(folder: Path) -> Iterator[Network]:
@@ -202,19 +231,21 @@ def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: in
 
 def inference(
     sessions: Sequence[onnxruntime.InferenceSession],
-    occupancy: UInt8,
-    extents: Float32,
+    inputs: dict[str, np.ndarray[Any, Any]],
     batch: int,
 ) -> Work:
     """One batch through a network, another each time; the sessions take turns."""
-    batch = min(batch, len(occupancy))
-    places = len(occupancy) // batch
+    wanted = {given.name for given in sessions[0].get_inputs()}
+    inputs = {name: values for name, values in inputs.items() if name in wanted}
+    count = len(inputs["occupancy"])
+    batch = min(batch, count)
+    places = count // batch
 
     def work(number: int) -> int:
         part = slice(number % places * batch, (number % places + 1) * batch)
-        inputs = {"occupancy": occupancy[part], "extents": extents[part]}
+        given = {name: values[part] for name, values in inputs.items()}
         # `rate` counts in steps of the threads, so that a thread stays with its session.
-        sessions[number % len(sessions)].run(["descriptor"], inputs)
+        sessions[number % len(sessions)].run(["descriptor"], given)
         return batch
 
     return work
@@ -226,10 +257,15 @@ def preprocessing(segments: Segments, parameters: Parameters, batch: int = 64) -
         segments.take(np.arange(first, min(first + batch, len(segments))))
         for first in range(0, len(segments), batch)
     ]
+    return each(parts, lambda part: voxelise(part, parameters))
+
+
+def each(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
+    """Do this with one part, another each time."""
 
     def work(number: int) -> int:
         part = parts[number % len(parts)]
-        voxelise(part, parameters)
+        do(part)
         return len(part)
 
     return work

@@ -62,14 +62,14 @@ def describe(
 
         placecell bench describe --json figures.json --plot speed.png
     """
-    from bench.describe import Plan, draw, town_segments
+    from bench.describe import Plan, draw, scans_of, town_scans
     from bench.describe import bench as run
 
     with clear_errors():
         if segments is None:
-            some = town_segments(output / "town", seed, show)
+            some = town_scans(output / "town", seed, show)
         else:
-            some = load(segments).segments
+            some = scans_of(load(segments))
         plan = Plan(repeats=repeats, seconds=seconds)
         report = run(some, output, plan, seed, progress=show)
         report["source"] = segments.stem if segments else "synthetic town"
@@ -106,6 +106,8 @@ def print_report(report: dict[str, Any]) -> None:
     Console().print(table)
     for threads, rate in report["preprocessing_segments_per_second"].items():
         typer.echo(f"align and voxelise, {threads} threads: {rate:,.0f} segments a second")
+    for threads, rate in report["surroundings_segments_per_second"].items():
+        typer.echo(f"surroundings, {threads} threads: {rate:,.0f} segments a second")
     whole = report["points_in_descriptors_out_segments_per_second"]
     typer.echo(f"points in, descriptors out: {whole:,.0f} segments a second")
     single = report["single_segment_ms"]

@@ -1,22 +1,20 @@
 """`placecell experiments`: the paper's experiments, from trainings to the report."""
 
 import shlex
-import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from cli.sources import SOURCE_HELP, clear_errors, load, show, source
-
-if TYPE_CHECKING:
-    from training.training_set import Source
+from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, source, sources, town_recordings
 
 
 def experiments(
     train: Annotated[
         list[str] | None,
-        typer.Option(help=SOURCE_HELP + " May be repeated.", metavar="DRIVE[@FIRST:LAST]"),
+        typer.Option(
+            help=SOURCE_HELP + TOWN_HELP + " May be repeated.", metavar="DRIVE[@FIRST:LAST]"
+        ),
     ] = None,
     test: Annotated[
         str | None, typer.Option(help="What to test on.", metavar="DRIVE[@FIRST:LAST]")
@@ -63,6 +61,7 @@ def experiments(
         from training.experiments import run_experiments
         from training.plan import Plan
         from training.report import write_report
+        from training.training_set import Source
 
     plan = Plan(networks=tuple(network or Plan().networks), seeds=seeds, epochs=epochs)
     if quick:
@@ -79,9 +78,13 @@ def experiments(
         if bool(train) != bool(test):
             raise ValueError("give both --train and --test, or neither for the synthetic town")
         if train and test:
-            training_sources, test_source = [source(text) for text in train], source(test)
+            training_sources, test_source = sources(train), source(test)
         else:
-            training_sources, test_source = town_sources(scans=60 if quick else 400)
+            a, b = (
+                Source(recording, 0, recording.scans - 1)
+                for recording in town_recordings(seed=1, scans=60 if quick else 400)
+            )
+            training_sources, test_source = [a], b
         with Progress() as progress:
             report = run_experiments(
                 training_sources, test_source, plan, folder, licence, command, progress
@@ -93,14 +96,3 @@ def experiments(
 def name(source: str) -> str:
     """A source as it is told to others: without the folders it lies in."""
     return source.rpartition("/")[2]
-
-
-def town_sources(scans: int) -> tuple[list["Source"], "Source"]:
-    """Robot A's drive through the town to train on, robot B's to test on."""
-    from town import two_robots
-    from training.training_set import Source
-
-    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drives = two_robots(Path(folder), seed=1, scans=scans, progress=show)
-        a, b = (load(drive) for drive in drives)
-    return [Source(a, 0, a.scans - 1)], Source(b, 0, b.scans - 1)

@@ -1,8 +1,10 @@
 """What the commands take as input: drives and prepared recordings, in part or whole."""
 
 import re
+import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -17,6 +19,11 @@ SOURCE_HELP = (
     "A drive's folder (KITTI odometry or raw layout) or a recording made by 'placecell prepare'; "
     "with @FIRST:LAST only the groups wholly within these scans, both included."
 )
+
+TOWN_HELP = " town:SEED is two robots' drives through the synthetic town of that seed."
+
+TOWN_SCANS = 300
+"""Of each robot's drive through a town that is trained on."""
 
 
 def fail(message: object) -> NoReturn:
@@ -78,6 +85,29 @@ def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
     if at and re.fullmatch(r"\d+:\d+", scans):
         return Path(path), parse_scans(scans)
     return Path(text), None
+
+
+def sources(texts: Iterable[str]) -> "list[Source]":
+    """Drives or parts of them, and towns: `town:SEED` stands for both robots' drives through it."""
+    from training.training_set import Source
+
+    found = []
+    for text in texts:
+        if match := re.fullmatch(r"town:(\d+)", text):
+            recordings = town_recordings(int(match[1]), TOWN_SCANS)
+            found += [Source(recording, 0, recording.scans - 1) for recording in recordings]
+        else:
+            found.append(source(text))
+    return found
+
+
+def town_recordings(seed: int, scans: int) -> "list[Recording]":
+    """The segments that two robots see on their drives through a synthetic town."""
+    from town import two_robots
+
+    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
+        drives = two_robots(Path(folder), seed=seed, scans=scans, progress=show)
+        return [replace(load(drive), name=f"town:{seed} {drive.name}") for drive in drives]
 
 
 def source(text: str) -> "Source":

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cli.sources import SOURCE_HELP, clear_errors, source
+from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, sources
 
 if TYPE_CHECKING:
     from segments.manifest import Manifest
@@ -25,8 +25,8 @@ class Method(StrEnum):
 
 def train(
     method: Annotated[Method, typer.Argument(help="How to learn.")],
-    sources: Annotated[
-        list[str], typer.Argument(help=SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]...")
+    drives: Annotated[
+        list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
     ],
     output: Annotated[
         Path | None,
@@ -66,7 +66,7 @@ def train(
     with clear_errors():
         from training.publishing import collect, publish_eigenvalue, retraining
 
-        parts = [source(text) for text in sources]
+        parts = sources(drives)
         command = retraining(method, parts, licence, seed, *options)
         around = SURROUNDINGS_V1 if method is Method.CONTEXT else None
         data = collect(parts, licence, around).stating(seed=seed, command=command)

@@ -64,7 +64,7 @@ def train(
         pair = siamese.train(training, validation, run, network, siamese_recipe)
         return Trained(method, network, pair.extractor, pair.match)
     if method == "context":
-        recipe = context.ContextRecipe()
+        recipe = given.pop("recipe", context.ContextRecipe())
         assert training.surroundings is not None
         projection = context.fit_projection(training.surroundings, training.groups, recipe)
         segment_recipe = replace(recipe.segment, **given)

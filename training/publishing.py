@@ -31,6 +31,9 @@ VALIDATION_SHARE = 0.1
 
 SPLIT_SEED = 0
 
+FULL_FILE = "model-fp32.onnx"
+"""Of a model that is served in 8-bit integers: what these were made from."""
+
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
 
@@ -102,11 +105,14 @@ def retraining(
     lines, prepared = [], []
     for source in sources:
         recording, file = source.recording, f"data/{source.recording.name}.safetensors"
+        if recording.name.startswith("town:"):
+            prepared.append(recording.name.split()[0])
+            continue
         step = recording.parameters.frame_step
         lines.append(f"placecell prepare {shlex.quote(recording.name)} --every {step} -o data")
         whole_drive = (source.first, source.last) == (0, recording.scans - 1)
         prepared.append(file if whole_drive else f"{file}@{source.first}:{source.last}")
-    words = ["placecell", "train", method, *prepared, "--seed", seed, *options]
+    words = ["placecell", "train", method, *dict.fromkeys(prepared), "--seed", seed, *options]
     lines.append(shlex.join(map(str, [*words, "--licence", licence])))
     return "\n".join(dict.fromkeys(lines))
 
@@ -140,6 +146,7 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     # Torch's exporter is slow to import: only here.
     from training.context import rotation
     from training.export import Exported, ExportedContext, export_onnx, principal_axes
+    from training.quantisation import quantise
 
     learned = describe(trained.network, data.training)
     mean, axes = principal_axes(learned, STORED_DIMENSION)
@@ -152,7 +159,13 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
         around, dimension, bits = SURROUNDINGS_V1, 2 * STORED_DIMENSION, 4
         exported = ExportedContext(segment, trained.projection, rotation(dimension))
     with whole(folder) as unfinished:
-        export_onnx(exported, data.training.parameters.grid, unfinished / MODEL_FILE)
+        files = [MODEL_FILE]
+        if trained.projection is None:
+            export_onnx(exported, data.training.parameters.grid, unfinished / MODEL_FILE)
+        else:
+            files.append(FULL_FILE)
+            export_onnx(exported, data.training.parameters.grid, unfinished / FULL_FILE)
+            quantise(unfinished / FULL_FILE, data.training, unfinished / MODEL_FILE)
         manifest = Manifest(
             name=folder.name,
             method=trained.method,
@@ -161,7 +174,7 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
             quantiser=Quantiser(1.0, bits),
             preprocessing=preprocessing_of(data.training.parameters, around),
             training=data.provenance,
-        ).with_files(unfinished, [MODEL_FILE])
+        ).with_files(unfinished, files)
         extractor = OnnxExtractor(unfinished, manifest)
         described = extractor.describe(data.training.segments, data.training.surroundings)
         manifest = replace(manifest, quantiser=Quantiser.fit(described, bits))

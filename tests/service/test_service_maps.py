@@ -127,7 +127,7 @@ def test_maps_that_do_not_fit_the_model_are_refused(
     assert_problem(response, 409, "other-model", other_manifest.model_id)
     narrow = encode(map_of(random_codes(3, dimension=6), manifest.model_id))
     response = service.put("/maps/yard", content=narrow)
-    assert_problem(response, 422, "invalid-map-file", "6 dimensions")
+    assert_problem(response, 422, "invalid-map-file", "6 bytes")
     assert whole(service, yard)
 
 

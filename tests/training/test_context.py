@@ -1,0 +1,156 @@
+"""Context: the projection of the surroundings, its place in the descriptor, and the whole way."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+import pytest
+import torch
+
+from segments.extractor import load_extractor
+from segments.manifest import Manifest
+from segments.parameters import PROTOCOL_V1, SURROUNDINGS_V1
+from segments.segments import Segments
+from segments.surroundings import describe_surroundings
+from segments.voxels import voxelise
+from training import methods
+from training.context import ContextRecipe, Projection, fit_projection, rotation
+from training.export import Exported, ExportedContext, export_onnx
+from training.group_based import GroupBasedRecipe
+from training.networks import DescriptorNetwork, normalisation_statistics
+from training.publishing import Data, publish_network
+from training.quantisation import quantise
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+SIZE = SURROUNDINGS_V1.size
+
+
+def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
+    """Boxes of many sizes; a group's surroundings are alike, but for much noise in a few places."""
+    random = np.random.default_rng(seed)
+    world = np.random.default_rng(99)
+    sizes, places = world.uniform(0.6, 4.0, (groups, 3)), world.uniform(0, 1, (groups, SIZE))
+    clouds, labels, around = [], [], []
+    for group in np.repeat(np.arange(groups), views):
+        clouds.append((random.uniform(-0.5, 0.5, (60, 3)) * sizes[group]).astype(np.float32))
+        labels.append(group)
+        seen = places[group] + random.normal(0, 0.05, SIZE)
+        seen[:20] += random.normal(0, 2, 20)
+        around.append(np.abs(seen))
+    return TrainingSet(
+        Segments.of(clouds, np.full((len(clouds), 3), -8.0)),
+        np.array(labels),
+        PROTOCOL_V1,
+        np.array(around, dtype=np.float32),
+    )
+
+
+def test_projection_looks_where_views_agree() -> None:
+    data = many_groups(seed=0)
+    assert data.surroundings is not None
+    projection = fit_projection(data.surroundings, data.groups, ContextRecipe(dimension=8))
+    strength = np.abs(projection.axes).mean(axis=1)
+    assert strength[:20].mean() < 0.3 * strength[20:].mean()
+    assert projection.mean == pytest.approx(data.surroundings.mean(axis=0), abs=1e-4)
+    # Views of a group, not learned from, lie closer to one another than to other groups'.
+    fresh = many_groups(seed=1)
+    assert fresh.surroundings is not None
+    found = (fresh.surroundings - projection.mean) @ projection.axes
+    found /= np.linalg.norm(found, axis=1, keepdims=True)
+    distances = np.linalg.norm(found[:, None] - found[None], axis=2)
+    np.fill_diagonal(distances, np.inf)
+    assert (fresh.groups[distances.argmin(axis=1)] == fresh.groups).mean() > 0.9
+
+
+def test_too_few_groups_are_said() -> None:
+    data = many_groups(seed=0, groups=6)
+    assert data.surroundings is not None
+    with pytest.raises(ValueError, match="longer drive"):
+        fit_projection(data.surroundings, data.groups, ContextRecipe(dimension=8))
+
+
+def test_rotation_keeps_distances_and_is_always_the_same() -> None:
+    turn = rotation(64)
+    assert turn @ turn.T == pytest.approx(np.eye(64), abs=1e-5)
+    assert (turn == rotation(64)).all()
+
+
+def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
+    torch.manual_seed(0)
+    network = DescriptorNetwork("fast", *normalisation_statistics(data)).eval()
+    random = np.random.default_rng(0)
+    projection = Projection(
+        np.zeros(SIZE, np.float32), random.normal(size=(SIZE, dimension)).astype(np.float32), 1.2
+    )
+    axes = np.eye(64, dimension, dtype=np.float32)
+    segment = Exported(network, np.zeros(64, np.float32), axes)
+    return ExportedContext(segment, projection, rotation(2 * dimension)).eval()
+
+
+def test_onnx_equals_torch_and_quantised_nearly_so(tmp_path: Path) -> None:
+    data = many_groups(seed=0, groups=20)
+    network = exported(data)
+    export_onnx(network, PROTOCOL_V1.grid, tmp_path / "full.onnx")
+    occupancy, extents = voxelise(data.segments, data.parameters)
+    assert data.surroundings is not None
+    given = {"occupancy": occupancy, "extents": extents, "surroundings": data.surroundings}
+    (found,) = onnxruntime.InferenceSession(tmp_path / "full.onnx").run(["descriptor"], given)
+    with torch.no_grad():
+        expected = network(*(torch.from_numpy(value) for value in given.values())).numpy()
+    assert found == pytest.approx(expected, abs=1e-4)
+    quantise(tmp_path / "full.onnx", data, tmp_path / "small.onnx")
+    (small,) = onnxruntime.InferenceSession(tmp_path / "small.onnx").run(["descriptor"], given)
+    errors = np.linalg.norm(small - expected, axis=1)
+    spread = np.linalg.norm(expected - np.roll(expected, 7, axis=0), axis=1)
+    assert 0 < errors.mean() < 0.1 * spread.mean()
+    content = (tmp_path / "small.onnx").read_bytes()
+    assert b"QuantizeLinear" in content
+    assert str(tmp_path).encode() not in content
+
+
+def test_a_query_alone_is_ranked_by_itself() -> None:
+    data = many_groups(seed=0, groups=20)
+    network = exported(data)
+    occupancy, extents = map(torch.from_numpy, voxelise(data.segments, data.parameters))
+    around = torch.from_numpy(data.surroundings)
+    with torch.no_grad():
+        own = network.segment(occupancy, extents).numpy()
+        stored = network(occupancy, extents, around).numpy()
+        alone = network(occupancy, extents, torch.zeros_like(around)).numpy()
+    # Every stored descriptor is farther by the same constant: the weight of what stands around.
+    squared = np.square(alone[:, None] - stored[None]).sum(axis=2)
+    expected = np.square(own[:, None] - own[None]).sum(axis=2) + 1.2**2
+    assert squared == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
+    data = many_groups(seed=0)
+    training, validation = data.split(0.4, seed=0)
+    recipe = ContextRecipe(segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)))
+    trained = methods.train(
+        "context", training, validation, Run(tmp_path / "run", 0), recipe=replace(recipe)
+    )
+    provenance = {
+        "sources": [{"drive": "toy", "scans": [0, 1], "frame_step": 1, "segments": 9}],
+        "validation_share": 0.4,
+        "licence": "free",
+        "seed": 0,
+        "seconds": 0.0,
+        "machine": {"cores": 1},
+        "command": "x",
+    }
+    manifest = publish_network(tmp_path / "toy", trained, Data(training, validation, provenance))
+    assert manifest.model_id == Manifest.load(tmp_path / "toy").model_id
+    assert manifest.surroundings == SURROUNDINGS_V1
+    assert (manifest.dimension, manifest.code_bytes) == (64, 32)
+    figures = manifest.figures["validation"]
+    assert figures["top1"] > figures["alone"]["top1"]
+    # What the extractor takes for granted is that the segments were seen together.
+    extractor = load_extractor(tmp_path / "toy")
+    together = extractor.describe(data.segments)
+    around = describe_surroundings(data.segments)
+    assert (together == extractor.describe(data.segments, around)).all()
+    assert not np.allclose(together, extractor.describe(data.segments, np.zeros_like(around)))
