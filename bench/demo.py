@@ -72,9 +72,14 @@ def robots_of_drive(folder: Path, progress: Progress) -> tuple[Robot, Robot]:
 
 
 def run(
-    mapper: Robot, asker: Robot, folder: Path, picture: Path, models: Sequence[str] = ()
+    mapper: Robot, asker: Robot, folder: Path, model: str, picture: Path | None = None
 ) -> Outcome:
     """Start the service, upload A's map, let B ask, score, draw.
+
+    Args:
+        folder: for the service's data.
+        model: by name.
+        picture: where the matches are drawn, if at all.
 
     Raises:
         ValueError: a robot saw no segments.
@@ -82,7 +87,7 @@ def run(
     for robot in (mapper, asker):
         if not any(len(recording.segments) for recording in robot.recordings):
             raise ValueError(f"{robot.drive.folder}: the drive gives no segments for {robot.name}")
-    with running_service(folder / "service", *models) as address, Client(address) as client:
+    with running_service(folder, "--model", model) as address, Client(address) as client:
         compact = mapper.build_map(client, frame=mapper.drive.folder.name)
         data = encode(compact)
         client.put_map(MAP, data)
@@ -106,10 +111,12 @@ def run(
         "request_p50_ms": round(float(p50), 1),
         "request_p99_ms": round(float(p99), 1),
     }
-    from bench.picture import draw_matches
+    if picture is not None:
+        from bench.picture import draw_matches
 
-    title = f"What {asker.name} sees, found in the map of {mapper.name}"
-    draw_matches(picture, mapper, asker, compact.centroids, answers, result.first_is_right, title)
+        title = f"What {asker.name} sees, found in the map of {mapper.name}"
+        right = result.first_is_right
+        draw_matches(picture, mapper, asker, compact.centroids, answers, right, title)
     return Outcome(result, figures)
 
 

@@ -26,6 +26,8 @@ def demo(
     Ends with status 0 only if robot B was recognised.
     """
     from bench.demo import is_short, robots_of_drive, robots_of_town, run
+    from segments.manifest import Manifest
+    from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-demo-") as scratch:
         if drive is None:
@@ -39,10 +41,17 @@ def demo(
                     f"{len(mapper.drive)} scans): few places to recognise, and each seen from few "
                     "scans; the figures below say little."
                 )
+            seen = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL).has_seen(
+                hash_ for recording in mapper.recordings for hash_ in recording.scan_hashes
+            )
+            if seen:
+                typer.echo(f"{DEFAULT_MODEL} was trained on scans of this drive.")
         picture = output / "matches.png"
-        outcome = run(mapper, asker, Path(scratch), picture)
-    (output / "figures.json").write_text(json.dumps(outcome.figures, indent=2) + "\n")
-    print_outcome(outcome.figures)
+        outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, picture)
+        baseline = run(mapper, asker, Path(scratch) / "baseline", BASELINE)
+    figures = outcome.figures | {BASELINE: baseline.figures}
+    (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n")
+    print_outcome(outcome.figures, baseline.figures)
     typer.echo(f"picture: {picture}")
     if not outcome.score.findable:
         fail("no segment of robot B lies in robot A's map; nothing could be recognised")
@@ -51,8 +60,8 @@ def demo(
     typer.echo("It works: robot B found its place in robot A's map.")
 
 
-def print_outcome(figures: dict[str, object]) -> None:
-    """The figures as a table on the terminal."""
+def print_outcome(figures: dict[str, object], baseline: dict[str, object]) -> None:
+    """The figures as a table on the terminal, the baseline's beside them."""
     from rich.console import Console
     from rich.table import Table
 
@@ -73,7 +82,13 @@ def print_outcome(figures: dict[str, object]) -> None:
         "request_p99_ms": "milliseconds a request, p99",
     }
     table = Table(show_header=False)
-    for key, value in figures.items():
-        shown = f"{value:.1%}" if key.startswith("right") else str(value)
-        table.add_row(names[key], f"{value:,}" if isinstance(value, int) else shown)
+    for key in figures:
+        table.add_row(names[key], *(shown(key, each[key]) for each in (figures, baseline)))
     Console().print(table)
+
+
+def shown(key: str, value: object) -> str:
+    """A figure for people to read."""
+    if isinstance(value, float) and key.startswith("right"):
+        return f"{value:.1%}"
+    return f"{value:,}" if isinstance(value, int) else str(value)

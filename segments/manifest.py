@@ -6,6 +6,7 @@ value; descriptors, maps and responses carry it, and those of different ids are 
 
 import hashlib
 import json
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -111,6 +112,13 @@ class Manifest:
                 f"this program has version {PREPROCESSING_VERSION}: train the model again"
             )
         return manifest
+
+    def has_seen(self, scan_hashes: Iterable[str]) -> bool:
+        """Whether the model was trained on any of these scans, wherever they lay."""
+        trained: set[str] = set()
+        for source in self.training.get("sources", []):
+            trained.update(source["scan_hashes"])
+        return not trained.isdisjoint(scan_hashes)
 
     @property
     def code_bytes(self) -> int:

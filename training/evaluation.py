@@ -3,14 +3,17 @@
 import os
 import platform
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from segments.extractor import Extractor, load_extractor
+from segments.manifest import Manifest
 from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder, shipped_models
 from segments.pairs import PairClassifier, load_pair_classifier
+from segments.parameters import PROTOCOL_V1
 from segments.recording import Recording
 from segments.segments import Segments
 from segments.types import Float32, Int8, Int64
@@ -35,11 +38,11 @@ def measure(
     manifest = extractor.manifest
     codes = manifest.quantiser.encode(extractor.describe(segments, surroundings))
     stored = manifest.quantiser.decode(codes)
-    figures = {"model_id": manifest.model_id} | retrieval(stored, segments, groups)
+    figures = {"model_id": manifest.model_id} | retrieval(manifest, codes, segments, groups)
     if manifest.surroundings is not None:
         nothing = np.zeros((len(segments), manifest.surroundings.size), dtype=np.float32)
         alone = manifest.quantiser.encode(extractor.describe(segments, nothing))
-        figures["alone"] = retrieval(manifest.quantiser.decode(alone), segments, groups)
+        figures["alone"] = retrieval(manifest, alone, segments, groups)
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
         figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
@@ -69,10 +72,11 @@ def measure(
     return figures | paired | by_distance
 
 
-def retrieval(stored: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
-    """The figures of nearest neighbours."""
-    found = recognition.retrieve(stored, groups)
-    crossed = recognition.retrieve(stored, groups, segments.sensors, recognition.CROSS_VIEW_METRES)
+def retrieval(manifest: Manifest, codes: Int8, segments: Segments, groups: Int64) -> dict[str, Any]:
+    """The figures of nearest neighbours, in whole steps: exact, as the service compares them."""
+    levels = manifest.quantiser.levels(codes).astype(np.float32)
+    found = recognition.retrieve(levels, groups)
+    crossed = recognition.retrieve(levels, groups, segments.sensors, recognition.CROSS_VIEW_METRES)
     return {
         "top1": mean(found.right),
         "top1_with_mate": mean(found.right[found.has_mate]),
@@ -144,11 +148,17 @@ def evaluate(
         What `placecell evaluate --json` writes.
 
     Raises:
-        ValueError: no segments lie within the scans.
+        ValueError: no segments lie within the scans, or they were cut by other constants.
     """
     first, last = scans or (0, recording.scans - 1)
     if not len(recording.segments):
         raise ValueError(f"{recording.name}: the drive gives no segments at all")
+    constants = replace(recording.parameters, frame_step=PROTOCOL_V1.frame_step)
+    if constants != PROTOCOL_V1:
+        raise ValueError(
+            f"{recording.name}: was not cut by protocol {PROTOCOL_V1.protocol}, by which figures "
+            "compare; prepare the drive again"
+        )
     inside = recording.within(first, last)
     chosen = np.flatnonzero(inside & recording.distinct)
     if not len(chosen):
@@ -162,7 +172,7 @@ def evaluate(
         around = extractor.manifest.surroundings
         seen = None if around is None else recording.surroundings(around)[chosen]
         figures = measure(extractor, classifier, segments, groups, seed, seen)
-        figures["seen"] = has_seen(extractor, recording, first, last)
+        figures["seen"] = extractor.manifest.has_seen(recording.scan_hashes[first : last + 1])
         extractors[name] = figures
     return {
         "drive": recording.name,
@@ -177,14 +187,6 @@ def evaluate(
         "machine": machine(),
         "seed": seed,
     }
-
-
-def has_seen(extractor: Extractor, recording: Recording, first: int, last: int) -> bool:
-    """Whether the model was trained on any of these scans, wherever they lay."""
-    trained: set[str] = set()
-    for source in extractor.manifest.training.get("sources", []):
-        trained.update(source["scan_hashes"])
-    return not trained.isdisjoint(recording.scan_hashes[first : last + 1])
 
 
 def machine() -> dict[str, Any]:
