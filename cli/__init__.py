@@ -8,6 +8,7 @@ from cli.evaluate import evaluate
 from cli.experiments import experiments
 from cli.prepare import prepare
 from cli.serve import serve
+from cli.study import study
 from cli.town import town
 from cli.train import train
 
@@ -24,5 +25,6 @@ app.command()(prepare)
 app.command()(train)
 app.command()(evaluate)
 app.command()(experiments)
+app.command()(study)
 app.add_typer(bench, name="bench")
 app.command()(serve)

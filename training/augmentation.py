@@ -33,12 +33,22 @@ class Augmentation:
         self, segments: Segments, parameters: Parameters, random: np.random.Generator
     ) -> tuple[UInt8, Float32]:
         """One altered copy of each segment, as the network's input (see `voxelise`)."""
-        keep = self._keep(segments, random)
-        counts = np.add.reduceat(keep, segments.starts, dtype=np.int64)
-        altered = Segments(segments.points[keep], np.cumsum(counts), segments.sensors)
+        altered = self.segments(segments, random)
         return voxelise(altered, parameters, random.uniform(-self.yaw, self.yaw, len(segments)))
 
-    def _keep(self, segments: Segments, random: np.random.Generator) -> Bool:
+    def segments(
+        self, segments: Segments, random: np.random.Generator, *, exactly: bool = False
+    ) -> Segments:
+        """The same segments with fewer points.
+
+        Args:
+            exactly: each loses what it may lose at most.
+        """
+        keep = self._keep(segments, random, exactly)
+        counts = np.add.reduceat(keep, segments.starts, dtype=np.int64)
+        return Segments(segments.points[keep], np.cumsum(counts), segments.sensors)
+
+    def _keep(self, segments: Segments, random: np.random.Generator, exactly: bool) -> Bool:
         count = len(segments)
         counts = segments.counts
         # A cut takes the points beyond a share of the way along a random horizontal direction.
@@ -48,8 +58,12 @@ class Augmentation:
         lowest = np.minimum.reduceat(along, segments.starts)
         highest = np.maximum.reduceat(along, segments.starts)
         cut = random.uniform(0, self.cut_most, count) * (random.random(count) < self.cut_share)
+        if exactly:
+            cut = np.full(count, self.cut_most)
         limit = highest - cut * (highest - lowest)
         stays = random.uniform(1 - self.drop_most, 1, count)
+        if exactly:
+            stays = np.full(count, 1 - self.drop_most)
         keep = (along <= np.repeat(limit, counts)) & (
             random.random(len(along)) < np.repeat(stays, counts)
         )

@@ -151,3 +151,42 @@ def reliability(models: Models, file: Path) -> None:
         axes.set(xlabel="stated probability", ylabel="share of matches", title="reliability")
         axes.legend(fontsize=8)
         axes.grid(alpha=0.3)
+
+
+def studies(curves: dict[str, dict[str, Any]], file: Path) -> None:
+    """What recognition depends on, each model a line; and what storage costs the last of them."""
+    panels = {
+        "by_points": ("points", "points of the segment"),
+        "by_metres": ("metres", "mates seen from within so many metres left out"),
+        "by_degrees": ("degrees", "mates seen from within so many degrees left out"),
+        "by_occlusion": ("lost", "share of the query cut off"),
+        "by_density": ("lost", "share of the query's points missing"),
+    }
+    with figure(file, len(panels) + 1, size=3.8) as axes:
+        for place, (key, (along, label)) in zip(axes, panels.items(), strict=False):
+            for name, curve in curves.items():
+                at = [row[along] if along != "points" else row[along][0] for row in curve[key]]
+                place.plot(
+                    at,
+                    [np.nan if row["top1"] is None else row["top1"] for row in curve[key]],
+                    marker="o",
+                    markersize=3,
+                    label=name,
+                )
+            place.set(xlabel=label, ylabel="top1 of those with a mate", ylim=(0, 1))
+            place.grid(alpha=0.3)
+        axes[0].set_xscale("log")
+        axes[0].legend(fontsize=8)
+        name, curve = list(curves.items())[-1]
+        for bits in sorted({row["bits"] for row in curve["by_storage"]}, reverse=True):
+            rows = [row for row in curve["by_storage"] if row["bits"] == bits]
+            axes[-1].plot(
+                [row["dimension"] for row in rows],
+                [row["top1"] for row in rows],
+                marker="o",
+                markersize=3,
+                label=f"{bits} bits",
+            )
+        axes[-1].set(xlabel="dimensions", ylabel="top1", title=f"storage: {name}")
+        axes[-1].legend(fontsize=8)
+        axes[-1].grid(alpha=0.3)

@@ -3,7 +3,7 @@
 All figures are of descriptors as they are stored; `docs/recognition.md` has the definitions.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,45 +26,82 @@ class Retrieval:
         right: bool (segments,): the nearest is of the same group; false without a mate.
         has_mate: bool (segments,): another segment of the group is there at all.
         recalled: bool (segments,): one of the same group is among the 25 nearest.
+        nearest: int64 (segments,): the nearest; -1 where there is no other.
     """
 
     right: Bool
     has_mate: Bool
     recalled: Bool
+    nearest: Int64
 
 
-def distance_rows(descriptors: Float32, rows: int = 1000) -> Iterator[tuple[Int64, Float32]]:
-    """Squared distances to all, some rows at a time; a segment's to itself is infinite."""
+def distance_rows(
+    descriptors: Float32, queries: Float32 | None = None, rows: int = 1000
+) -> Iterator[tuple[Int64, Float32]]:
+    """Squared distances to all, some rows at a time; a segment's to itself is infinite.
+
+    Args:
+        queries: other descriptors of the same segments, from which the distances are taken.
+    """
+    asked = descriptors if queries is None else queries
+    asked_squared = np.einsum("ij,ij->i", asked, asked)
     squared = np.einsum("ij,ij->i", descriptors, descriptors)
     for first in range(0, len(descriptors), rows):
         chosen = np.arange(first, min(first + rows, len(descriptors)))
-        products = descriptors[chosen] @ descriptors.T
-        distances = squared[chosen, None] + squared[None] - 2 * products
+        products = asked[chosen] @ descriptors.T
+        distances = asked_squared[chosen, None] + squared[None] - 2 * products
         distances[np.arange(len(chosen)), chosen] = np.inf
         yield chosen, distances
 
 
+TooEasy = Callable[[Int64], Bool]
+"""For rows (r,): bool (r, segments), of which of them these would be too easy a match."""
+
+
+def seen_within(sensors: Float32, metres: float) -> TooEasy:
+    """Views from hardly another place: sensors, (segments, 3), within so many metres."""
+
+    def too_easy(rows: Int64) -> Bool:
+        offsets = sensors[rows, None] - sensors[None]
+        return np.asarray(np.einsum("ijk,ijk->ij", offsets, offsets) <= metres**2)
+
+    return too_easy
+
+
+def seen_from_angle(bearings: Float64, degrees: float) -> TooEasy:
+    """Views from hardly another side: bearings of the sensor, (segments,), radians."""
+
+    def too_easy(rows: Int64) -> Bool:
+        turned = bearings[rows, None] - bearings[None]
+        return np.asarray(np.abs(np.angle(np.exp(1j * turned))) <= np.radians(degrees))
+
+    return too_easy
+
+
 def retrieve(
-    descriptors: Float32, groups: Int64, sensors: Float32 | None = None, apart: float = 0.0
+    descriptors: Float32,
+    groups: Int64,
+    too_easy: TooEasy | None = None,
+    queries: Float32 | None = None,
 ) -> Retrieval:
     """Look for each segment among the others (paper IV-B, second comparison).
 
     Args:
         descriptors: float32 (segments, dimension).
         groups: int64 (segments,).
-        sensors: float32 (segments, 3), metres: where each was seen from.
-        apart: with sensors given, mates seen from within so many metres are taken out first.
+        too_easy: mates that are taken out first.
+        queries: float32 (segments, dimension), other descriptors of the same segments to ask with.
     """
     count = len(groups)
     right, has_mate, recalled = (np.zeros(count, dtype=bool) for _ in range(3))
-    for rows, distances in distance_rows(descriptors):
+    nearest_first = np.full(count, -1)
+    for rows, distances in distance_rows(descriptors, queries):
         mates = groups[rows, None] == groups[None]
         mates[np.arange(len(rows)), rows] = False
-        if sensors is not None:
-            offsets = sensors[rows, None] - sensors[None]
-            near = np.einsum("ijk,ijk->ij", offsets, offsets) <= apart**2
-            distances[mates & near] = np.inf
-            mates &= ~near
+        if too_easy is not None:
+            easy = too_easy(rows)
+            distances[mates & easy] = np.inf
+            mates &= ~easy
         has_mate[rows] = mates.any(axis=1)
         several = min(CANDIDATES, count - 1)
         if several < 1:
@@ -72,8 +109,9 @@ def retrieve(
         nearest = np.argpartition(distances, several - 1, axis=1)[:, :several]
         recalled[rows] = np.take_along_axis(mates, nearest, axis=1).any(axis=1)
         first = distances.argmin(axis=1)
+        nearest_first[rows] = first
         right[rows] = mates[np.arange(len(rows)), first]
-    return Retrieval(right, has_mate, recalled)
+    return Retrieval(right, has_mate, recalled, nearest_first)
 
 
 def top1(descriptors: Float32, groups: Int64) -> float:

@@ -25,7 +25,10 @@ def test_top1_agrees_with_brute_force_over_several_blocks_of_rows() -> None:
     assert recognition.top1(descriptors[:300], groups[:300]) == pytest.approx(expected)
     several_blocks = recognition.retrieve(descriptors, groups).right
     one_block = np.concatenate(
-        [distances.argmin(axis=1) for _, distances in recognition.distance_rows(descriptors, 2000)]
+        [
+            distances.argmin(axis=1)
+            for _, distances in recognition.distance_rows(descriptors, rows=2000)
+        ]
     )
     assert (several_blocks == (groups[one_block] == groups)).all()
 
@@ -44,19 +47,23 @@ def test_cross_view_takes_near_mates_out_of_the_database() -> None:
     groups = np.array([0, 0, 1, 0])
     sensors = np.array([[0, 0, 0], [0.5, 0, 0], [0, 0, 0], [11, 0, 0]], dtype=np.float32)
     plain = recognition.retrieve(descriptors, groups)
-    crossed = recognition.retrieve(descriptors, groups, sensors, apart=10.0)
+    crossed = recognition.retrieve(descriptors, groups, recognition.seen_within(sensors, 10.0))
     assert plain.right.tolist() == [True, True, False, False]
     assert crossed.right.tolist() == [False, False, False, False]
     assert crossed.has_mate.tolist() == [True, True, False, True]
     # Near mates are gone, not turned into strangers: without segment 2, segment 3 is found.
     keep = np.array([0, 1, 3])
-    alone = recognition.retrieve(descriptors[keep], groups[keep], sensors[keep], apart=10.0)
+    alone = recognition.retrieve(
+        descriptors[keep], groups[keep], recognition.seen_within(sensors[keep], 10.0)
+    )
     assert alone.right.tolist() == [True, True, True]
 
 
 def test_mates_exactly_ten_metres_away_are_taken_out() -> None:
     sensors = np.array([[0, 0, 0], [10, 0, 0]], dtype=np.float32)
-    pair = recognition.retrieve(np.zeros((2, 1), np.float32), np.zeros(2, int), sensors, apart=10.0)
+    pair = recognition.retrieve(
+        np.zeros((2, 1), np.float32), np.zeros(2, int), recognition.seen_within(sensors, 10.0)
+    )
     assert not pair.has_mate.any()
 
 
@@ -117,3 +124,17 @@ def test_nearest_pairs_by_hand() -> None:
     matches, others = recognition.nearest_pairs(descriptors, groups, np.array([0, 3]), candidates=2)
     assert sorted(map(tuple, matches)) == [(0, 2), (3, 1)]
     assert sorted(map(tuple, others)) == [(0, 1), (3, 2)]
+
+
+def test_views_from_one_side_are_too_easy_across_north() -> None:
+    bearings = np.radians([179.0, -179.0, 90.0])
+    too_easy = recognition.seen_from_angle(bearings, 10.0)
+    assert too_easy(np.array([0, 2])).tolist() == [[True, True, False], [False, False, True]]
+
+
+def test_other_descriptors_of_the_same_segments_may_ask() -> None:
+    descriptors = np.array([[0.0], [1.0], [5.0], [6.0]], dtype=np.float32)
+    queries = np.array([[5.2], [0.2], [6.4], [4.0]], dtype=np.float32)
+    found = recognition.retrieve(descriptors, np.array([0, 0, 1, 1]), queries=queries)
+    assert found.nearest.tolist() == [2, 0, 3, 2]
+    assert found.right.tolist() == [False, True, True, True]

@@ -1,0 +1,56 @@
+"""`placecell study`: what recognition depends on, and what limits it."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.sources import SOURCE_HELP, clear_errors, source
+
+
+def study(
+    drive: Annotated[str, typer.Argument(help=SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")],
+    model: Annotated[
+        list[str] | None,
+        typer.Option(help="A model's name or folder; may be repeated. (default: all shipped)"),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for study.json and study.png.")
+    ] = Path("out/study"),
+) -> None:
+    """Measure recognition by size, viewpoint, occlusion, density, storage; sort the misses.
+
+    Writes the curves of each model as JSON and as a picture.
+    """
+    from rich.progress import track
+
+    with clear_errors():
+        from segments.parameters import SURROUNDINGS_V1
+        from training.evaluation import machine, open_models
+        from training.plots import studies
+        from training.study import study as study_of
+        from training.training_set import TrainingSet
+
+        models = open_models(model or ())
+        part = source(drive)
+        test = TrainingSet.of([part], SURROUNDINGS_V1)
+        curves = {
+            name: {"model_id": extractor.manifest.model_id} | study_of(extractor, test)
+            for name, (extractor, _) in track(models.items(), description="studying")
+        }
+    output.mkdir(parents=True, exist_ok=True)
+    report = {
+        "drive": part.recording.name,
+        "scans": [part.first, part.last],
+        "segments": len(test),
+        "protocol": test.parameters.protocol,
+        "machine": machine(),
+        "models": curves,
+    }
+    (output / "study.json").write_text(json.dumps(report, indent=1) + "\n")
+    studies(curves, output / "study.png")
+    for name, curve in curves.items():
+        shown = ", ".join(f"{what} {share:.1%}" for what, share in curve["misses"].items())
+        typer.echo(f"{name}: {shown}")
+    typer.echo(f"curves: {output / 'study.png'}")

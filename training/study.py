@@ -1,0 +1,180 @@
+"""What recognition depends on, and what limits it: size, viewpoint, occlusion, density, labels.
+
+All on a test drive, of descriptors as they are stored unless said otherwise.
+"""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from segments.extractor import Extractor
+from segments.quantiser import Quantiser
+from segments.types import Bool, Float32, Float64, Int64
+from training import recognition
+from training.augmentation import Augmentation
+from training.training_set import TrainingSet
+
+SIZES = (100, 150, 250, 400, 700, 1500, 15_001)
+METRES = (0.0, 2.0, 5.0, 10.0, 15.0, 20.0)
+DEGREES = (0.0, 5.0, 10.0, 20.0, 40.0, 60.0)
+SHARES = (0.0, 0.2, 0.4, 0.6, 0.8)
+DIMENSIONS = (8, 16, 24, 32, 48, 64)
+BITS = (32, 8, 6, 5, 4, 3)
+SAME_PLACE = 1.5
+"""Metres between centroids of segments that stand in one place, whatever group they are of."""
+
+Curve = list[dict[str, Any]]
+
+
+def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
+    """All curves of one model."""
+    described = extractor.describe(test.segments, test.surroundings)
+    stored = as_stored(extractor, described)
+    sensors = test.segments.sensors
+    centroids = test.segments.centroids()
+    bearings = np.arctan2(*(sensors - centroids)[:, 1::-1].T)
+    return {
+        "by_points": by_points(test, stored),
+        "by_metres": [
+            {"metres": metres} | share(stored, test, recognition.seen_within(sensors, metres))
+            for metres in METRES
+        ],
+        "by_degrees": [
+            {"degrees": degrees}
+            | share(stored, test, recognition.seen_from_angle(bearings, degrees))
+            for degrees in DEGREES
+        ],
+        "by_occlusion": [
+            {"lost": lost}
+            | altered(extractor, test, stored, Augmentation(0.0, 1.0, lost, 0.0), lost)
+            for lost in SHARES
+        ],
+        "by_density": [
+            {"lost": lost}
+            | altered(extractor, test, stored, Augmentation(0.0, 0.0, 0.0, lost), lost)
+            for lost in SHARES
+        ],
+        "by_storage": by_storage(described, test),
+        "misses": misses(stored, test, centroids),
+    }
+
+
+def as_stored(extractor: Extractor, described: Float32) -> Float32:
+    """Descriptors after a round trip through their stored form."""
+    quantiser = extractor.manifest.quantiser
+    return quantiser.decode(quantiser.encode(described))
+
+
+def share(
+    stored: Float32, test: TrainingSet, too_easy: recognition.TooEasy | None = None
+) -> dict[str, Any]:
+    """Of the segments that have a mate left, how many find one first; and how many they are."""
+    found = recognition.retrieve(stored, test.groups, too_easy)
+    return {"top1": average(found.right[found.has_mate]), "queries": int(found.has_mate.sum())}
+
+
+def average(values: Bool | Float64) -> float | None:
+    """None of none."""
+    return float(values.mean()) if len(values) else None
+
+
+def by_points(test: TrainingSet, stored: Float32) -> Curve:
+    """Recognition of small and of large segments."""
+    found = recognition.retrieve(stored, test.groups)
+    counts = test.segments.counts
+    return [
+        {
+            "points": [low, high - 1],
+            "top1": average(found.right[(counts >= low) & (counts < high) & found.has_mate]),
+            "queries": int(((counts >= low) & (counts < high)).sum()),
+        }
+        for low, high in pairwise(SIZES)
+    ]
+
+
+def altered(
+    extractor: Extractor, test: TrainingSet, stored: Float32, change: Augmentation, lost: float
+) -> dict[str, Any]:
+    """Queries that lost a part of their points, among the others as they are."""
+    asked = stored
+    if lost:
+        segments = change.segments(test.segments, np.random.default_rng(0), exactly=True)
+        asked = as_stored(extractor, extractor.describe(segments, test.surroundings))
+    found = recognition.retrieve(stored, test.groups, queries=asked)
+    return {"top1": average(found.right[found.has_mate])}
+
+
+def by_storage(described: Float32, test: TrainingSet) -> Curve:
+    """Fewer dimensions (the principal ones), and fewer bits for each."""
+    mean = described.mean(axis=0)
+    axes = np.linalg.svd(described - mean, full_matrices=False)[2]
+    curve = []
+    for dimension in (d for d in DIMENSIONS if d <= described.shape[1]):
+        projected = (described - mean) @ axes[:dimension].T
+        # Spread evenly over the dimensions, as few bits want it.
+        turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]
+        turned = np.asarray(projected @ turn, dtype=np.float32)
+        for bits in BITS:
+            kept = turned if bits == 32 else rounded(turned, bits)
+            found = recognition.retrieve(kept, test.groups)
+            curve.append(
+                {
+                    "dimension": dimension,
+                    "bits": bits,
+                    "bytes": dimension * bits / 8,
+                    "top1": average(found.right),
+                }
+            )
+    return curve
+
+
+def rounded(values: Float32, bits: int) -> Float32:
+    """To uniform steps of so many bits."""
+    highest = 2 ** (bits - 1) - 1
+    step = Quantiser.fit(values).step * 127 / highest
+    return np.asarray(np.rint(values / step).clip(-highest, highest) * step, dtype=np.float32)
+
+
+def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, float]:
+    """What the segments that find no mate first are, as shares of all segments.
+
+    Each miss counts once, under the first of: `no_mate`, nothing to be found; `same_place`, what
+    was found stands where the query or a mate does, but is of another group: a doubtful label;
+    `moving`, the group's centroid wanders by more than a metre; `small`, under 250 points;
+    `other`.
+    """
+    found = recognition.retrieve(stored, test.groups)
+    missed = ~found.right
+    counts = {"right": float(found.right.mean())}
+    reasons = {
+        "no_mate": ~found.has_mate,
+        "same_place": in_same_place(test.groups, centroids, found.nearest),
+        "moving": wander(test, centroids) > 1.0,
+        "small": test.segments.counts < 250,
+        "other": np.ones(len(test), dtype=bool),
+    }
+    for name, holds in reasons.items():
+        counts[name] = float((missed & holds).mean())
+        missed = missed & ~holds
+    return counts
+
+
+def in_same_place(groups: Int64, centroids: Float64, nearest: Int64) -> Bool:
+    """Whether what was found stands within 1.5 m of the query or a mate of it."""
+    same = np.zeros(len(groups), dtype=bool)
+    for group in np.unique(groups):
+        members = np.flatnonzero(groups == group)
+        hits = centroids[nearest[members]]
+        apart = np.linalg.norm(hits[:, None] - centroids[members][None], axis=2)
+        same[members] = apart.min(axis=1) <= SAME_PLACE
+    return same
+
+
+def wander(test: TrainingSet, centroids: Float64) -> Float64:
+    """Of each segment: how far apart, in metres, its group's centroids lie."""
+    far = np.zeros(len(test.group_sizes()))
+    for group in np.unique(test.groups):
+        places = centroids[test.groups == group]
+        far[group] = np.linalg.norm(places.max(axis=0) - places.min(axis=0))
+    return np.asarray(far[test.groups])
