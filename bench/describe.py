@@ -17,8 +17,9 @@ import onnxruntime
 from segments.drives import open_drive
 from segments.extraction import Progress, record, silent
 from segments.extractor import MODEL_FILE, Extractor, load_extractor, one_thread_session
-from segments.manifest import Manifest
+from segments.manifest import PAIR_FILE, Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from segments.pairs import PairClassifier
 from segments.parameters import PROTOCOL_V1, Parameters
 from segments.recording import Recording
 from segments.segments import Segments
@@ -27,6 +28,9 @@ from segments.voxels import voxelise
 from training.evaluation import machine
 
 PAPER = "paper"
+
+PAIRS = 1_250
+"""Queries and candidates of a usual request to `/match`: 50 segments, 25 nearest."""
 
 Work = Callable[[int], int]
 """Do the piece of work of this number; returns how many segments it had."""
@@ -142,6 +146,7 @@ def bench(
             str(threads): rates["surroundings", threads] for threads in plan.threads
         },
         "single_segment_ms": latency(extractor, drawn, plan.latencies),
+        "pairs": [pair_latency(models / name, seed) for name in shipped_models(models)],
         "default": extractor.manifest.model_id,
         "machine": machine(),
         "seed": seed,
@@ -309,6 +314,26 @@ def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, f
         times.append(1e3 * (perf_counter() - start))
     p50, p99 = np.percentile(times, [50, 99])
     return {"p50": round(float(p50), 3), "p99": round(float(p99), 3)}
+
+
+def pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
+    """What it costs to state a probability: the p50 of a call for 1,250 pairs, on one thread."""
+    manifest = Manifest.load(folder)
+    classifier = PairClassifier(folder, manifest, threads=1)
+    random = np.random.default_rng(seed)
+    a, b = random.integers(-127, 128, (2, PAIRS, manifest.code_bytes)).astype(np.int8)
+    times = []
+    for _ in range(repeats):
+        start = perf_counter()
+        classifier.probabilities(a, b)
+        times.append(1e3 * (perf_counter() - start))
+    return {
+        "model": manifest.name,
+        "kind": manifest.pair["kind"],
+        "pairs": PAIRS,
+        "p50_ms": round(float(np.median(times)), 3),
+        "bytes": (folder / PAIR_FILE).stat().st_size,
+    }
 
 
 def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int) -> float | None:

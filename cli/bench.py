@@ -112,6 +112,11 @@ def print_report(report: dict[str, Any]) -> None:
     typer.echo(f"points in, descriptors out: {whole:,.0f} segments a second")
     single = report["single_segment_ms"]
     typer.echo(f"a single segment: {single['p50']:.2f} ms (p50), {single['p99']:.2f} ms (p99)")
+    for pair in report["pairs"]:
+        typer.echo(
+            f"{pair['pairs']:,} probabilities by {pair['model']} ({pair['kind']}, "
+            f"{pair['bytes'] / 1e6:.1f} MB): {pair['p50_ms']:.2f} ms"
+        )
     times = report["default_over_paper"]
     if times is None:
         typer.echo("the paper's network was not measured: building it needs torch")

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from bench.describe import Plan, bench, draw, draw_scans, files, paper_network, precision, ratio
 from cli import app
 from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from segments.parameters import PROTOCOL_V1
 from segments.segments import Segments
 from tests.segments.segment_builders import many_segments
@@ -62,6 +62,13 @@ def test_all_figures_are_positive(report: dict[str, Any]) -> None:
     ]
     assert all(figure > 0 and math.isfinite(figure) for figure in figures)
     assert report["single_segment_ms"]["p50"] <= report["single_segment_ms"]["p99"]
+
+
+def test_every_shipped_pair_classifier_is_measured(report: dict[str, Any]) -> None:
+    assert {pair["model"] for pair in report["pairs"]} == set(shipped_models())
+    for pair in report["pairs"]:
+        assert pair["p50_ms"] > 0
+        assert pair["bytes"] <= 3_000_000
 
 
 def test_ratio_is_that_of_the_rows(report: dict[str, Any]) -> None:
