@@ -22,7 +22,7 @@ from training.group_based import GroupBasedRecipe
 class ContextRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    segment: GroupBasedRecipe = field(default_factory=GroupBasedRecipe)
+    segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=30))
     dimension: int = 32
     """Of the surroundings in the descriptor."""
     weight: float = 1.2

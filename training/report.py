@@ -132,7 +132,8 @@ def _cost(report: dict[str, Any]) -> list[str]:
     times = [
         f"| {method} | {PAPER_TIMES[method]} | "
         + " | ".join(
-            f"{mean(model['cpu_seconds'] for model in compared[method, network]) / 60:.1f} min"
+            f"{mean(model['cpu_seconds'] for model in compared[method, network]) / 60:.1f} min, "
+            f"{len(compared[method, network][0]['history'])} epochs"
             for network in networks
         )
         + " |"
@@ -146,8 +147,7 @@ def _cost(report: dict[str, Any]) -> list[str]:
     return [
         "## What it costs",
         "",
-        "Training, minutes of processor time, over all cores together (the paper: on a GTX 980); "
-        "`paper` was given fewer epochs than the others, as its training curve below shows:",
+        "Training, minutes of processor time, over all cores together (the paper: on a GTX 980):",
         "",
         f"| method | paper | {' | '.join(networks)} |",
         "|---|---|" + "---|" * len(networks),

@@ -110,7 +110,7 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
     mean = described.mean(axis=0)
     axes = np.linalg.svd(described - mean, full_matrices=False)[2]
     curve = []
-    for dimension in (d for d in DIMENSIONS if d <= described.shape[1]):
+    for dimension in sorted({min(d, described.shape[1]) for d in DIMENSIONS}):
         projected = (described - mean) @ axes[:dimension].T
         # Spread evenly over the dimensions, as few bits want it.
         turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]

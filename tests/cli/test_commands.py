@@ -1,13 +1,18 @@
 """The command line, the whole way on a small town: town, prepare, train, evaluate, demo."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner, Result
 
 from cli import app
+from segments.drives import open_drive
 from segments.manifest import Manifest
+from tests.segments.segment_builders import write_raw
+from tests.segments.test_kitti_raw import record, unit_at_the_sensor
 
 FIGURES = {
     "model_id",
@@ -178,13 +183,32 @@ def test_help_tells(command: list[str]) -> None:
     assert "Usage" in run(*command, "--help").output
 
 
-def test_the_experiments_run_and_report_and_a_second_call_trains_nothing(
+def in_raw_layout(drive: Path, folder: Path) -> Path:
+    """The same drive as KITTI raw data: oxts in place of poses, scans under other names."""
+    opened = open_drive(drive)
+    east, north, up = opened.poses[:, :3, 3].T
+    turns = Rotation.from_matrix(opened.poses[:, :3, :3]).as_euler("ZYX")
+    write_raw(
+        folder,
+        [
+            record(x, y, z, yaw=yaw, pitch=pitch, roll=roll)
+            for x, y, z, (yaw, pitch, roll) in zip(east, north, up, turns, strict=True)
+        ],
+    )
+    unit_at_the_sensor(folder)
+    for number, scan in enumerate(sorted((drive / "velodyne").iterdir())):
+        shutil.copy(scan, folder / "velodyne_points" / "data" / f"{number:010d}.bin")
+    return folder
+
+
+def test_the_experiments_run_on_either_layout_and_a_second_call_trains_nothing(
     workshop: Path, tmp_path: Path
 ) -> None:
-    data = workshop / "data"
+    raw = in_raw_layout(workshop / "drives" / "robot_a", tmp_path / "raw" / "drive_0018_sync")
+    tmp_path = tmp_path / "report"
     words = (
         *("experiments", "--quick", "--output", tmp_path),
-        *("--train", data / "robot_a.safetensors", "--test", data / "robot_b.safetensors"),
+        *("--train", raw, "--test", workshop / "drives" / "robot_b"),
     )
     run(*words)
     report = json.loads((tmp_path / "report.json").read_text())
@@ -219,6 +243,41 @@ def test_experiments_on_other_drives_want_another_folder(workshop: Path, tmp_pat
     words = ("--train", data / "robot_a.safetensors", "--test", data / "robot_b.safetensors")
     said = run("experiments", "--quick", "--output", tmp_path, *words, status=1).output
     assert "other drives" in said
+
+
+def test_experiments_refuse_to_test_on_what_they_learned_from(
+    workshop: Path, tmp_path: Path
+) -> None:
+    recording = workshop / "data" / "robot_a.safetensors"
+    words = ("--train", f"{recording}@0:20", "--test", f"{recording}@20:39")
+    said = run("experiments", "--quick", "--output", tmp_path, *words, status=1).output
+    assert "shares scans" in " ".join(said.split())
+
+
+def test_the_context_model_looks_around_and_towns_are_drives(
+    workshop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("cli.sources.TOWN_SCANS", 14)
+    recording = workshop / "data" / "robot_a.safetensors"
+    words = ("train", "context", recording, "town:5", "--epochs", 1, "--runs", tmp_path)
+    run(*words, "--output", tmp_path / "around")
+    manifest = Manifest.load(tmp_path / "around")
+    drives = [source["drive"] for source in manifest.training["sources"]]
+    assert drives == ["robot_a", "town:5 robot_a", "town:5 robot_b"]
+    assert "data/robot_a.safetensors town:5 --seed 0" in manifest.training["command"]
+    asked = workshop / "data" / "robot_b.safetensors"
+    run("evaluate", asked, "--model", tmp_path / "around", "--json", tmp_path / "figures.json")
+    figures = json.loads((tmp_path / "figures.json").read_text())["extractors"]["around"]
+    assert figures["top1"] > figures["alone"]["top1"]
+    assert figures["cross_view_queries"] == figures["alone"]["cross_view_queries"]
+
+
+def test_the_study_draws_its_curves(workshop: Path, tmp_path: Path) -> None:
+    recording = workshop / "data" / "robot_b.safetensors"
+    result = run("study", recording, "--model", "eigenvalue", "--output", tmp_path)
+    assert "no_mate" in result.output
+    assert (tmp_path / "study.png").read_bytes().startswith(b"\x89PNG")
+    assert set(json.loads((tmp_path / "study.json").read_text())["models"]) == {"eigenvalue"}
 
 
 def test_experiments_want_both_drives_or_none(workshop: Path) -> None:
