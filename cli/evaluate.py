@@ -73,6 +73,14 @@ def print_table(report: dict[str, Any]) -> None:
         table.add_column(name, justify="right")
     for row in ROWS:
         shown = (figures[row] for figures in extractors.values())
-        table.add_row(row, *("-" if value is None else f"{value:.1%}" for value in shown))
+        table.add_row(row, *map(percent, shown))
+    if any("alone" in figures for figures in extractors.values()):
+        alone = (figures.get("alone", figures)["top1"] for figures in extractors.values())
+        table.add_row("top1, sent alone", *map(percent, alone))
     table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
     Console().print(table)
+
+
+def percent(value: float | None) -> str:
+    """A share for people to read."""
+    return "-" if value is None else f"{value:.1%}"
