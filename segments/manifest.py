@@ -135,7 +135,6 @@ class Manifest:
             constants["voxel"],
             tuple(constants["rings"]),
             tuple(constants["heights"]),
-            constants["sectors"],
         )
 
     @property

@@ -6,6 +6,10 @@ carries the protocol's name, so that a figure is never compared with one of anot
 
 from dataclasses import asdict, dataclass, replace
 
+import numpy as np
+
+from segments.types import Int64
+
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
@@ -81,12 +85,14 @@ class SurroundingsParameters:
 
     voxel: float = 0.6
     """Edge of the voxels that are counted."""
-    rings: tuple[float, ...] = (*map(float, range(1, 21)), 22, 24, 26, 28, 30, 33, 36, 40)
-    """Outer radii, horizontal."""
+    rings: tuple[int, ...] = (*range(1, 21), 22, 24, 26, 28, 30, 33, 36, 40)
+    """Outer radii, horizontal, whole metres."""
     heights: tuple[float, ...] = (-2.0, -1.0, -0.3, 0.3, 1.0, 2.0, 4.0)
     """Limits between the layers, above the segment's centroid; the outer ones are open."""
-    sectors: int = 16
-    """Directions that are counted apart and averaged: a dense corner weighs no more than others."""
+
+    def ring_of_metre(self) -> Int64:
+        """Of each whole metre's distance the ring that it begins in, int64 (reach,)."""
+        return np.searchsorted(self.rings, np.arange(self.rings[-1]), side="right")
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -11,6 +11,11 @@ from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.segments import Segments, compiled
 from segments.types import Float32, Float64, Int64
 
+SECTORS = 16
+"""Directions that are counted apart and averaged: a dense corner weighs no more than others."""
+
+TAN_22_5 = np.tan(np.pi / 8)
+
 CELLS = 1 << 13
 """Voxels along an edge of a segment's box, at most."""
 
@@ -41,8 +46,7 @@ def describe_surroundings(
         counted = np.zeros((len(some), *parameters.shape), dtype=np.float32)
         _count(
             *(voxels, owners, some.centroids()),
-            *(np.array(parameters.rings), np.array(parameters.heights), parameters.sectors),
-            counted,
+            *(parameters.ring_of_metre(), np.array(parameters.heights), counted),
         )
         found[together] = counted
     return found.reshape(len(segments), parameters.size)
@@ -80,33 +84,39 @@ def _count(
     voxels: Float64,
     owners: Int64,
     centroids: Float64,
-    rings: Float64,
+    ring_of_metre: Int64,
     heights: Float64,
-    sectors: int,
     found: Float32,
 ) -> None:
-    """Fill found, (segments, rings, heights + 1): rings by outer radius, heights by upper limit."""
-    reach = rings[-1]
-    counts = np.zeros((len(rings), len(heights) + 1, sectors))
+    """Fill found, (segments, rings, layers): the ring by whole metres, the layer by upper limit."""
+    reach = len(ring_of_metre)
+    squared_reach = float(reach * reach)
+    counts = np.zeros((found.shape[1], found.shape[2], SECTORS), dtype=np.int64)
     for segment in range(len(centroids)):
         counts[:] = 0
         for voxel in range(len(voxels)):
-            x = voxels[voxel, 0] - centroids[segment, 0]
-            y = voxels[voxel, 1] - centroids[segment, 1]
-            if owners[voxel] == segment or abs(x) >= reach or abs(y) >= reach:
+            if owners[voxel] == segment:
                 continue
-            distance = np.sqrt(x * x + y * y)
-            if distance >= reach:
+            x = abs(voxels[voxel, 0] - centroids[segment, 0])
+            y = abs(voxels[voxel, 1] - centroids[segment, 1])
+            squared = x * x + y * y
+            if squared >= squared_reach:
                 continue
-            ring = np.searchsorted(rings, distance, side="right")
             height = voxels[voxel, 2] - centroids[segment, 2]
-            layer = np.searchsorted(heights, height, side="right")
-            sector = int((np.arctan2(y, x) / (2 * np.pi) + 0.5) * sectors) % sectors
-            counts[ring, layer, sector] += 1
+            layer = 0
+            while layer < len(heights) and height >= heights[layer]:
+                layer += 1
+            # A quarter of the compass, and which quarter of that.
+            sector = int(y > TAN_22_5 * x) + int(y > x) + int(x < TAN_22_5 * y)
+            if voxels[voxel, 0] < centroids[segment, 0]:
+                sector += 4
+            if voxels[voxel, 1] < centroids[segment, 1]:
+                sector += 8
+            counts[ring_of_metre[int(np.sqrt(squared))], layer, sector] += 1
         for ring in range(counts.shape[0]):
             for layer in range(counts.shape[1]):
                 total = 0.0
-                for sector in range(sectors):
+                for sector in range(SECTORS):
                     if counts[ring, layer, sector]:
                         total += np.log1p(counts[ring, layer, sector])
-                found[segment, ring, layer] = total / sectors
+                found[segment, ring, layer] = total / SECTORS

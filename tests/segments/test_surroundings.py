@@ -7,7 +7,7 @@ from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.segments import Segments
 from segments.surroundings import describe_surroundings, voxels_by_owner
 
-TWO_RINGS = SurroundingsParameters(voxel=1.0, rings=(2.0, 5.0), heights=(0.0,), sectors=4)
+TWO_RINGS = SurroundingsParameters(voxel=1.0, rings=(2, 5), heights=(0.0,))
 
 
 def points(*rows: tuple[float, float, float]) -> np.ndarray:
@@ -38,8 +38,20 @@ def test_by_hand() -> None:
         ]
     )
     found = describe_surroundings(segments, parameters=TWO_RINGS).reshape(3, 2, 2)
-    inner, outer = np.log(2) / 4, np.log(3) / 4
-    assert found[0] == pytest.approx(np.array([[0, inner], [np.log(2) / 4, outer]]))
+    one, two = np.log(2) / 16, np.log(3) / 16
+    assert found[0] == pytest.approx(np.array([[0, one], [one, two]]))
+
+
+def test_sectors_are_a_sixteenth_of_the_compass() -> None:
+    # Voxels all around, one every 5 degrees, in one ring and layer: each sector has four or five.
+    angles = np.radians(np.arange(2.5, 360, 5))
+    around = np.stack([8 * np.cos(angles), 8 * np.sin(angles), np.zeros(72)], axis=1)
+    segments = scene([points((0, 0, 0)), around.astype(np.float32)])
+    wide = SurroundingsParameters(voxel=0.1, rings=(20,), heights=())
+    sectors = np.bincount((np.arange(2.5, 360, 5) / 22.5).astype(int))
+    assert describe_surroundings(segments, parameters=wide)[0] == pytest.approx(
+        np.log1p(sectors).mean()
+    )
 
 
 def test_a_voxel_of_several_points_counts_once_at_their_mean() -> None:
