@@ -146,7 +146,11 @@ def bench(
             str(threads): rates["surroundings", threads] for threads in plan.threads
         },
         "single_segment_ms": latency(extractor, drawn, plan.latencies),
-        "pairs": [pair_latency(models / name, seed) for name in shipped_models(models)],
+        "pairs": [
+            pair_latency(models / name, seed)
+            for name in shipped_models(models)
+            if (models / name / PAIR_FILE).exists()
+        ],
         "default": extractor.manifest.model_id,
         "machine": machine(),
         "seed": seed,

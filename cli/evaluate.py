@@ -76,7 +76,7 @@ def print_table(report: dict[str, Any]) -> None:
         table.add_row(row, *map(percent, shown))
     if any("alone" in figures for figures in extractors.values()):
         alone = (figures.get("alone", figures)["top1"] for figures in extractors.values())
-        table.add_row("top1, sent alone", *map(percent, alone))
+        table.add_row("top1, segments alone", *map(percent, alone))
     table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
     Console().print(table)
 

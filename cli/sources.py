@@ -20,7 +20,7 @@ SOURCE_HELP = (
     "with @FIRST:LAST only the groups wholly within these scans, both included."
 )
 
-TOWN_HELP = " town:SEED is two robots' drives through the synthetic town of that seed."
+TOWN_HELP = " town:SEED is a drive through the synthetic town of that seed."
 
 TOWN_SCANS = 300
 """Of each robot's drive through a town that is trained on."""
@@ -88,14 +88,17 @@ def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
 
 
 def sources(texts: Iterable[str]) -> "list[Source]":
-    """Drives or parts of them, and towns: `town:SEED` stands for both robots' drives through it."""
+    """Drives or parts of them, and towns: `town:SEED` stands for robot A's drive through it.
+
+    Robot B sees the same houses; as a drive of its own it would teach that they are others.
+    """
     from training.training_set import Source
 
     found = []
     for text in texts:
         if match := re.fullmatch(r"town:(\d+)", text):
-            recordings = town_recordings(int(match[1]), TOWN_SCANS)
-            found += [Source(recording, 0, recording.scans - 1) for recording in recordings]
+            recording, _ = town_recordings(int(match[1]), TOWN_SCANS)
+            found.append(Source(replace(recording, name=text), 0, recording.scans - 1))
         else:
             found.append(source(text))
     return found
@@ -107,7 +110,7 @@ def town_recordings(seed: int, scans: int) -> "list[Recording]":
 
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
         drives = two_robots(Path(folder), seed=seed, scans=scans, progress=show)
-        return [replace(load(drive), name=f"town:{seed} {drive.name}") for drive in drives]
+        return [load(drive) for drive in drives]
 
 
 def source(text: str) -> "Source":

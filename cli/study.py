@@ -32,6 +32,7 @@ def study(
         from training.study import study as study_of
         from training.training_set import TrainingSet
 
+        output.mkdir(parents=True, exist_ok=True)
         models = open_models(model or ())
         part = source(drive)
         test = TrainingSet.of([part], SURROUNDINGS_V1)
@@ -39,7 +40,6 @@ def study(
             name: {"model_id": extractor.manifest.model_id} | study_of(extractor, test)
             for name, (extractor, _) in track(models.items(), description="studying")
         }
-    output.mkdir(parents=True, exist_ok=True)
     report = {
         "drive": part.recording.name,
         "scans": [part.first, part.last],

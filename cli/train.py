@@ -98,6 +98,9 @@ def learn(
     if not resume:
         (checkpoints / "checkpoint.pt").unlink(missing_ok=True)
     with Progress() as progress:
-        run = Run(checkpoints, seed, fingerprint(data, method, network, epochs), progress)
-        trained = methods.train(method, data.training, data.validation, run, network, epochs=epochs)
+        changes = {"epochs": epochs}
+        # As the experiments name their runs: what they trained can be published from here.
+        identity = fingerprint(data, method, network, changes)
+        run = Run(checkpoints, seed, identity, progress)
+        trained = methods.train(method, data.training, data.validation, run, network, **changes)
     return publish_network(folder, trained, data.stating(**run.cost()))

@@ -19,6 +19,9 @@ FILE = "manifest.json"
 PAIR_FILE = "pair.onnx"
 """The pair classifier judges descriptors, but does not decide them: no part of the id."""
 
+FULL_FILE = "model-fp32.onnx"
+"""Of a model that is served in 8-bit integers: what these were made from. No part of the id."""
+
 
 class ModelError(ValueError):
     """A model folder that cannot be used; the message says which file and why."""
@@ -65,7 +68,9 @@ class Manifest:
             "dimension": self.dimension,
             "quantiser": self.quantiser.as_dict(),
             "preprocessing": self.preprocessing,
-            "files": {name: sha for name, sha in self.files.items() if name != PAIR_FILE},
+            "files": {
+                name: sha for name, sha in self.files.items() if name not in {PAIR_FILE, FULL_FILE}
+            },
             "standardisation": self.standardisation,
         }
         text = json.dumps(decisive, sort_keys=True, separators=(",", ":"))
@@ -94,6 +99,8 @@ class Manifest:
             stated_id = content.pop("model_id")
             quantiser = Quantiser(**content.pop("quantiser"))
             manifest = cls(quantiser=quantiser, **content)
+            if manifest.dimension * quantiser.bits % 8:
+                raise ValueError(f"{manifest.dimension} dimensions do not fill whole bytes")
         except FileNotFoundError as error:
             raise ModelError(f"{file}: missing; {folder} is not a model's folder") from error
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
@@ -135,6 +142,7 @@ class Manifest:
             constants["voxel"],
             tuple(constants["rings"]),
             tuple(constants["heights"]),
+            constants["sectors"],
         )
 
     @property

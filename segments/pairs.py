@@ -30,7 +30,7 @@ class PairClassifier:
             raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error
 
     def probabilities(self, a: Int8, b: Int8) -> Float64:
-        """Of a match, float64 (n,), for codes int8 (n, d) each."""
+        """Of a match, float64 (n,), for codes int8 (n, code bytes) each."""
         if not len(a):
             return np.zeros(0)
         inputs = {"a": self._quantiser.decode(a), "b": self._quantiser.decode(b)}

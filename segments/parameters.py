@@ -89,6 +89,17 @@ class SurroundingsParameters:
     """Outer radii, horizontal, whole metres."""
     heights: tuple[float, ...] = (-2.0, -1.0, -0.3, 0.3, 1.0, 2.0, 4.0)
     """Limits between the layers, above the segment's centroid; the outer ones are open."""
+    sectors: int = 16
+    """Directions that are counted apart and averaged: a dense corner weighs no more than others."""
+
+    def __post_init__(self) -> None:
+        """Refuse what the counting does not do.
+
+        Raises:
+            ValueError: other sectors than 16.
+        """
+        if self.sectors != 16:
+            raise ValueError(f"{self.sectors} sectors; the compass is counted in 16")
 
     def ring_of_metre(self) -> Int64:
         """Of each whole metre's distance the ring that it begins in, int64 (reach,)."""

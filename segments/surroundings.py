@@ -12,7 +12,6 @@ from segments.segments import Segments, compiled
 from segments.types import Float32, Float64, Int64
 
 SECTORS = 16
-"""Directions that are counted apart and averaged: a dense corner weighs no more than others."""
 
 TAN_22_5 = np.tan(np.pi / 8)
 
@@ -67,11 +66,12 @@ def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
     if not len(segments):
         return np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
     owners = segments.owners
-    cells = ((segments.points - segments.bounds()[0][owners]) / voxel).astype(np.int64)
+    # No segment is thousands of metres long; what lies beyond shares the last cell.
+    cells = (segments.points - segments.bounds()[0][owners]) / voxel
+    cells = np.nan_to_num(cells).clip(0, CELLS - 1).astype(np.int64)
     keys = owners
     for axis in range(3):
-        # No segment is thousands of metres long; what lies beyond shares the last cell.
-        keys = keys * CELLS + np.minimum(cells[:, axis], CELLS - 1)
+        keys = keys * CELLS + cells[:, axis]
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order], prepend=-1))
     sums = np.add.reduceat(segments.points[order].astype(np.float64), first, axis=0)
@@ -100,7 +100,8 @@ def _count(
             x = abs(voxels[voxel, 0] - centroids[segment, 0])
             y = abs(voxels[voxel, 1] - centroids[segment, 1])
             squared = x * x + y * y
-            if squared >= squared_reach:
+            # As it stands, so that a coordinate that is no number is out of reach.
+            if not squared < squared_reach:
                 continue
             height = voxels[voxel, 2] - centroids[segment, 2]
             layer = 0
@@ -112,7 +113,9 @@ def _count(
                 sector += 4
             if voxels[voxel, 1] < centroids[segment, 1]:
                 sector += 8
-            counts[ring_of_metre[int(np.sqrt(squared))], layer, sector] += 1
+            # The root of what is just short of the reach may round up to it.
+            metre = min(int(np.sqrt(squared)), reach - 1)
+            counts[ring_of_metre[metre], layer, sector] += 1
         for ring in range(counts.shape[0]):
             for layer in range(counts.shape[1]):
                 total = 0.0

@@ -57,7 +57,7 @@ def _points(blob: object) -> Float32:
 
 
 def _codes(blob: object) -> Int8:
-    """The codes of a blob, int8 (q * d,): only the model knows d."""
+    """The codes of a blob, int8 (q * c,): only the model knows c, the bytes of a code."""
     data = _bin(blob)
     if not data:
         raise ValueError("no codes")
@@ -126,7 +126,7 @@ class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
 class PackedDescriptor(BaseModel):
     """A segment's descriptor."""
 
-    codes: bytes = Field(description="int8, d of them: the stored form.")
+    codes: bytes = Field(description="int8, `code_bytes` of them: the stored form.")
     descriptor: bytes = Field(description="float32, little-endian, d of them.")
     centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
 

@@ -20,7 +20,7 @@ class Augmentation:
     Attributes:
         yaw: largest turn about z, either way, radians.
         cut_share: how many of the copies lose what lies beyond a random vertical plane.
-        cut_most: the largest share of the points that a cut takes.
+        cut_most: the largest share of the segment's length, in the cut's direction, that it takes.
         drop_most: the largest share of points that go missing at random.
     """
 

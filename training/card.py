@@ -28,7 +28,8 @@ CARD = """# Model `{name}`
 ## Figures
 
 On the validation groups ({held_out:.0%} of the training set's groups, held out whole), of
-descriptors as stored; not comparable with a test drive, for there are fewer groups to confuse.
+descriptors as stored; not comparable with a test drive, for there are fewer groups to confuse
+{near}.
 
 | figure | value |
 |---|---|
@@ -65,7 +66,7 @@ def write_card(folder: Path, manifest: Manifest) -> None:
     figures = [
         f"| {name} | {value:.3f} |"
         for name, value in manifest.figures["validation"].items()
-        if isinstance(value, float)
+        if isinstance(value, float) and name != "candidate_calibration_error"
     ]
     (folder / "README.md").write_text(
         CARD.format(
@@ -81,6 +82,9 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             seed=training["seed"],
             sources="\n".join(sources),
             licences=training["licence"],
+            near=""
+            if manifest.surroundings is None
+            else "and what stands around them was learned from",
             held_out=training["validation_share"],
             figures="\n".join(figures),
             pair_kind=manifest.pair["kind"],

@@ -30,7 +30,8 @@ def measure(
 ) -> dict[str, Any]:
     """All figures of one model; None where nothing is there to be measured.
 
-    Of a model that looks around, `alone` has those of the same segments as if nothing stood there.
+    Of a model that looks around, `alone` has those of the same segments as if nothing stood there,
+    and as `top1_in_map` those asked alone about a map of segments in their surroundings.
 
     `pair_auc` and `pair_accuracy` are by `pair_by`, the model's classifier where it has one; those
     by distance stand beside them in any case.
@@ -43,6 +44,12 @@ def measure(
         nothing = np.zeros((len(segments), manifest.surroundings.size), dtype=np.float32)
         alone = manifest.quantiser.encode(extractor.describe(segments, nothing))
         figures["alone"] = retrieval(manifest, alone, segments, groups)
+        figures["alone"]["top1_in_map"] = mean(
+            recognition.retrieve(
+                *(manifest.quantiser.levels(codes).astype(np.float32), groups),
+                queries=manifest.quantiser.levels(alone).astype(np.float32),
+            ).right
+        )
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
         figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
@@ -89,9 +96,11 @@ def retrieval(manifest: Manifest, codes: Int8, segments: Segments, groups: Int64
 
 def calibration_error(
     classifier: PairClassifier, codes: Int8, matches: Int64, others: Int64
-) -> float:
-    """How far the stated probabilities of these pairs are off, on average."""
+) -> float | None:
+    """How far the stated probabilities of these pairs are off, on average; None of none."""
     pairs = np.concatenate([matches, others])
+    if not len(pairs):
+        return None
     stated = classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
     truth = np.repeat([1.0, 0.0], [len(matches), len(others)])
     return recognition.expected_calibration_error(stated, truth)[0]

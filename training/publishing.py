@@ -14,7 +14,7 @@ import numpy as np
 
 from segments.eigenvalue import eigenvalue_descriptors
 from segments.extractor import MODEL_FILE, Extractor, OnnxExtractor, load_extractor
-from segments.manifest import PAIR_FILE, Manifest, preprocessing_of
+from segments.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
 from segments.pairs import load_pair_classifier
 from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.quantiser import Quantiser
@@ -30,9 +30,6 @@ VALIDATION_SHARE = 0.1
 """Of the groups, held out whole."""
 
 SPLIT_SEED = 0
-
-FULL_FILE = "model-fp32.onnx"
-"""Of a model that is served in 8-bit integers: what these were made from."""
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
@@ -106,7 +103,7 @@ def retraining(
     for source in sources:
         recording, file = source.recording, f"data/{source.recording.name}.safetensors"
         if recording.name.startswith("town:"):
-            prepared.append(recording.name.split()[0])
+            prepared.append(recording.name)
             continue
         step = recording.parameters.frame_step
         lines.append(f"placecell prepare {shlex.quote(recording.name)} --every {step} -o data")
@@ -156,7 +153,8 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     around, dimension, bits = None, STORED_DIMENSION, 8
     if trained.projection is not None:
         # Two halves at half the bits: as many bytes as the segment by itself.
-        around, dimension, bits = SURROUNDINGS_V1, 2 * STORED_DIMENSION, 4
+        around, bits = SURROUNDINGS_V1, 4
+        dimension += trained.projection.axes.shape[1]
         exported = ExportedContext(segment, trained.projection, rotation(dimension))
     with whole(folder) as unfinished:
         files = [MODEL_FILE]
@@ -216,6 +214,7 @@ def finish(
         stored_descriptors(extractor, part) for part in (data.training, data.validation)
     )
     # A map as large as can be had: everything, so that what is held out has strangers to confuse.
+    # (The surroundings of held-out groups are learned ones: in context all this is optimistic.)
     database = np.concatenate([held_out, learned])
     last = int(data.validation.groups.max())
     groups = np.concatenate([data.validation.groups, data.training.groups + last + 1])

@@ -151,12 +151,15 @@ def nearest_pairs(
 
     Together they are as many as queries times candidates, or all there are.
     """
-    matches, others = [], []
+    none = np.zeros((0, 2), dtype=np.int64)
+    matches, others = [none], [none]
     squared = np.einsum("ij,ij->i", descriptors, descriptors)
     several = min(candidates, len(descriptors) - 1)
     for rows in np.array_split(queries, max(1, len(queries) // 500)):
         distances = squared[None] - 2 * descriptors[rows] @ descriptors.T
         distances[np.arange(len(rows)), rows] = np.inf
+        if several < 1:
+            continue
         nearest = np.argpartition(distances, several - 1, axis=1)[:, :several]
         pairs = np.stack([np.repeat(rows, several), nearest.reshape(-1)], axis=1)
         match = groups[pairs[:, 0]] == groups[pairs[:, 1]]

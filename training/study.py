@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from segments.alignment import sensor_bearings
 from segments.extractor import Extractor
 from segments.quantiser import Quantiser
 from segments.types import Bool, Float32, Float64, Int64
@@ -21,7 +22,7 @@ DEGREES = (0.0, 5.0, 10.0, 20.0, 40.0, 60.0)
 SHARES = (0.0, 0.2, 0.4, 0.6, 0.8)
 DIMENSIONS = (8, 16, 24, 32, 48, 64)
 BITS = (32, 8, 6, 5, 4, 3)
-SAME_PLACE = 1.5
+NEAR_PLACE = 1.5
 """Metres between centroids of segments that stand in one place, whatever group they are of."""
 
 Curve = list[dict[str, Any]]
@@ -33,7 +34,7 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
     stored = as_stored(extractor, described)
     sensors = test.segments.sensors
     centroids = test.segments.centroids()
-    bearings = np.arctan2(*(sensors - centroids)[:, 1::-1].T)
+    bearings = sensor_bearings(test.segments)
     return {
         "by_points": by_points(test, stored),
         "by_metres": [
@@ -61,9 +62,9 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
 
 
 def as_stored(extractor: Extractor, described: Float32) -> Float32:
-    """Descriptors after a round trip through their stored form."""
+    """Descriptors in whole steps, as the service compares them."""
     quantiser = extractor.manifest.quantiser
-    return quantiser.decode(quantiser.encode(described))
+    return quantiser.levels(quantiser.encode(described)).astype(np.float32)
 
 
 def share(
@@ -87,7 +88,7 @@ def by_points(test: TrainingSet, stored: Float32) -> Curve:
         {
             "points": [low, high - 1],
             "top1": average(found.right[(counts >= low) & (counts < high) & found.has_mate]),
-            "queries": int(((counts >= low) & (counts < high)).sum()),
+            "queries": int(((counts >= low) & (counts < high) & found.has_mate).sum()),
         }
         for low, high in pairwise(SIZES)
     ]
@@ -96,7 +97,10 @@ def by_points(test: TrainingSet, stored: Float32) -> Curve:
 def altered(
     extractor: Extractor, test: TrainingSet, stored: Float32, change: Augmentation, lost: float
 ) -> dict[str, Any]:
-    """Queries that lost a part of their points, among the others as they are."""
+    """Queries that lost a part of their points, among the others as they are.
+
+    What stands around them is as it was: only the segment itself is altered.
+    """
     asked = stored
     if lost:
         segments = change.segments(test.segments, np.random.default_rng(0), exactly=True)
@@ -106,9 +110,12 @@ def altered(
 
 
 def by_storage(described: Float32, test: TrainingSet) -> Curve:
-    """Fewer dimensions (the principal ones), and fewer bits for each."""
+    """Fewer dimensions (the principal ones), and fewer bits for each.
+
+    Axes and steps are the test segments' own: what is lost is lost to rounding alone.
+    """
     mean = described.mean(axis=0)
-    axes = np.linalg.svd(described - mean, full_matrices=False)[2]
+    axes = np.linalg.svd((described - mean).T @ (described - mean))[2]
     curve = []
     for dimension in sorted({min(d, described.shape[1]) for d in DIMENSIONS}):
         projected = (described - mean) @ axes[:dimension].T
@@ -132,16 +139,18 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
 def rounded(values: Float32, bits: int) -> Float32:
     """To uniform steps of so many bits."""
     highest = 2 ** (bits - 1) - 1
-    step = Quantiser.fit(values).step * 127 / highest
+    step = Quantiser.fit(values).step * 127 / highest  # the same reach for any number of bits
     return np.asarray(np.rint(values / step).clip(-highest, highest) * step, dtype=np.float32)
 
 
 def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, float]:
     """What the segments that find no mate first are, as shares of all segments.
 
-    Each miss counts once, under the first of: `no_mate`, nothing to be found; `same_place`, what
-    was found stands where the query or a mate does, but is of another group: a doubtful label;
-    `moving`, the group's centroid wanders by more than a metre; `small`, under 250 points;
+    Each miss counts once, under the first of: `no_mate`, nothing to be found; `near_place`, what
+    was found stands within 1.5 m of the query or a mate, but is of another group: its neighbour, or
+    itself under another label;
+    `wandering`, the group's centroid wanders by more than a metre, for it moves or shows ever other
+    parts of itself; `small`, under 250 points;
     `other`.
     """
     found = recognition.retrieve(stored, test.groups)
@@ -149,8 +158,8 @@ def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, 
     counts = {"right": float(found.right.mean())}
     reasons = {
         "no_mate": ~found.has_mate,
-        "same_place": in_same_place(test.groups, centroids, found.nearest),
-        "moving": wander(test, centroids) > 1.0,
+        "near_place": in_near_place(test.groups, centroids, found.nearest),
+        "wandering": wander(test, centroids) > 1.0,
         "small": test.segments.counts < 250,
         "other": np.ones(len(test), dtype=bool),
     }
@@ -160,14 +169,14 @@ def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, 
     return counts
 
 
-def in_same_place(groups: Int64, centroids: Float64, nearest: Int64) -> Bool:
+def in_near_place(groups: Int64, centroids: Float64, nearest: Int64) -> Bool:
     """Whether what was found stands within 1.5 m of the query or a mate of it."""
     same = np.zeros(len(groups), dtype=bool)
     for group in np.unique(groups):
         members = np.flatnonzero(groups == group)
         hits = centroids[nearest[members]]
         apart = np.linalg.norm(hits[:, None] - centroids[members][None], axis=2)
-        same[members] = apart.min(axis=1) <= SAME_PLACE
+        same[members] = apart.min(axis=1) <= NEAR_PLACE
     return same
 
 

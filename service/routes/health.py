@@ -37,6 +37,7 @@ async def info(request: Request, state: StateOf) -> InfoResponse:
             network=manifest.network,
             dimension=manifest.dimension,
             code_bytes=manifest.code_bytes,
+            bits=manifest.quantiser.bits,
             surroundings=manifest.surroundings is not None,
             step=manifest.quantiser.step,
             pair_threshold=manifest.pair_threshold,

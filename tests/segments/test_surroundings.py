@@ -102,3 +102,26 @@ def test_north_hardly_matters(degrees: float) -> None:
     others = [np.corrcoef(a, b)[0, 1] for a, b in zip(before, np.roll(after, 1, 0), strict=True)]
     assert min(own) > 0.8
     assert min(own) > max(others)
+
+
+def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
+    just_short = np.nextafter(np.float32(5), np.float32(0))
+    found = describe_surroundings(
+        scene(
+            [
+                points((0, 0, 0)),
+                points((np.nan, 0, 0), (0, np.inf, 0)),
+                points((just_short, 0, 0)),
+                points((5, 0, 0)),
+            ]
+        ),
+        parameters=TWO_RINGS,
+    ).reshape(4, 2, 2)
+    assert found[0] == pytest.approx(np.array([[0, 0], [0, np.log(2) / 16]]))
+    # The root of the largest number below 1,600 is 40 in float64.
+    reach = SurroundingsParameters(voxel=1.0, rings=(40,), heights=())
+    for offset in (np.sqrt(np.nextafter(1600.0, 0)), 40.0):
+        lone = Segments.of([points((0, 0, 0)), points((offset, 0, 0))], np.zeros((2, 3)))
+        describe_surroundings(lone, parameters=reach)
+    with pytest.raises(ValueError, match="16"):
+        SurroundingsParameters(sectors=8)

@@ -53,7 +53,7 @@ def test_misses_are_sorted_once_each(shapes: TrainingSet) -> None:
     assert sorted_misses["right"] == pytest.approx(6 / 48)
     assert sorted_misses["no_mate"] == 0
     # What is found stands ten metres or more away, and the boxes stand still.
-    assert sorted_misses["same_place"] == 0
+    assert sorted_misses["near_place"] == 0
     assert sorted_misses["small"] == pytest.approx(42 / 48)
 
 
@@ -61,5 +61,5 @@ def test_a_group_that_wanders() -> None:
     centroids = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [5, 5, 5]])
     data = TrainingSet(None, np.array([0, 0, 0, 1]), None)  # type: ignore[arg-type]
     assert study.wander(data, centroids) == pytest.approx([np.sqrt(5)] * 3 + [0])
-    same = study.in_same_place(data.groups, centroids, np.array([1, 0, 3, 2]))
+    same = study.in_near_place(data.groups, centroids, np.array([1, 0, 3, 2]))
     assert same.tolist() == [True, True, False, False]
