@@ -28,8 +28,8 @@ CARD = """# Model `{name}`
 ## Figures
 
 On the validation groups ({held_out:.0%} of the training set's groups, held out whole), of
-descriptors as stored; not comparable with a test drive, for there are fewer groups to confuse
-{near}.
+descriptors as stored; not comparable with a test drive, for there are fewer groups to confuse.
+{near}
 
 | figure | value |
 |---|---|
@@ -84,7 +84,7 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             licences=training["licence"],
             near=""
             if manifest.surroundings is None
-            else "and what stands around them was learned from",
+            else "What stands around them was learned from: optimistic figures, then.\n",
             held_out=training["validation_share"],
             figures="\n".join(figures),
             pair_kind=manifest.pair["kind"],

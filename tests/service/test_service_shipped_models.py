@@ -1,5 +1,6 @@
 """Every shipped model through HTTP says what the library says."""
 
+import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import encode
@@ -9,7 +10,7 @@ from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from segments.pairs import load_pair_classifier
 from segments.segments import Segments
 from tests.service.conftest import Start
-from tests.service.service_builders import cloud, map_of, request_of
+from tests.service.service_builders import cloud, map_of, packed, post_packed, request_of
 
 SENSOR = (9.0, -3.0, 1.7)
 CLOUDS = [cloud(seed, points=300) for seed in range(6)]
@@ -27,6 +28,14 @@ def test_descriptor_and_probability_through_http_are_the_librarys(name: str, sta
         described = client.post("/describe", json=request_of(CLOUDS, SENSOR)).json()
         told = np.array([item["descriptor"] for item in described["descriptors"]])
         assert told == pytest.approx(expected, abs=1e-4)
+        in_msgpack = post_packed(client, "/describe", packed(request_of(CLOUDS, SENSOR)))
+        blobs = [item["codes"] for item in msgpack.unpackb(in_msgpack.content)["descriptors"]]
+        assert [np.frombuffer(blob, np.int8).tolist() for blob in blobs] == codes.tolist()
+        assert codes.shape == (6, client.get("/info").json()["model"]["code_bytes"])
+        # The segments of a request surround one another, where the model looks around.
+        single = client.post("/describe", json=request_of(CLOUDS[:1], SENSOR)).json()
+        same = single["descriptors"][0]["codes"] == codes[0].tolist()
+        assert same == (manifest.surroundings is None)
         client.put("/maps/m", content=encode(map_of(codes, manifest.model_id, first_id=0)))
         matched = client.post("/match", json=request_of(CLOUDS, SENSOR) | {"k": 6}).json()
     classifier = load_pair_classifier(MODELS_FOLDER / name, manifest)
