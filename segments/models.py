@@ -3,7 +3,7 @@
 from pathlib import Path
 
 MODELS_FOLDER = Path(__file__).resolve().parent.parent / "models"
-DEFAULT_MODEL = "group"
+DEFAULT_MODEL = "context"
 BASELINE = "eigenvalue"
 
 

@@ -25,8 +25,14 @@ class Quantiser:
             raise ValueError(f"levels of {self.bits} bits; there are 4 and 8")
 
     @classmethod
-    def fit(cls, descriptors: Float32, bits: int = 8, quantile: float = 0.9995) -> "Quantiser":
-        """Steps that reach all but a few of the values seen in training; the rest saturate."""
+    def fit(cls, descriptors: Float32, bits: int = 8, quantile: float | None = None) -> "Quantiser":
+        """Steps that reach all but a few of the values seen in training; the rest saturate.
+
+        Args:
+            quantile: of the values, how many are within reach. Few levels are better spent near 0.
+        """
+        if quantile is None:
+            quantile = 0.9995 if bits == 8 else 0.997
         reach = float(np.quantile(np.abs(descriptors), quantile))
         return cls(step=max(reach, 1e-6) / (2 ** (bits - 1) - 1), bits=bits)
 

@@ -108,7 +108,7 @@ def throughput(files: Mapping[str, Path], parameters: Parameters) -> dict[str, f
         session = onnxruntime.InferenceSession(file, providers=["CPUExecutionProvider"])
         session.run(None, inputs)
         seconds = []
-        for _ in range(10):
+        for _ in range(50):
             started = time.perf_counter()
             session.run(None, inputs)
             seconds.append(time.perf_counter() - started)

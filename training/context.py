@@ -16,6 +16,7 @@ from scipy.stats import ortho_group
 
 from segments.types import Float32, Int64
 from training.group_based import GroupBasedRecipe
+from training.training_set import TrainingSet
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,7 @@ class ContextRecipe:
     segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=30))
     dimension: int = 32
     """Of the surroundings in the descriptor."""
-    weight: float = 1.2
+    weight: float = 1.0
     """Length of the surroundings' part; the segment's own is about 1."""
     shrinkage: float = 0.1
     """How far the scatter within groups is drawn towards a sphere."""
@@ -44,6 +45,24 @@ class Projection:
     mean: Float32
     axes: Float32
     weight: float
+
+
+def learn_surroundings(training: TrainingSet, recipe: ContextRecipe) -> Projection:
+    """The projection, learned from what was recorded where there is any.
+
+    Streets that were made up have other surroundings than real ones, and telling the two apart, at
+    which the analysis is good, helps nobody. The segments themselves gain from both.
+
+    Raises:
+        ValueError: there are too few groups of two or more.
+    """
+    assert training.surroundings is not None
+    made_up = training.synthetic
+    if made_up is None or made_up.all():
+        return fit_projection(training.surroundings, training.groups, recipe)
+    recorded = training.take(np.flatnonzero(~made_up))
+    assert recorded.surroundings is not None
+    return fit_projection(recorded.surroundings, recorded.groups, recipe)
 
 
 def fit_projection(surroundings: Float32, groups: Int64, recipe: ContextRecipe) -> Projection:

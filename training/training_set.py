@@ -9,7 +9,7 @@ import numpy as np
 from segments.parameters import Parameters, SurroundingsParameters
 from segments.recording import Recording
 from segments.segments import Segments
-from segments.types import Float32, Int64
+from segments.types import Bool, Float32, Int64
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +19,11 @@ class Source:
     recording: Recording
     first: int
     last: int
+
+    @property
+    def synthetic(self) -> bool:
+        """Whether it is of a town that was made up, `town:SEED`."""
+        return self.recording.name.startswith("town:")
 
     def indices(self) -> Int64:
         """Distinct segments of those groups."""
@@ -61,12 +66,14 @@ class TrainingSet:
         parameters: of the grid.
         surroundings: float32 (segments, size): what stood around each in its frame, duplicates
             included, as in a robot's request; None if nobody asked.
+        synthetic: bool (segments,): seen in a town that was made up; None: nobody knows.
     """
 
     segments: Segments
     groups: Int64
     parameters: Parameters
     surroundings: Float32 | None = None
+    synthetic: Bool | None = None
 
     @classmethod
     def of(
@@ -100,6 +107,7 @@ class TrainingSet:
             np.concatenate(groups),
             sources[0].recording.parameters,
             np.concatenate(around) if around else None,
+            np.repeat([source.synthetic for source in sources], [len(part) for part in parts]),
         )
 
     def __len__(self) -> int:
@@ -109,7 +117,8 @@ class TrainingSet:
         """These segments, their groups numbered anew from 0."""
         labels = np.unique(self.groups[indices], return_inverse=True)[1]
         around = None if self.surroundings is None else self.surroundings[indices]
-        return TrainingSet(self.segments.take(indices), labels, self.parameters, around)
+        made_up = None if self.synthetic is None else self.synthetic[indices]
+        return TrainingSet(self.segments.take(indices), labels, self.parameters, around, made_up)
 
     def group_sizes(self) -> Int64:
         """Segments of each group, int64 (groups,)."""

@@ -105,10 +105,10 @@ def test_papers_network_once_exported_needs_no_torch(
 
 
 def test_a_quantised_network_beside_the_served_one(tmp_path: Path) -> None:
-    served = (MODELS_FOLDER / DEFAULT_MODEL / "model.onnx").read_bytes()
+    served = (MODELS_FOLDER / "group" / "model.onnx").read_bytes()
     (tmp_path / "model.onnx").write_bytes(served)
     (tmp_path / "model-int8.onnx").write_bytes(b"...QuantizeLinear...")
-    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    manifest = Manifest.load(MODELS_FOLDER / "group")
     manifest.with_files(tmp_path, ["model.onnx", "model-int8.onnx"]).save(tmp_path)
 
     found = {network.file.name: network for network in files(tmp_path)}

@@ -15,7 +15,7 @@ from segments.segments import Segments
 from segments.surroundings import describe_surroundings
 from segments.voxels import voxelise
 from training import methods
-from training.context import ContextRecipe, Projection, fit_projection, rotation
+from training.context import ContextRecipe, Projection, fit_projection, learn_surroundings, rotation
 from training.export import Exported, ExportedContext, export_onnx
 from training.group_based import GroupBasedRecipe
 from training.networks import DescriptorNetwork, normalisation_statistics
@@ -63,6 +63,20 @@ def test_projection_looks_where_views_agree() -> None:
     distances = np.linalg.norm(found[:, None] - found[None], axis=2)
     np.fill_diagonal(distances, np.inf)
     assert (fresh.groups[distances.argmin(axis=1)] == fresh.groups).mean() > 0.9
+
+
+def test_surroundings_are_learned_from_what_was_recorded() -> None:
+    data = many_groups(seed=0)
+    made_up = data.groups >= 40
+    mixed = replace(data, synthetic=made_up)
+    recipe = ContextRecipe(dimension=8)
+    recorded = data.take(np.flatnonzero(~made_up))
+    assert recorded.surroundings is not None
+    alone = fit_projection(recorded.surroundings, recorded.groups, recipe)
+    assert (learn_surroundings(mixed, recipe).axes == alone.axes).all()
+    # Where all is made up, that will do.
+    town = learn_surroundings(replace(data, synthetic=np.ones(len(data), dtype=bool)), recipe)
+    assert (town.axes == learn_surroundings(data, recipe).axes).all()
 
 
 def test_too_few_groups_are_said() -> None:
@@ -131,7 +145,7 @@ def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     training, validation = data.split(0.4, seed=0)
     recipe = ContextRecipe(segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)))
     trained = methods.train(
-        "context", training, validation, Run(tmp_path / "run", 0), recipe=replace(recipe)
+        "context", training, validation, Run(tmp_path / "run", 0), recipe=recipe
     )
     provenance = {
         "sources": [{"drive": "toy", "scans": [0, 1], "frame_step": 1, "segments": 9}],
