@@ -125,7 +125,7 @@ def test_a_value_out_of_range_is_told_as_for_json(service: Any, path: str) -> No
         ({"maps": [b"nowhere"]}, 422, INVALID, "/maps/0"),
         ({"maps": []}, 422, INVALID, "/maps"),
         ({"codes": b""}, 422, INVALID, "/codes: no codes"),
-        ({"codes": b"\x01" * 13}, 422, INVALID, "/codes: 13 codes"),
+        ({"codes": b"\x01" * 13}, 422, INVALID, "/codes: 13 bytes"),
         ({"codes": [[1] * 7]}, 422, INVALID, "/codes: not a bin"),
         ({"codes": b"\x01" * 7007}, 413, "too-many-segments", "1001"),
         ({"model_id": "other-1"}, 409, "other-model", "other-1"),
