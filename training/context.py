@@ -23,7 +23,7 @@ from training.training_set import TrainingSet
 class ContextRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=60))
+    segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=30))
     dimension: int = 32
     """Of the surroundings in the descriptor."""
     weight: float = 1.0
