@@ -323,7 +323,7 @@ def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, f
 def pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
     """What it costs to state a probability: the p50 of a call for 1,250 pairs, on one thread."""
     manifest = Manifest.load(folder)
-    classifier = PairClassifier(folder, manifest, threads=1)
+    classifier = PairClassifier(folder, manifest)
     random = np.random.default_rng(seed)
     a, b = random.integers(-127, 128, (2, PAIRS, manifest.code_bytes)).astype(np.int8)
     times = []

@@ -6,6 +6,7 @@ import numpy as np
 
 from segments.drives import Drive
 from segments.parameters import Parameters
+from segments.segments import means_by_key
 from segments.types import Float32, Float64
 
 
@@ -32,11 +33,7 @@ def voxel_means(points: Float32, voxel: float) -> Float32:
     cells -= cells.min(axis=0)
     size = cells.max(axis=0) + 1
     keys = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    sums = np.add.reduceat(points[order].astype(np.float64), first, axis=0)
-    counts = np.diff(first, append=len(order))
-    return (sums / counts[:, None]).astype(np.float32)
+    return means_by_key(points, keys)[0].astype(np.float32)
 
 
 class Accumulator:

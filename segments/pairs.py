@@ -7,8 +7,8 @@ to `probability`, float32 (n,). It does not depend on the order of the pair.
 from pathlib import Path
 
 import numpy as np
-import onnxruntime
 
+from segments.extractor import one_thread_session
 from segments.manifest import PAIR_FILE, Manifest, ModelError
 from segments.types import Float64, Int8
 
@@ -16,15 +16,10 @@ from segments.types import Float64, Int8
 class PairClassifier:
     """Gives the probability of a match from descriptors as they are stored."""
 
-    def __init__(self, folder: Path, manifest: Manifest, threads: int = 1) -> None:
+    def __init__(self, folder: Path, manifest: Manifest) -> None:
         self._quantiser = manifest.quantiser
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = threads
-        options.log_severity_level = 3
         try:
-            self._session = onnxruntime.InferenceSession(
-                folder / PAIR_FILE, options, providers=["CPUExecutionProvider"]
-            )
+            self._session = one_thread_session(folder / PAIR_FILE)
         # onnxruntime's exceptions share no narrower base class than this.
         except Exception as error:
             raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error

@@ -61,6 +61,10 @@ class Quantiser:
         levels[:, 1::2] = codes >> 4
         return levels
 
+    def rounded(self, descriptors: Float32) -> Float32:
+        """Descriptors in whole steps, as the service compares them, float32 (n, d)."""
+        return self.levels(self.encode(descriptors)).astype(np.float32)
+
     def decode(self, codes: Int8) -> Float32:
         """int8 (n, code bytes) -> float32 (n, d)."""
         return self.levels(codes).astype(np.float32) * np.float32(self.step)

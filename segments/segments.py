@@ -22,6 +22,23 @@ def compiled(function: Callable[..., None]) -> Callable[..., None]:
         return numba.njit(nogil=True)(function)
 
 
+def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
+    """Means of the points that share a key, ordered by key.
+
+    Args:
+        points: float32 (n, 3).
+        keys: int64 (n,), none negative.
+
+    Returns:
+        float64 (keys, 3); and of each the index of its first point, int64 (keys,).
+    """
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    sums = np.add.reduceat(points[order].astype(np.float64), first, axis=0)
+    counts = np.diff(first, append=len(order))
+    return sums / counts[:, None], order[first]
+
+
 @dataclass(frozen=True, slots=True)
 class Segments:
     """Point clouds of segments, one after the other.

@@ -8,7 +8,7 @@ are averaged out, so that robots need not agree on where north is, nor come from
 import numpy as np
 
 from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
-from segments.segments import Segments, compiled
+from segments.segments import Segments, compiled, means_by_key
 from segments.types import Float32, Float64, Int64
 
 SECTORS = 16
@@ -72,11 +72,8 @@ def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
     keys = owners
     for axis in range(3):
         keys = keys * CELLS + cells[:, axis]
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    sums = np.add.reduceat(segments.points[order].astype(np.float64), first, axis=0)
-    counts = np.diff(first, append=len(order))
-    return sums / counts[:, None], owners[order[first]]
+    means, first = means_by_key(segments.points, keys)
+    return means, owners[first]
 
 
 @compiled

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from segments.extractor import Extractor, load_extractor
-from segments.manifest import Manifest
 from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder, shipped_models
 from segments.pairs import PairClassifier, load_pair_classifier
 from segments.parameters import PROTOCOL_V1
@@ -39,17 +38,13 @@ def measure(
     manifest = extractor.manifest
     codes = manifest.quantiser.encode(extractor.describe(segments, surroundings))
     stored = manifest.quantiser.decode(codes)
-    figures = {"model_id": manifest.model_id} | retrieval(manifest, codes, segments, groups)
+    steps = manifest.quantiser.levels(codes).astype(np.float32)
+    figures = {"model_id": manifest.model_id} | retrieval(steps, segments, groups)
     if manifest.surroundings is not None:
         nothing = np.zeros((len(segments), manifest.surroundings.size), dtype=np.float32)
-        alone = manifest.quantiser.encode(extractor.describe(segments, nothing))
-        figures["alone"] = retrieval(manifest, alone, segments, groups)
-        figures["alone"]["top1_in_map"] = mean(
-            recognition.retrieve(
-                *(manifest.quantiser.levels(codes).astype(np.float32), groups),
-                queries=manifest.quantiser.levels(alone).astype(np.float32),
-            ).right
-        )
+        alone = manifest.quantiser.rounded(extractor.describe(segments, nothing))
+        in_map = recognition.retrieve(steps, groups, queries=alone)
+        figures["alone"] = retrieval(alone, segments, groups) | {"top1_in_map": mean(in_map.right)}
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
         figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
@@ -79,12 +74,11 @@ def measure(
     return figures | paired | by_distance
 
 
-def retrieval(manifest: Manifest, codes: Int8, segments: Segments, groups: Int64) -> dict[str, Any]:
+def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
     """The figures of nearest neighbours, in whole steps: exact, as the service compares them."""
-    levels = manifest.quantiser.levels(codes).astype(np.float32)
-    found = recognition.retrieve(levels, groups)
+    found = recognition.retrieve(steps, groups)
     too_easy = recognition.seen_within(segments.sensors, recognition.CROSS_VIEW_METRES)
-    crossed = recognition.retrieve(levels, groups, too_easy)
+    crossed = recognition.retrieve(steps, groups, too_easy)
     return {
         "top1": mean(found.right),
         "top1_with_mate": mean(found.right[found.has_mate]),

@@ -14,6 +14,7 @@ from segments.quantiser import Quantiser
 from segments.types import Bool, Float32, Float64, Int64
 from training import recognition
 from training.augmentation import Augmentation
+from training.evaluation import mean
 from training.training_set import TrainingSet
 
 SIZES = (100, 150, 250, 400, 700, 1500, 15_001)
@@ -30,8 +31,9 @@ Curve = list[dict[str, Any]]
 
 def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
     """All curves of one model."""
+    quantiser = extractor.manifest.quantiser
     described = extractor.describe(test.segments, test.surroundings)
-    stored = as_stored(extractor, described)
+    stored = quantiser.rounded(described)
     sensors = test.segments.sensors
     centroids = test.segments.centroids()
     bearings = sensor_bearings(test.segments)
@@ -61,23 +63,12 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
     }
 
 
-def as_stored(extractor: Extractor, described: Float32) -> Float32:
-    """Descriptors in whole steps, as the service compares them."""
-    quantiser = extractor.manifest.quantiser
-    return quantiser.levels(quantiser.encode(described)).astype(np.float32)
-
-
 def share(
     stored: Float32, test: TrainingSet, too_easy: recognition.TooEasy | None = None
 ) -> dict[str, Any]:
     """Of the segments that have a mate left, how many find one first; and how many they are."""
     found = recognition.retrieve(stored, test.groups, too_easy)
-    return {"top1": average(found.right[found.has_mate]), "queries": int(found.has_mate.sum())}
-
-
-def average(values: Bool | Float64) -> float | None:
-    """None of none."""
-    return float(values.mean()) if len(values) else None
+    return {"top1": mean(found.right[found.has_mate]), "queries": int(found.has_mate.sum())}
 
 
 def by_points(test: TrainingSet, stored: Float32) -> Curve:
@@ -87,7 +78,7 @@ def by_points(test: TrainingSet, stored: Float32) -> Curve:
     return [
         {
             "points": [low, high - 1],
-            "top1": average(found.right[(counts >= low) & (counts < high) & found.has_mate]),
+            "top1": mean(found.right[(counts >= low) & (counts < high) & found.has_mate]),
             "queries": int(((counts >= low) & (counts < high) & found.has_mate).sum()),
         }
         for low, high in pairwise(SIZES)
@@ -104,9 +95,10 @@ def altered(
     asked = stored
     if lost:
         segments = change.segments(test.segments, np.random.default_rng(0), exactly=True)
-        asked = as_stored(extractor, extractor.describe(segments, test.surroundings))
+        described = extractor.describe(segments, test.surroundings)
+        asked = extractor.manifest.quantiser.rounded(described)
     found = recognition.retrieve(stored, test.groups, queries=asked)
-    return {"top1": average(found.right[found.has_mate])}
+    return {"top1": mean(found.right[found.has_mate])}
 
 
 def by_storage(described: Float32, test: TrainingSet) -> Curve:
@@ -114,11 +106,11 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
 
     Axes and steps are the test segments' own: what is lost is lost to rounding alone.
     """
-    mean = described.mean(axis=0)
-    axes = np.linalg.svd((described - mean).T @ (described - mean))[2]
+    centre = described.mean(axis=0)
+    axes = np.linalg.svd((described - centre).T @ (described - centre))[2]
     curve = []
     for dimension in sorted({min(d, described.shape[1]) for d in DIMENSIONS}):
-        projected = (described - mean) @ axes[:dimension].T
+        projected = (described - centre) @ axes[:dimension].T
         # Spread evenly over the dimensions, as few bits want it.
         turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]
         turned = np.asarray(projected @ turn, dtype=np.float32)
@@ -130,7 +122,7 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
                     "dimension": dimension,
                     "bits": bits,
                     "bytes": dimension * bits / 8,
-                    "top1": average(found.right),
+                    "top1": mean(found.right),
                 }
             )
     return curve
