@@ -2,6 +2,7 @@
 
 import typer
 
+from cli.ablations import ablations
 from cli.bench import bench
 from cli.demo import demo
 from cli.evaluate import evaluate
@@ -26,5 +27,6 @@ app.command()(train)
 app.command()(evaluate)
 app.command()(experiments)
 app.command()(study)
+app.command()(ablations)
 app.add_typer(bench, name="bench")
 app.command()(serve)

@@ -34,8 +34,12 @@ def train(
     ] = None,
     seed: Annotated[int, typer.Option(help="Of everything random.")] = 0,
     network: Annotated[
-        str, typer.Option(help="The extractor's network: fast, paper or paper-reduced.")
-    ] = "fast",
+        str | None,
+        typer.Option(
+            help="The extractor's network: fast, wide, paper or paper-reduced. "
+            "(default: wide for context, else fast)"
+        ),
+    ] = None,
     epochs: Annotated[
         int | None,
         typer.Option(min=1, help="Passes over the training set. (default: the method's own)"),
@@ -60,7 +64,8 @@ def train(
     from segments.models import MODELS_FOLDER
     from segments.parameters import SURROUNDINGS_V1
 
-    options = ["--network", network] if network != "fast" else []
+    own = "wide" if method is Method.CONTEXT else "fast"
+    options = ["--network", network] if network not in (None, own) else []
     options += ["--epochs", str(epochs)] if epochs else []
     folder = output or MODELS_FOLDER / method
     with clear_errors():
@@ -73,7 +78,7 @@ def train(
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
         else:
-            manifest = learn(method, folder, data, seed, network, epochs, runs, resume)
+            manifest = learn(method, folder, data, seed, network or own, epochs, runs, resume)
     typer.echo(f"{folder}: {manifest.model_id}")
 
 

@@ -99,7 +99,7 @@ class Manifest:
             stated_id = content.pop("model_id")
             quantiser = Quantiser(**content.pop("quantiser"))
             manifest = cls(quantiser=quantiser, **content)
-            if manifest.dimension * quantiser.bits % 8:
+            if manifest.dimension % quantiser.per_byte:
                 raise ValueError(f"{manifest.dimension} dimensions do not fill whole bytes")
         except FileNotFoundError as error:
             raise ModelError(f"{file}: missing; {folder} is not a model's folder") from error

@@ -191,7 +191,7 @@ class ModelOut(BaseModel):
     network: str
     dimension: int
     code_bytes: int = Field(description="Of a stored descriptor: the length of `codes`.")
-    bits: int = Field(description="Of a dimension: of 4, two share a byte of `codes`.")
+    per_byte: int = Field(description="How many dimensions share a byte of `codes`.")
     surroundings: bool = Field(
         description="Whether a segment's descriptor takes in the other segments of its request: "
         "then send all segments of a scan together."

@@ -12,7 +12,7 @@ from segments.alignment import align
 from segments.extractor import Extractor, load_extractor
 from segments.manifest import Manifest
 from segments.pairs import load_pair_classifier
-from segments.parameters import Parameters
+from segments.parameters import SURROUNDINGS_V1, Parameters
 from segments.segments import Segments
 from segments.types import Float32, Float64, Int64
 from training import recognition
@@ -102,15 +102,17 @@ def throughput(files: Mapping[str, Path], parameters: Parameters) -> dict[str, f
     inputs = {
         "occupancy": (random.random((64, *parameters.grid)) < 0.01).astype(np.uint8),
         "extents": random.uniform(0.5, 5, (64, 3)).astype(np.float32),
+        "surroundings": random.random((64, SURROUNDINGS_V1.size)).astype(np.float32),
     }
     rates = {}
     for network, file in files.items():
         session = onnxruntime.InferenceSession(file, providers=["CPUExecutionProvider"])
-        session.run(None, inputs)
+        given = {one.name: inputs[one.name] for one in session.get_inputs()}
+        session.run(None, given)
         seconds = []
         for _ in range(50):
             started = time.perf_counter()
-            session.run(None, inputs)
+            session.run(None, given)
             seconds.append(time.perf_counter() - started)
         rates[network] = 64 / float(np.median(seconds))
     return rates

@@ -1,9 +1,9 @@
 """Recognition in context: a segment and what stands around it (beyond the paper).
 
 The segment itself is described by a network trained group-based (III-C). Its surroundings
-(`segments.surroundings`) are projected by linear discriminant analysis (Fisher, 1936), which finds
-the directions in which groups lie apart while views of one group stay together: a closed form,
-learned in seconds, that hardly over-fits. Both stand side by side in the descriptor, the
+(`segments.surroundings`) are projected by linear discriminant analysis, which finds the directions
+in which groups lie apart while views of one group stay together: a closed form, learned in seconds,
+that hardly over-fits. Both stand side by side in the descriptor, the
 surroundings with a constant length, so that segments sent alone are still ranked by themselves.
 
     placecell train context DRIVE@0:299 --seed 0
@@ -12,9 +12,10 @@ surroundings with a constant length, so that segments sent alone are still ranke
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.linalg import eigh
 from scipy.stats import ortho_group
 
-from segments.types import Float32, Int64
+from segments.types import Float32, Float64, Int64
 from training.group_based import GroupBasedRecipe
 from training.training_set import TrainingSet
 
@@ -24,11 +25,11 @@ class ContextRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
     segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=30))
-    dimension: int = 32
+    dimension: int = 96
     """Of the surroundings in the descriptor."""
-    weight: float = 1.0
+    weight: float = 1.2
     """Length of the surroundings' part; the segment's own is about 1."""
-    shrinkage: float = 0.1
+    shrinkage: float = 0.2
     """How far the scatter within groups is drawn towards a sphere."""
 
 
@@ -48,49 +49,52 @@ class Projection:
 
 
 def learn_surroundings(training: TrainingSet, recipe: ContextRecipe) -> Projection:
-    """The projection, learned from what was recorded where there is any.
+    """Linear discriminant analysis of the surroundings, groups as classes (Fisher, 1936).
 
-    Streets that were made up have other surroundings than real ones, and telling the two apart, at
-    which the analysis is good, helps nobody. The segments themselves gain from both.
+    Every group counts once, however often it was seen: a robot that stands still sees a thousand
+    views of little, and the few that are seen from far apart are what there is to be learned.
 
     Raises:
         ValueError: there are too few groups of two or more.
     """
     assert training.surroundings is not None
-    made_up = training.synthetic
-    if made_up is None or made_up.all():
-        return fit_projection(training.surroundings, training.groups, recipe)
-    recorded = training.take(np.flatnonzero(~made_up))
-    assert recorded.surroundings is not None
-    return fit_projection(recorded.surroundings, recorded.groups, recipe)
-
-
-def fit_projection(surroundings: Float32, groups: Int64, recipe: ContextRecipe) -> Projection:
-    """Linear discriminant analysis of the surroundings, groups as classes.
-
-    Args:
-        surroundings: float32 (segments, size).
-        groups: int64 (segments,).
-
-    Raises:
-        ValueError: there are too few groups of two or more.
-    """
-    from sklearn.discriminant_analysis import LinearDiscriminantAnalysis
-
-    sizes = np.bincount(groups)
-    plural = sizes[groups] >= 2
-    if (sizes >= 2).sum() <= recipe.dimension:
+    sizes = training.group_sizes()
+    plural = sizes[training.groups] >= 2
+    count = int((sizes >= 2).sum())
+    if count <= recipe.dimension:
         raise ValueError(
-            f"{(sizes >= 2).sum()} groups of two or more segments: too few to learn "
+            f"{count} groups of two or more segments: too few to learn "
             f"{recipe.dimension} dimensions of surroundings from; take a longer drive"
         )
-    analysis = LinearDiscriminantAnalysis(solver="eigen", shrinkage=recipe.shrinkage)
-    analysis.fit(surroundings[plural].astype(np.float64), groups[plural])
+    surroundings = training.surroundings[plural].astype(np.float64)
+    groups = np.unique(training.groups[plural], return_inverse=True)[1]
+    within, centres = scatter(surroundings, groups)
+    between = np.cov(centres.T, bias=True)
+    sphere = np.eye(len(within)) * np.trace(within) / len(within)
+    drawn = (1 - recipe.shrinkage) * within + recipe.shrinkage * sphere
+    # Ascending; of length one in the scatter within groups, so that each weighs what it tells.
+    axes = eigh(between + within, drawn)[1][:, ::-1]
     return Projection(
-        surroundings[plural].mean(axis=0, dtype=np.float64).astype(np.float32),
-        np.ascontiguousarray(analysis.scalings_[:, : recipe.dimension], dtype=np.float32),
+        surroundings.mean(axis=0).astype(np.float32),
+        np.ascontiguousarray(axes[:, : recipe.dimension], dtype=np.float32),
         recipe.weight,
     )
+
+
+def scatter(values: Float64, groups: Int64) -> tuple[Float64, Float64]:
+    """The mean covariance of the groups, (size, size), and their means, (groups, size).
+
+    Args:
+        values: float64 (segments, size).
+        groups: int64 (segments,), from 0, each of two segments or more.
+    """
+    sizes = np.bincount(groups)
+    centres = np.zeros((len(sizes), values.shape[1]))
+    np.add.at(centres, groups, values)
+    centres /= sizes[:, None]
+    off = values - centres[groups]
+    weights = 1 / (sizes - 1)[groups]
+    return (off * weights[:, None]).T @ off / len(sizes), centres
 
 
 def rotation(dimension: int) -> Float32:

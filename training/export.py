@@ -51,9 +51,11 @@ class ExportedContext(nn.Module):
     def forward(self, occupancy: Tensor, extents: Tensor, surroundings: Tensor) -> Tensor:
         """float32 (n, stored dimension)."""
         projected = nn.functional.normalize((surroundings - self.mean) @ self.axes, dim=1)
-        # Where nothing stands around nothing is said of it.
-        seen = (surroundings.sum(dim=1, keepdim=True) > 0).float() * self.weight
-        side_by_side = torch.cat([self.segment(occupancy, extents), projected * seen], dim=1)
+        # Where nothing stands around nothing is said of it, and the segment itself fills the
+        # descriptor: all are equally long, and lose equally little when they are rounded.
+        seen = (surroundings.sum(dim=1, keepdim=True) > 0).float()
+        own = self.segment(occupancy, extents) * (seen + (1 - seen) * (1 + self.weight**2) ** 0.5)
+        side_by_side = torch.cat([own, projected * self.weight * seen], dim=1)
         descriptors: Tensor = side_by_side @ self.rotation
         return descriptors
 

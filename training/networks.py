@@ -5,7 +5,8 @@ descriptor, float32 (n, 64), of length one. Normalisation is the first layer, so
 get it wrong.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 import torch
@@ -121,7 +122,15 @@ class PaperReduced(nn.Module):
         return features
 
 
-NETWORKS = {"fast": Fast, "paper": Paper, "paper-reduced": PaperReduced}
+WIDE = (32, 64, 128, 192)
+"""Channels of `wide`: the deeper layers, whose maps are small, cost little."""
+
+NETWORKS: dict[str, Callable[[tuple[int, int, int]], "Fast | Paper | PaperReduced"]] = {
+    "fast": Fast,
+    "wide": partial(Fast, widths=WIDE),
+    "paper": Paper,
+    "paper-reduced": PaperReduced,
+}
 
 
 class DescriptorNetwork(nn.Module):

@@ -190,3 +190,16 @@ def studies(curves: dict[str, dict[str, Any]], file: Path) -> None:
         axes[-1].set(xlabel="dimensions", ylabel="top1", title=f"storage: {name}")
         axes[-1].legend(fontsize=8)
         axes[-1].grid(alpha=0.3)
+
+
+def accuracy_against_speed(points: list[tuple[str, float, float]], file: Path) -> None:
+    """Of each network, by name: segments a second, and how many of them are recognised."""
+    with figure(file, 1) as (axes,):
+        for name, rate, accuracy in points:
+            axes.plot(rate, accuracy, "o", markersize=5)
+            axes.annotate(
+                name, (rate, accuracy), fontsize=8, textcoords="offset points", xytext=(4, 4)
+            )
+        axes.set_xscale("log")
+        axes.set(xlabel="segments a second", ylabel="top1, segments alone", title="networks")
+        axes.grid(alpha=0.3)

@@ -23,7 +23,7 @@ from training import recognition
 from training.card import write_card
 from training.evaluation import machine, measure
 from training.methods import Trained
-from training.networks import describe
+from training.networks import DescriptorNetwork, describe
 from training.training_set import Source, TrainingSet
 
 VALIDATION_SHARE = 0.1
@@ -33,6 +33,9 @@ SPLIT_SEED = 0
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
+
+UNFINISHED = ".unfinished"
+"""After the name of a model's folder while it is written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +127,7 @@ def fingerprint(data: Data, *settings: object) -> str:
 @contextmanager
 def whole(folder: Path) -> Iterator[Path]:
     """A folder to write into that takes its place when the block ends well, and not before."""
-    unfinished = folder.with_name(folder.name + ".unfinished")
+    unfinished = folder.with_name(folder.name + UNFINISHED)
     shutil.rmtree(unfinished, ignore_errors=True)
     unfinished.mkdir(parents=True)
     yield unfinished
@@ -140,43 +143,53 @@ def has_pairs(data: TrainingSet) -> bool:
 
 def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     """Write `model.onnx`, `pair.onnx`, `manifest.json` and the card of a trained network."""
+    with whole(folder) as unfinished:
+        manifest = export_network(unfinished, trained, data)
+        head = None
+        if trained.match is not None:
+            head = (trained.match, *stored_axes(trained.network, data.training.recorded()))
+        return finish(unfinished, manifest, data, head)
+
+
+def stored_axes(network: DescriptorNetwork, recorded: TrainingSet) -> tuple[Float32, Float32]:
+    """Mean and principal axes of the descriptors: what is stored of them."""
+    from training.export import principal_axes
+
+    return principal_axes(describe(network, recorded), STORED_DIMENSION)
+
+
+def export_network(folder: Path, trained: Trained, data: Data) -> Manifest:
+    """Write `model.onnx` of a trained network, with the manifest that goes with it."""
     # Torch's exporter is slow to import: only here.
     from training.context import rotation
-    from training.export import Exported, ExportedContext, export_onnx, principal_axes
+    from training.export import Exported, ExportedContext, export_onnx
     from training.quantisation import quantise
 
-    learned = describe(trained.network, data.training)
-    mean, axes = principal_axes(learned, STORED_DIMENSION)
-    head = None if trained.match is None else (trained.match, mean, axes)
-    segment = Exported(trained.network, mean, axes)
-    exported: Exported | ExportedContext = segment
-    around, dimension, bits = None, STORED_DIMENSION, 8
-    if trained.projection is not None:
-        # Two halves at half the bits: as many bytes as the segment by itself.
-        around, bits = SURROUNDINGS_V1, 4
+    recorded = data.training.recorded()
+    segment = Exported(trained.network, *stored_axes(trained.network, recorded))
+    grid = data.training.parameters.grid
+    around, dimension, per_byte, files = None, STORED_DIMENSION, 1, [MODEL_FILE]
+    if trained.projection is None:
+        export_onnx(segment, grid, folder / MODEL_FILE)
+    else:
+        # Four times the dimensions at a quarter of the bits: as many bytes.
+        around, per_byte = SURROUNDINGS_V1, 4
         dimension += trained.projection.axes.shape[1]
-        exported = ExportedContext(segment, trained.projection, rotation(dimension))
-    with whole(folder) as unfinished:
-        files = [MODEL_FILE]
-        if trained.projection is None:
-            export_onnx(exported, data.training.parameters.grid, unfinished / MODEL_FILE)
-        else:
-            files.append(FULL_FILE)
-            export_onnx(exported, data.training.parameters.grid, unfinished / FULL_FILE)
-            quantise(unfinished / FULL_FILE, data.training, unfinished / MODEL_FILE)
-        manifest = Manifest(
-            name=folder.name,
-            method=trained.method,
-            network=trained.network_name,
-            dimension=dimension,
-            quantiser=Quantiser(1.0, bits),
-            preprocessing=preprocessing_of(data.training.parameters, around),
-            training=data.provenance,
-        ).with_files(unfinished, files)
-        extractor = OnnxExtractor(unfinished, manifest)
-        described = extractor.describe(data.training.segments, data.training.surroundings)
-        manifest = replace(manifest, quantiser=Quantiser.fit(described, bits))
-        return finish(unfinished, manifest, data, head)
+        network = ExportedContext(segment, trained.projection, rotation(dimension))
+        export_onnx(network, grid, folder / FULL_FILE)
+        quantise(folder / FULL_FILE, data.training, folder / MODEL_FILE)
+        files.append(FULL_FILE)
+    manifest = Manifest(
+        name=folder.name.removesuffix(UNFINISHED),
+        method=trained.method,
+        network=trained.network_name,
+        dimension=dimension,
+        quantiser=Quantiser(1.0, per_byte),
+        preprocessing=preprocessing_of(data.training.parameters, around),
+        training=data.provenance,
+    ).with_files(folder, files)
+    described = OnnxExtractor(folder, manifest).describe(recorded.segments, recorded.surroundings)
+    return replace(manifest, quantiser=Quantiser.fit(described, per_byte))
 
 
 def publish_eigenvalue(folder: Path, data: Data) -> Manifest:

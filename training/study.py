@@ -10,7 +10,6 @@ import numpy as np
 
 from segments.alignment import sensor_bearings
 from segments.extractor import Extractor
-from segments.quantiser import Quantiser
 from segments.types import Bool, Float32, Float64, Int64
 from training import recognition
 from training.augmentation import Augmentation
@@ -21,8 +20,9 @@ SIZES = (100, 150, 250, 400, 700, 1500, 15_001)
 METRES = (0.0, 2.0, 5.0, 10.0, 15.0, 20.0)
 DEGREES = (0.0, 5.0, 10.0, 20.0, 40.0, 60.0)
 SHARES = (0.0, 0.2, 0.4, 0.6, 0.8)
-DIMENSIONS = (8, 16, 24, 32, 48, 64)
-BITS = (32, 8, 6, 5, 4, 3)
+DIMENSIONS = (8, 16, 24, 32, 48, 64, 96, 128)
+REACH = {8: 0.9995, 6: 0.998, 5: 0.995, 4: 0.99, 3: 0.96, 2: 0.85}
+"""Share of the values within reach of the levels, by bits of a level."""
 NEAR_PLACE = 1.5
 """Metres between centroids of segments that stand in one place, whatever group they are of."""
 
@@ -114,7 +114,7 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
         # Spread evenly over the dimensions, as few bits want it.
         turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]
         turned = np.asarray(projected @ turn, dtype=np.float32)
-        for bits in BITS:
+        for bits in (32, *REACH):
             kept = turned if bits == 32 else rounded(turned, bits)
             found = recognition.retrieve(kept, test.groups)
             curve.append(
@@ -130,9 +130,10 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
 
 def rounded(values: Float32, bits: int) -> Float32:
     """To uniform steps of so many bits."""
-    highest = 2 ** (bits - 1) - 1
-    step = Quantiser.fit(values).step * 127 / highest  # the same reach for any number of bits
-    return np.asarray(np.rint(values / step).clip(-highest, highest) * step, dtype=np.float32)
+    count = 2**bits
+    step = 2 * float(np.quantile(np.abs(values), REACH[bits])) / (count - 1)
+    cells = np.floor(values / step).clip(-count // 2, count // 2 - 1)
+    return np.asarray((cells + 0.5) * step, dtype=np.float32)
 
 
 def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, float]:

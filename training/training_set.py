@@ -113,6 +113,16 @@ class TrainingSet:
     def __len__(self) -> int:
         return len(self.segments)
 
+    def recorded(self) -> "TrainingSet":
+        """What was seen in real streets; all of it, if none was.
+
+        Streets that were made up are as good to learn segments from, but what they look like as a
+        whole is not: neither which directions a descriptor varies in nor what stands around.
+        """
+        if self.synthetic is None or self.synthetic.all():
+            return self
+        return self.take(np.flatnonzero(~self.synthetic))
+
     def take(self, indices: Int64) -> "TrainingSet":
         """These segments, their groups numbered anew from 0."""
         labels = np.unique(self.groups[indices], return_inverse=True)[1]

@@ -37,7 +37,7 @@ async def info(request: Request, state: StateOf) -> InfoResponse:
             network=manifest.network,
             dimension=manifest.dimension,
             code_bytes=manifest.code_bytes,
-            bits=manifest.quantiser.bits,
+            per_byte=manifest.quantiser.per_byte,
             surroundings=manifest.surroundings is not None,
             step=manifest.quantiser.step,
             pair_threshold=manifest.pair_threshold,

@@ -57,27 +57,62 @@ def test_distances_between_codes_are_distances() -> None:
     assert float(np.linalg.norm(a - b)) == 5 * 0.25
 
 
-def test_two_levels_of_four_bits_share_a_byte() -> None:
-    quantiser = Quantiser(step=0.5, bits=4)
+def test_two_dimensions_share_a_byte() -> None:
+    quantiser = Quantiser(step=0.5, per_byte=2)
     codes = quantiser.encode(np.array([[0.5, -1.0, 9.0, -9.0]], np.float32))
     assert codes.shape == (1, quantiser.code_bytes(4)) == (1, 2)
-    # 1 below, -2 = 0xe above; 7 below, -7 = 0x9 above.
-    assert codes.view(np.uint8).tolist() == [[0xE1, 0x97]]
+    # Levels 1 and -2 are the digits 8 and 5 of 15: 8 + 5 * 15 - 112; 7 and -7 are 14 and 0.
+    assert codes.tolist() == [[-29, -98]]
     assert quantiser.levels(codes).tolist() == [[1, -2, 7, -7]]
     assert quantiser.decode(codes).tolist() == [[0.5, -1.0, 3.5, -3.5]]
 
 
-def test_four_bits_round_trip_all_levels() -> None:
-    levels = np.stack(np.meshgrid(np.arange(-7, 8), np.arange(-7, 8)), axis=-1).reshape(-1, 2)
-    quantiser = Quantiser(step=1.0, bits=4)
-    assert (quantiser.levels(quantiser.encode(levels.astype(np.float32))) == levels).all()
+def test_three_dimensions_share_a_byte() -> None:
+    quantiser = Quantiser(step=0.5, per_byte=3)
+    codes = quantiser.encode(np.array([[0.1, -0.1, 1.1, 9.0, -9.0, -1.9]], np.float32))
+    # Levels 1, -1, 3 are the digits 3, 2, 4 of 6: 3 + 2 * 6 + 4 * 36 - 108; then 5, 0, 1.
+    assert codes.tolist() == [[51, -67]]
+    assert quantiser.levels(codes).tolist() == [[1, -1, 3, 5, -5, -3]]
+    assert quantiser.decode(codes).tolist() == [[0.5, -0.5, 1.5, 2.5, -2.5, -1.5]]
 
 
-def test_no_other_bits() -> None:
-    with pytest.raises(ValueError, match="3 bits"):
-        Quantiser(step=1.0, bits=3)
+@pytest.mark.parametrize("per_byte", [1, 2, 3, 4])
+def test_every_code_in_use_has_its_own_levels(per_byte: int) -> None:
+    quantiser = Quantiser(step=1.0, per_byte=per_byte)
+    some = np.arange(-quantiser.highest, quantiser.highest + 1, quantiser.spacing)
+    levels = np.stack(np.meshgrid(*[some] * per_byte), axis=-1).reshape(-1, per_byte)
+    codes = quantiser.encode(levels.astype(np.float32))
+    assert len(np.unique(codes)) == len(levels) <= 256
+    assert (quantiser.levels(codes) == levels).all()
+
+
+@pytest.mark.parametrize("per_byte", [1, 2, 3, 4])
+def test_any_byte_from_elsewhere_is_some_level(per_byte: int) -> None:
+    quantiser = Quantiser(step=1.0, per_byte=per_byte)
+    levels = quantiser.levels(np.arange(256, dtype=np.uint8).view(np.int8)[None])
+    assert np.abs(levels.astype(int)).max() <= quantiser.highest
+
+
+def test_four_dimensions_share_a_byte() -> None:
+    quantiser = Quantiser(step=0.5, per_byte=4)
+    codes = quantiser.encode(np.array([[0.1, -0.1, 9.0, -9.0]], np.float32))
+    # Levels 1, -1, 3, -3 are the digits 2, 1, 3, 0 of 4: two bits each, 54, less 128.
+    assert codes.tolist() == [[0b00_11_01_10 - 128]]
+    assert quantiser.levels(codes).tolist() == [[1, -1, 3, -3]]
+
+
+def test_a_byte_does_not_hold_five() -> None:
+    with pytest.raises(ValueError, match="5 dimensions in a byte"):
+        Quantiser(step=1.0, per_byte=5)
 
 
 def test_manifests_of_bytes_say_what_they_always_said() -> None:
     assert Quantiser(0.5).as_dict() == {"step": 0.5}
-    assert Quantiser(**Quantiser(0.5, 4).as_dict()) == Quantiser(0.5, 4)  # type: ignore[arg-type]
+    assert Quantiser(**Quantiser(0.5, 3).as_dict()) == Quantiser(0.5, 3)  # type: ignore[arg-type]
+
+
+def test_no_descriptors_are_no_codes() -> None:
+    quantiser = Quantiser(step=1.0, per_byte=4)
+    codes = quantiser.encode(np.zeros((0, 8), np.float32))
+    assert codes.shape == (0, 2)
+    assert quantiser.levels(codes).shape == (0, 8)

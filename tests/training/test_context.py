@@ -15,7 +15,7 @@ from segments.segments import Segments
 from segments.surroundings import describe_surroundings
 from segments.voxels import voxelise
 from training import methods
-from training.context import ContextRecipe, Projection, fit_projection, learn_surroundings, rotation
+from training.context import ContextRecipe, Projection, learn_surroundings, rotation, scatter
 from training.export import Exported, ExportedContext, export_onnx
 from training.group_based import GroupBasedRecipe
 from training.networks import DescriptorNetwork, normalisation_statistics
@@ -51,7 +51,7 @@ def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
 def test_projection_looks_where_views_agree() -> None:
     data = many_groups(seed=0)
     assert data.surroundings is not None
-    projection = fit_projection(data.surroundings, data.groups, ContextRecipe(dimension=8))
+    projection = learn_surroundings(data, ContextRecipe(dimension=8))
     strength = np.abs(projection.axes).mean(axis=1)
     assert strength[:20].mean() < 0.3 * strength[20:].mean()
     assert projection.mean == pytest.approx(data.surroundings.mean(axis=0), abs=1e-4)
@@ -68,22 +68,40 @@ def test_projection_looks_where_views_agree() -> None:
 def test_surroundings_are_learned_from_what_was_recorded() -> None:
     data = many_groups(seed=0)
     made_up = data.groups >= 40
-    mixed = replace(data, synthetic=made_up)
-    recipe = ContextRecipe(dimension=8)
-    recorded = data.take(np.flatnonzero(~made_up))
+    recorded = replace(data, synthetic=made_up).recorded()
+    assert recorded.groups.tolist() == data.groups[~made_up].tolist()
     assert recorded.surroundings is not None
-    alone = fit_projection(recorded.surroundings, recorded.groups, recipe)
-    assert (learn_surroundings(mixed, recipe).axes == alone.axes).all()
-    # Where all is made up, that will do.
-    town = learn_surroundings(replace(data, synthetic=np.ones(len(data), dtype=bool)), recipe)
-    assert (town.axes == learn_surroundings(data, recipe).axes).all()
+    assert data.surroundings is not None
+    assert (recorded.surroundings == data.surroundings[~made_up]).all()
+    # Where all is made up, or nobody knows, all of it will do.
+    town = replace(data, synthetic=np.ones(len(data), dtype=bool))
+    assert town.recorded() is town
+    assert data.recorded() is data
+
+
+def test_scatter_by_hand() -> None:
+    values = np.array([[0.0, 0], [2, 0], [5, 1], [5, 4], [5, 7]])
+    within, centres = scatter(values, np.array([0, 0, 1, 1, 1]))
+    # Unbiased variances: 2 along x in the first group, 9 along y in the second; their mean.
+    assert within.tolist() == [[1.0, 0], [0, 4.5]]
+    assert centres.tolist() == [[1.0, 0], [5, 4]]
+
+
+def test_groups_count_alike_however_often_seen() -> None:
+    data = many_groups(seed=0)
+    often = data.take(np.concatenate([np.arange(len(data)), *[np.arange(25)] * 40]))
+    assert data.surroundings is not None
+    assert often.surroundings is not None
+    within, centres = scatter(data.surroundings.astype(np.float64), data.groups)
+    again, same = scatter(often.surroundings.astype(np.float64), often.groups)
+    assert same == pytest.approx(centres)
+    # Of five views each, seen 41 times over: no more evidence, but for the unbiased estimate.
+    assert np.trace(again) == pytest.approx(np.trace(within), rel=0.03)
 
 
 def test_too_few_groups_are_said() -> None:
-    data = many_groups(seed=0, groups=6)
-    assert data.surroundings is not None
     with pytest.raises(ValueError, match="longer drive"):
-        fit_projection(data.surroundings, data.groups, ContextRecipe(dimension=8))
+        learn_surroundings(many_groups(seed=0, groups=6), ContextRecipe(dimension=8))
 
 
 def test_rotation_keeps_distances_and_is_always_the_same() -> None:
@@ -134,16 +152,20 @@ def test_a_query_alone_is_ranked_by_itself() -> None:
         own = network.segment(occupancy, extents).numpy()
         stored = network(occupancy, extents, around).numpy()
         alone = network(occupancy, extents, torch.zeros_like(around)).numpy()
-    # Every stored descriptor is farther by the same constant: the weight of what stands around.
+    # As long as if something stood around; so what is near by itself is near in the map.
+    longer = np.sqrt(1 + 1.2**2)
+    assert (np.linalg.norm(alone, axis=1) / np.linalg.norm(own, axis=1)) == pytest.approx(longer)
     squared = np.square(alone[:, None] - stored[None]).sum(axis=2)
-    expected = np.square(own[:, None] - own[None]).sum(axis=2) + 1.2**2
+    expected = np.square(longer * own[:, None] - own[None]).sum(axis=2) + 1.2**2
     assert squared == pytest.approx(expected, rel=1e-3)
 
 
 def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     data = many_groups(seed=0)
     training, validation = data.split(0.4, seed=0)
-    recipe = ContextRecipe(segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)))
+    recipe = ContextRecipe(
+        segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)), dimension=32
+    )
     trained = methods.train(
         "context", training, validation, Run(tmp_path / "run", 0), recipe=recipe
     )
@@ -159,7 +181,7 @@ def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     manifest = publish_network(tmp_path / "toy", trained, Data(training, validation, provenance))
     assert manifest.model_id == Manifest.load(tmp_path / "toy").model_id
     assert manifest.surroundings == SURROUNDINGS_V1
-    assert (manifest.dimension, manifest.code_bytes) == (64, 32)
+    assert (manifest.dimension, manifest.code_bytes) == (64, 16)
     figures = manifest.figures["validation"]
     assert figures["top1"] > figures["alone"]["top1"]
     # What the extractor takes for granted is that the segments were seen together.

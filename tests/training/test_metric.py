@@ -1,0 +1,35 @@
+"""Metric learning: each loss learns, and batches hold matches."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from training import metric
+from training.metric import LOSSES, MetricRecipe, draw_batch
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+
+def test_a_batch_holds_as_many_of_each_group() -> None:
+    groups = np.repeat(np.arange(40), [2, 9] * 20)
+    random = np.random.default_rng(0)
+    chosen = draw_batch(random.permutation(groups), random)
+    assert len(chosen) == metric.GROUPS * metric.VIEWS
+    drawn = draw_batch(groups, random)
+    sizes = np.bincount(groups[drawn], minlength=40)
+    assert set(sizes.tolist()) == {0, metric.VIEWS}
+    # Of large groups no segment twice.
+    large = drawn[groups[drawn] % 2 == 1]
+    assert len(np.unique(large)) == len(large)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_every_loss_learns(loss: str, shapes: TrainingSet, tmp_path: Path) -> None:
+    run = Run(tmp_path, 0)
+    many = shapes.take(np.tile(np.arange(len(shapes)), 8))
+    recipe = MetricRecipe(loss, epochs=4, sgd=Sgd(learning_rate=0.05))
+    metric.train(many, shapes, run, "fast", recipe)
+    assert run.history[-1]["loss"] < run.history[0]["loss"]
+    assert run.history[-1]["validation_top1"] > 0.5

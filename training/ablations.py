@@ -1,0 +1,173 @@
+"""What each part of the context model is worth: the same training with one thing changed.
+
+placecell ablations --train DRIVE@0:299 --train town:11 --test DRIVE@300:500
+"""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.progress import Progress
+
+from segments.extractor import MODEL_FILE, load_extractor
+from segments.manifest import FULL_FILE
+from segments.parameters import SURROUNDINGS_V1
+from training import group_based, metric
+from training.augmentation import Augmentation
+from training.comparison import throughput
+from training.context import ContextRecipe, learn_surroundings
+from training.evaluation import measure
+from training.group_based import GroupBasedRecipe
+from training.methods import Trained
+from training.metric import MetricRecipe
+from training.networks import DescriptorNetwork
+from training.publishing import Data, collect, export_network, fingerprint, whole
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import Source, TrainingSet, check_apart
+
+RATES = (0.05, 0.1, 0.2)
+"""Learning rates that each loss is tried with; the best on the validation groups counts."""
+
+NETWORKS = ("fast", "paper-reduced", "paper")
+"""Beside the model's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One training, and what is different about it.
+
+    Attributes:
+        part: of the model that is looked at; variants of a part are compared.
+        name: of what was chosen.
+        segment: how the segment itself is learned.
+        surroundings: dimension, weight and shrinkage of what stands around.
+        towns: whether the synthetic streets are learned from.
+    """
+
+    part: str
+    name: str
+    segment: GroupBasedRecipe | MetricRecipe
+    surroundings: ContextRecipe = field(default_factory=ContextRecipe)
+    network: str = "wide"
+    towns: bool = True
+    seed: int = 0
+
+    def training_name(self) -> str:
+        """Of the network's run: the same for variants that differ in the surroundings alone."""
+        part = "model" if self.part == "surroundings" else self.part
+        name = "seed-0" if self.part == "surroundings" else self.name
+        return f"{part}-{name}"
+
+
+def variants(epochs: int, seeds: int) -> Iterator[Variant]:
+    """All of them, the model itself with several seeds first."""
+    base = GroupBasedRecipe(epochs=epochs)
+    for seed in range(seeds):
+        yield Variant("model", f"seed-{seed}", base, seed=seed)
+    own = ContextRecipe()
+    changed = {f"dimension-{size}": replace(own, dimension=size) for size in (32, 64, 128)}
+    changed |= {f"weight-{weight}": replace(own, weight=weight) for weight in (0.8, 1.6)}
+    changed |= {f"shrinkage-{share}": replace(own, shrinkage=share) for share in (0.02, 0.5)}
+    for name, surroundings in changed.items():
+        yield Variant("surroundings", name, base, surroundings)
+    yield Variant("data", "without-towns", base, towns=False)
+    changes = {
+        "none": Augmentation(0.0, 0.0, 0.0, 0.0),
+        "no-turns": Augmentation(yaw=0.0),
+        "turns-60": Augmentation(yaw=np.radians(60.0)),
+        "no-cuts": Augmentation(cut_share=0.0),
+        "no-missing-points": Augmentation(drop_most=0.0),
+    }
+    for name, augmentation in changes.items():
+        yield Variant("augmentation", name, replace(base, augmentation=augmentation))
+    for network in NETWORKS:
+        yield Variant("network", network, base, network=network)
+    for rate in RATES:
+        sgd = Sgd(learning_rate=rate)
+        yield Variant("loss", f"cross-entropy-{rate}", replace(base, sgd=sgd))
+        for loss in metric.LOSSES:
+            yield Variant("loss", f"{loss}-{rate}", MetricRecipe(loss, epochs, sgd))
+
+
+def run_ablations(
+    training_sources: Sequence[Source],
+    test_source: Source,
+    chosen: Sequence[Variant],
+    output: Path,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Train and measure every variant that is not yet in the output's folder.
+
+    Returns:
+        `rows`, in order: part, name, network, what validation and test say; and `throughput`,
+        segments a second of each network's ONNX, in full and in 8 bits.
+
+    Raises:
+        ValueError: the test shares scans with the training, or there is too little to learn from.
+    """
+    check_apart([*training_sources, test_source])
+    everything = collect(training_sources, "not stated", SURROUNDINGS_V1)
+    recorded = [source for source in training_sources if not source.synthetic] or training_sources
+    real = collect(recorded, "not stated", SURROUNDINGS_V1)
+    test = TrainingSet.of([test_source], SURROUNDINGS_V1)
+    task = progress.add_task("variants", total=len(chosen)) if progress else None
+    rows = []
+    for variant in chosen:
+        data = everything if variant.towns else real
+        file = output / "rows" / f"{variant.part}-{variant.name}.json"
+        if not file.exists():
+            row = _measured(variant, data, test, output, progress)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps(row, indent=1) + "\n")
+        rows.append(json.loads(file.read_text()))
+        if progress and task is not None:
+            progress.update(task, advance=1)
+    files = {
+        f"{network} {precision}": output / "models" / f"{part}-{name}" / file_name
+        for part, name, network in [("model", "seed-0", "wide")]
+        + [("network", network, network) for network in NETWORKS]
+        for precision, file_name in [("fp32", FULL_FILE), ("int8", MODEL_FILE)]
+    }
+    found = {name: file for name, file in files.items() if file.exists()}
+    return {"rows": rows, "throughput": throughput(found, test.parameters)}
+
+
+def _measured(
+    variant: Variant, data: Data, test: TrainingSet, output: Path, progress: Progress | None
+) -> dict[str, Any]:
+    name = variant.training_name()
+    identity = fingerprint(data, name, variant.network, variant.segment)
+    run = Run(output / "runs" / name, variant.seed, identity, progress)
+    network = _train(variant, data, run)
+    projection = learn_surroundings(data.training.recorded(), variant.surroundings)
+    trained = Trained("context", variant.network, network, projection=projection)
+    with whole(output / "models" / f"{variant.part}-{variant.name}") as folder:
+        export_network(folder, trained, data).save(folder)
+        figures = measure(
+            load_extractor(folder), None, test.segments, test.groups, 0, test.surroundings
+        )
+    return {
+        "part": variant.part,
+        "name": variant.name,
+        "network": variant.network,
+        "seed": variant.seed,
+        "validation_top1": run.history[-1]["validation_top1"],
+        "seconds": run.cost()["seconds"],
+        "top1_alone": figures["alone"]["top1"],
+    } | {
+        key: figures[key]
+        for key in ("top1", "recall_at_25", "cross_view_top1", "pair_auc_by_distance")
+    }
+
+
+def _train(variant: Variant, data: Data, run: Run) -> DescriptorNetwork:
+    if isinstance(variant.segment, MetricRecipe):
+        learn = partial(metric.train, recipe=variant.segment)
+    else:
+        learn = partial(group_based.train, recipe=variant.segment)
+    return learn(data.training, data.validation, run, variant.network)

@@ -1,0 +1,78 @@
+"""The ablations in Markdown, and accuracy against speed as a picture."""
+
+from itertools import groupby
+from pathlib import Path
+from statistics import mean, stdev
+from typing import Any
+
+from training import plots
+
+FIGURES = {
+    "top1_alone": "top1, alone",
+    "top1": "top1",
+    "cross_view_top1": "cross_view_top1",
+    "recall_at_25": "recall_at_25",
+    "pair_auc_by_distance": "pair AUC",
+}
+"""Columns, by key."""
+
+Row = dict[str, Any]
+
+
+def write_ablations(report: dict[str, Any], output: Path) -> Path:
+    """Write `ablations.md` and `speed.png`; returns the former."""
+    own = [row for row in report["rows"] if row["part"] == "model"]
+    rows = best_rates([row for row in report["rows"] if row["part"] != "model"])
+    lines = ["# Ablations", "", "Made by", "", f"    {report['command']}", ""]
+    lines += [*_head("the model itself"), *(_line(row) for row in own)]
+    if len(own) > 1:
+        spread = {key: stdev(row[key] for row in own) for key in FIGURES}
+        lines.append("| deviation | " + " | ".join(f"{v:.3f}" for v in spread.values()) + " |")
+    for part, members in groupby(rows, key=lambda row: row["part"]):
+        lines += ["", *_head(f"{part} changed"), *(_line(row) for row in members)]
+    if report["throughput"]:
+        lines += ["", "Segments a second, batches of 64, all cores, in this run:", ""]
+        lines += [f"- {name}: {rate:,.0f}" for name, rate in report["throughput"].items()]
+        points = speeds(report)
+        plots.accuracy_against_speed(points, output / "ablations-speed.png")
+        lines += ["", "![Accuracy against speed](ablations-speed.png)"]
+    file = output / "ablations.md"
+    file.write_text("\n".join(lines) + "\n")
+    return file
+
+
+def best_rates(rows: list[Row]) -> list[Row]:
+    """Of each loss the row of the learning rate that did best on the validation groups."""
+    kept: list[Row] = []
+    for row in rows:
+        if row["part"] != "loss":
+            kept.append(row)
+            continue
+        loss = row["name"].rpartition("-")[0]
+        rivals = [one for one in rows if one["part"] == "loss"]
+        rivals = [one for one in rivals if one["name"].rpartition("-")[0] == loss]
+        if row is max(rivals, key=lambda one: one["validation_top1"]):
+            kept.append(row)
+    return kept
+
+
+def speeds(report: dict[str, Any]) -> list[tuple[str, float, float]]:
+    """Name, segments a second and top1 of the segment alone, of each network and precision.
+
+    The accuracy is of the 8-bit network; in full it differs by less than a training's seed.
+    """
+    by_network = {row["network"]: row for row in report["rows"] if row["part"] == "network"}
+    own = [row for row in report["rows"] if row["part"] == "model"]
+    by_network |= {own[0]["network"]: {"top1_alone": mean(row["top1_alone"] for row in own)}}
+    return [
+        (name, rate, by_network[name.rpartition(" ")[0]]["top1_alone"])
+        for name, rate in report["throughput"].items()
+    ]
+
+
+def _head(title: str) -> list[str]:
+    return [f"| {title} | " + " | ".join(FIGURES.values()) + " |", "|---" * 6 + "|"]
+
+
+def _line(row: Row) -> str:
+    return f"| {row['name']} | " + " | ".join(f"{row[key]:.3f}" for key in FIGURES) + " |"

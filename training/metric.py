@@ -1,0 +1,120 @@
+"""Metric learning: losses on the distances of a batch, to compare the group-based one with.
+
+A batch holds several segments of each of some groups, so that there are matches in it. The losses
+are those of pytorch-metric-learning, by the names of their papers.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import torch
+from torch import nn
+
+from segments.types import Int64
+from training.augmentation import Augmentation
+from training.networks import DIMENSION, DescriptorNetwork, describe, normalisation_statistics
+from training.recognition import top1
+from training.run import Run
+from training.sgd import Sgd
+from training.training_set import TrainingSet
+
+GROUPS, VIEWS = 32, 4
+"""Of a batch: groups, and segments of each."""
+
+
+class HardTriplets(nn.Module):
+    """The triplet loss on the farthest match and the nearest other of each segment in the batch."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        from pytorch_metric_learning.losses import TripletMarginLoss
+        from pytorch_metric_learning.miners import BatchHardMiner
+
+        self.loss, self.miner = TripletMarginLoss(margin=0.2), BatchHardMiner()
+
+    def forward(self, descriptors: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
+        """Mean over the batch."""
+        loss: torch.Tensor = self.loss(descriptors, labels, self.miner(descriptors, labels))
+        return loss
+
+
+def losses(groups: int) -> dict[str, Callable[[], nn.Module]]:
+    """Makers of the losses by name.
+
+    Args:
+        groups: in the training set, for a loss that has a vector for each.
+    """
+    from pytorch_metric_learning import losses as library
+
+    return {
+        "cosine-margin": lambda: library.CosFaceLoss(groups, DIMENSION, margin=0.1, scale=16),
+        "supervised-contrastive": lambda: library.SupConLoss(temperature=0.1),
+        "multi-similarity": library.MultiSimilarityLoss,
+        "hard-triplets": HardTriplets,
+        "smooth-ap": lambda: library.SmoothAPLoss(temperature=0.01),
+    }
+
+
+LOSSES = tuple(losses(1))
+
+
+@dataclass(frozen=True, slots=True)
+class MetricRecipe:
+    """Settings of the training."""
+
+    loss: str
+    """One of `LOSSES`."""
+    epochs: int = 30
+    sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.1))
+    dropout: float = 0.2
+    augmentation: Augmentation = field(default_factory=Augmentation)
+
+
+def train(
+    training: TrainingSet,
+    validation: TrainingSet,
+    run: Run,
+    network: str,
+    recipe: MetricRecipe,
+) -> DescriptorNetwork:
+    """Train a descriptor network by the distances within a batch.
+
+    The history holds the loss and the top-1 in the validation groups of each epoch.
+    """
+    torch.manual_seed(run.seed)
+    classes = training.without_small_groups(2)
+    extractor = DescriptorNetwork(network, *normalisation_statistics(classes), recipe.dropout)
+    loss_of = losses(len(classes.group_sizes()))[recipe.loss]()
+    model = nn.ModuleList([extractor, loss_of])
+    steps = len(classes) // (GROUPS * VIEWS)
+    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
+    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
+        random = run.random(epoch)
+        total = 0.0
+        model.train()
+        for _ in range(steps):
+            chosen = draw_batch(classes.groups, random)
+            occupancy, extents = recipe.augmentation.copies(
+                classes.segments.take(chosen), classes.parameters, random
+            )
+            descriptors = extractor(torch.from_numpy(occupancy), torch.from_numpy(extents))
+            loss = loss_of(descriptors, torch.from_numpy(classes.groups[chosen]))
+            optimiser.zero_grad()
+            loss.backward()
+            optimiser.step()
+            schedule.step()
+            total += loss.item()
+        found = top1(describe(extractor, validation), validation.groups)
+        run.note(loss=total / steps, validation_top1=found)
+    return extractor
+
+
+def draw_batch(groups: Int64, random: np.random.Generator) -> Int64:
+    """Segments of some groups, as many of each, a small group's more than once; int64 (batch,)."""
+    order = np.argsort(groups, kind="stable")
+    sizes = np.bincount(groups)
+    starts = np.cumsum(sizes) - sizes
+    drawn = random.choice(len(sizes), min(GROUPS, len(sizes)), replace=False)
+    places = [random.choice(sizes[group], VIEWS, replace=sizes[group] < VIEWS) for group in drawn]
+    return np.asarray(order[starts[drawn][:, None] + np.array(places)].ravel())
