@@ -4,9 +4,11 @@ import typer
 
 from cli.ablations import ablations
 from cli.bench import bench
+from cli.config import config
 from cli.demo import demo
 from cli.evaluate import evaluate
 from cli.experiments import experiments
+from cli.keys import keys
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -30,3 +32,5 @@ app.command()(study)
 app.command()(ablations)
 app.add_typer(bench, name="bench")
 app.command()(serve)
+app.command()(config)
+app.command()(keys)

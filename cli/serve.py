@@ -1,12 +1,12 @@
 """`placecell serve`: run the service."""
 
 import ipaddress
-import logging
 import socket
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from pydantic import ValidationError
 
 
 def serve(
@@ -25,22 +25,27 @@ def serve(
     models_dir: Annotated[
         Path | None, typer.Option(help="Folder of the models' folders. (default: models)")
     ] = None,
+    keys_file: Annotated[
+        Path | None, typer.Option(help="TOML file of keys; 'placecell keys' makes them.")
+    ] = None,
     allow_remote: Annotated[
         bool,
         typer.Option(
             "--allow-remote",
-            help="Listen beyond this machine, though whoever reaches the port can change the maps.",
+            help="Without keys, listen beyond this machine, though whoever reaches the port "
+            "can change the maps.",
         ),
     ] = False,
 ) -> None:
     """Run the service.
 
     What is not given here comes from the environment (PLACECELL_HOST, PLACECELL_LIMITS__K, ...),
-    or is the default.
+    from placecell.toml or the file that PLACECELL_CONFIG names, or is the default: 'placecell
+    config' shows all. SIGTERM drains: /readyz fails first, and requests at work are answered.
     """
-    import uvicorn
-
+    from service import logs
     from service.app import create_app, version
+    from service.server import Server
     from service.settings import Settings
     from service.state import StartError, open_state
 
@@ -50,13 +55,15 @@ def serve(
         "data_dir": data_dir,
         "model": model,
         "models_dir": models_dir,
+        "keys_file": keys_file,
     }
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
     except ValueError as error:
-        raise _refusal(f"settings: {error}") from error
-    logging.basicConfig(format="%(levelname)s %(message)s")
-    with _listening_socket(settings.host, settings.port, allow_remote) as listening:
+        raise _refusal(f"settings: {_plainly(error)}") from error
+    logs.install(settings.log)
+    open_to_all = allow_remote or settings.keys_file is not None
+    with _listening_socket(settings.host, settings.port, open_to_all) as listening:
         try:
             with open_state(settings) as state:
                 address, number = listening.getsockname()[:2]
@@ -65,27 +72,21 @@ def serve(
                     f"Placecell {version()} listens on http://{shown}:{number} "
                     f"(model {state.model_id}, {len(state.maps)} maps in {settings.data_dir})"
                 )
-                config = uvicorn.Config(
-                    create_app(settings, state),
-                    access_log=False,
-                    log_level="warning",
-                    server_header=False,
-                )
-                uvicorn.Server(config).run(sockets=[listening])
+                Server(create_app(settings, state), state).run(sockets=[listening])
         except StartError as error:
             raise _refusal(str(error)) from error
 
 
-def _listening_socket(host: str, port: int, allow_remote: bool) -> socket.socket:
+def _listening_socket(host: str, port: int, open_to_all: bool) -> socket.socket:
     """A socket that listens; what connects now waits until the service is ready."""
     try:
         family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except OSError as error:
         raise _refusal(f"host {host!r}: {error.strerror}") from error
-    if not ipaddress.ip_address(address[0]).is_loopback and not allow_remote:
+    if not ipaddress.ip_address(address[0]).is_loopback and not open_to_all:
         raise _refusal(
-            f"host {host!r} can be reached from other machines, and the service has no keys yet: "
-            "listen on 127.0.0.1, or say --allow-remote"
+            f"host {host!r} can be reached from other machines, and the service has no keys: "
+            "make some (placecell keys), listen on 127.0.0.1, or say --allow-remote"
         )
     try:
         return socket.create_server(address[:2], family=family)
@@ -96,3 +97,10 @@ def _listening_socket(host: str, port: int, allow_remote: bool) -> socket.socket
 def _refusal(message: str) -> typer.Exit:
     typer.echo(f"placecell serve: {message}", err=True)
     return typer.Exit(1)
+
+
+def _plainly(error: ValueError) -> str:
+    """What is wrong with which setting, without the library's address."""
+    if not isinstance(error, ValidationError):
+        return str(error)
+    return "; ".join(f"{'.'.join(map(str, one['loc']))}: {one['msg']}" for one in error.errors())

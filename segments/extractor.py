@@ -1,30 +1,56 @@
 """Extractors: from segments to descriptors, the same in training's evaluation and in serving."""
 
 import os
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import SimpleQueue
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 import onnxruntime
+from numpy.typing import NDArray
 
+from segments.alignment import align
 from segments.eigenvalue import FEATURES, eigenvalue_descriptors
 from segments.manifest import FILE, Manifest, ModelError
 from segments.segments import Segments
 from segments.surroundings import describe_surroundings
 from segments.types import Float32
-from segments.voxels import voxelise
+from segments.voxels import voxelise_aligned
 
 MODEL_FILE = "model.onnx"
 BATCH = 16
 """Segments an inference; larger batches are slower on a CPU (their activations leave the cache)."""
 
 
-class Extractor(Protocol):
-    """Describes segments."""
+Inputs = dict[str, NDArray[Any]]
+"""Of a model, by name; the rows of each are the segments."""
+
+Lap = Callable[[str], None]
+"""Told the name of each step as it ends."""
+
+
+def unwatched(step: str) -> None:
+    """Nobody wants to know how long the steps take."""
+    del step
+
+
+class Extractor(ABC):
+    """Describes segments: prepares its inputs, and infers descriptors from them."""
 
     manifest: Manifest
+
+    @abstractmethod
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """The model's inputs. The arguments are those of `describe`."""
+
+    @abstractmethod
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, dimension); of a row the same whatever the others are."""
 
     def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, dimension).
@@ -33,9 +59,10 @@ class Extractor(Protocol):
             surroundings: of each segment (`describe_surroundings`); None: the segments were seen
                 together, and surround one another. Of no matter to a model that does not look.
         """
+        return self.infer(self.prepare(segments, surroundings))
 
 
-class EigenvalueExtractor:
+class EigenvalueExtractor(Extractor):
     """The baseline: seven features, standardised on the training statistics."""
 
     def __init__(self, manifest: Manifest) -> None:
@@ -43,13 +70,19 @@ class EigenvalueExtractor:
         self._mean = np.array(manifest.standardisation["mean"], dtype=np.float32)
         self._deviation = np.array(manifest.standardisation["deviation"], dtype=np.float32)
 
-    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
-        """Descriptors, float32 (segments, 7)."""
-        del surroundings  # of no matter to these features
-        return (eigenvalue_descriptors(segments) - self._mean) / self._deviation
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """The features, float32 (segments, 7)."""
+        del surroundings, lap  # of no matter to these features
+        return {"features": eigenvalue_descriptors(segments)}
+
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, 7)."""
+        return np.asarray((inputs["features"] - self._mean) / self._deviation, dtype=np.float32)
 
 
-class OnnxExtractor:
+class OnnxExtractor(Extractor):
     """A learned extractor: align, voxelise, and run the exported network.
 
     The batches of a call are spread over the cores. Each core has a session of one thread: threads
@@ -74,29 +107,61 @@ class OnnxExtractor:
         except Exception as error:
             raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
 
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """Occupancy grids, extents and, of a model that looks around, surroundings."""
+        inputs: Inputs = {}
+        looks = self.manifest.surroundings
+        if looks is not None:
+            inputs["surroundings"] = (
+                describe_surroundings(segments, None, looks)
+                if surroundings is None
+                else surroundings
+            )
+            lap("look")
+        aligned = align(segments)
+        lap("align")
+        inputs["occupancy"], inputs["extents"] = voxelise_aligned(
+            aligned, segments.ends, self.manifest.parameters
+        )
+        lap("voxelise")
+        return inputs
+
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, dimension); the same whatever the number of threads."""
+
+        def some(first: int) -> Float32:
+            return self._run({name: rows[first : first + BATCH] for name, rows in inputs.items()})
+
+        return self._in_batches(some, len(inputs["extents"]))
+
     def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
-        """Descriptors, float32 (segments, dimension); the same whatever the number of threads."""
+        """Descriptors, float32 (segments, dimension), a batch at a time: grids are large."""
         looks = self.manifest.surroundings
         if looks is not None and surroundings is None:
             surroundings = describe_surroundings(segments, None, looks)
 
-        def infer(first: int) -> Float32:
-            some = segments.take(np.arange(first, min(first + BATCH, len(segments))))
-            occupancy, extents = voxelise(some, self.manifest.parameters)
-            inputs = {"occupancy": occupancy, "extents": extents}
-            if looks is not None and surroundings is not None:
-                inputs["surroundings"] = surroundings[first : first + BATCH]
-            session = self._idle.get()
-            try:
-                descriptors: Float32 = session.run(["descriptor"], inputs)[0]
-            finally:
-                self._idle.put(session)
-            return descriptors
+        def some(first: int) -> Float32:
+            rows = np.arange(first, min(first + BATCH, len(segments)))
+            around = None if surroundings is None else surroundings[rows]
+            return self._run(self.prepare(segments.take(rows), around))
 
-        starts = range(0, len(segments), BATCH)
+        return self._in_batches(some, len(segments))
+
+    def _in_batches(self, some: Callable[[int], Float32], count: int) -> Float32:
+        starts = range(0, count, BATCH)
         # A single batch is not worth the way to another thread.
-        parts = self._pool.map(infer, starts) if len(starts) > 1 else map(infer, starts)
+        parts = self._pool.map(some, starts) if len(starts) > 1 else map(some, starts)
         return np.concatenate([np.zeros((0, self.manifest.dimension), np.float32), *parts])
+
+    def _run(self, inputs: Inputs) -> Float32:
+        session = self._idle.get()
+        try:
+            descriptors: Float32 = session.run(["descriptor"], inputs)[0]
+        finally:
+            self._idle.put(session)
+        return descriptors
 
 
 def one_thread_session(file: Path) -> onnxruntime.InferenceSession:

@@ -25,10 +25,16 @@ def voxelise(
         occupancy, uint8 (segments, *grid), 1 where a voxel holds a point; and extents, float32
         (segments, 3): edges in metres of each aligned segment's box, before points are dropped.
     """
-    occupancy = np.zeros((len(segments), *parameters.grid), dtype=np.uint8)
-    extents = np.empty((len(segments), 3), dtype=np.float32)
-    aligned = align(segments, yaw)
-    _fill(aligned, segments.ends, np.float32(parameters.grid_voxel), occupancy, extents)
+    return voxelise_aligned(align(segments, yaw), segments.ends, parameters)
+
+
+def voxelise_aligned(
+    aligned: Float32, ends: Int64, parameters: Parameters
+) -> tuple[UInt8, Float32]:
+    """The same of segments that are aligned already: points, float32 (n, 3), and their ends."""
+    occupancy = np.zeros((len(ends), *parameters.grid), dtype=np.uint8)
+    extents = np.empty((len(ends), 3), dtype=np.float32)
+    _fill(aligned, ends, np.float32(parameters.grid_voxel), occupancy, extents)
     return occupancy, extents
 
 

@@ -7,8 +7,9 @@ from importlib import metadata
 from fastapi import FastAPI
 
 from service import openapi, problems
+from service.account import Account
 from service.limits import BodyLimit
-from service.routes import describe, health, maps, match
+from service.routes import describe, health, maps, match, models
 from service.settings import Settings
 from service.state import State, open_state
 
@@ -41,9 +42,10 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
 
     app = FastAPI(title="Placecell", version=version(), description=DESCRIPTION, lifespan=lifespan)
     app.add_middleware(BodyLimit, limits=settings.limits)
+    app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)
-    for module in (describe, match, maps, health):
+    for module in (describe, match, maps, models, health):
         app.include_router(module.router)
     return app
 

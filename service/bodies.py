@@ -5,10 +5,13 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+import anyio
+import anyio.to_thread
 from fastapi import Request
 from pydantic import BaseModel, ValidationError
 
 from service import packing
+from service.compression import CODINGS, decompress
 from service.packed_schemas import PackedRequest
 from service.problems import Problem, invalid
 from service.settings import Limits
@@ -30,11 +33,16 @@ class Body:
     content: bytes
 
 
-async def read_body(request: Request, media_types: Collection[str]) -> Body:
+async def read_body(
+    request: Request, media_types: Collection[str], limits: Limits, most: int | None = None
+) -> Body:
     """The body, if it is of one of these types; a request that names none is taken at its word.
 
+    Args:
+        most: bytes that a compressed body may hold; those of a request unless said.
+
     Raises:
-        Problem: 415 for another type, 413 for too much (from the middleware).
+        Problem: 415 for another type or coding, 413 for too much, 408 if it does not come.
     """
     stated = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if stated and stated not in media_types:
@@ -44,7 +52,28 @@ async def read_body(request: Request, media_types: Collection[str]) -> Body:
             f"The body is {stated!r:.80}; {' or '.join(sorted(media_types))} is needed.",
             headers={"Accept": ", ".join(sorted(media_types))},
         )
-    return Body(stated, await request.body())
+    coding = request.headers.get("content-encoding", "identity").strip().lower()
+    if coding not in {"identity", *CODINGS}:
+        raise Problem(
+            415,
+            "unsupported-content-encoding",
+            f"The body is coded as {coding!r:.80}; {' and '.join(CODINGS)} are understood.",
+            headers={"Accept-Encoding": ", ".join(CODINGS)},
+        )
+    try:
+        with anyio.fail_after(limits.body_seconds):
+            content = await request.body()
+    except TimeoutError as error:
+        raise Problem(
+            408,
+            "slow-body",
+            f"The body did not come within {limits.body_seconds:g} s.",
+            headers={"Connection": "close"},
+        ) from error
+    if coding != "identity":
+        limit = most or limits.body_bytes
+        content = await anyio.to_thread.run_sync(decompress, content, coding, limit)
+    return Body(stated, content)
 
 
 def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:

@@ -6,13 +6,16 @@ from typing import Self
 
 import numpy as np
 
-from segments.extractor import Extractor
+from segments.extractor import Extractor, Inputs
 from segments.segments import Segments
-from segments.types import Float32, Float64, Int8
+from segments.types import Float32, Float64, Int8, Int64
+from service.batcher import Batcher
+from service.metrics import Metrics
 from service.packed_schemas import PackedSegment
 from service.problems import Problem, ProblemError, title_of, type_of
 from service.schemas import Failed, ItemErrorOut, Point, SegmentIn
 from service.settings import Limits
+from service.timing import Timing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +45,23 @@ class Scan:
         )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Prepared:
+    """A scan's segments as the model wants them.
+
+    Attributes:
+        inputs: of the usable segments.
+        usable: int64 (rows,), their places in the request.
+        centroids: float64 (rows, 3), metres, in the request's frame.
+        failures: of the others, by place, why they cannot be used.
+    """
+
+    inputs: Inputs
+    usable: Int64
+    centroids: Float64
+    failures: "dict[int, Failed]"
+
+
 @dataclass(frozen=True, slots=True)
 class Described:
     """Descriptors of those segments of a request that could be used.
@@ -60,15 +80,41 @@ class Described:
 
 
 class Describer:
-    """Checks segments, brings them near the origin, and runs the model."""
+    """One model at work: checks segments, brings them near the origin, has them described."""
 
-    def __init__(self, extractor: Extractor, limits: Limits) -> None:
+    def __init__(self, extractor: Extractor, limits: Limits, metrics: Metrics) -> None:
         self.manifest = extractor.manifest
         self._extractor = extractor
         self._limits = limits
+        self._batcher = Batcher(extractor, metrics, limits.batch)
 
-    def describe(self, scan: Scan) -> Described:
-        """Descriptors of the segments of one scan.
+    async def describe(self, prepared: Prepared, timing: Timing) -> Described:
+        """Descriptors of a scan's segments, computed together with those of other requests.
+
+        Raises:
+            Problem: 422 if no descriptor is of use.
+        """
+        descriptors = await self._batcher.infer(prepared.inputs, timing)
+        finite = np.isfinite(descriptors).all(axis=1)
+        failures = prepared.failures | {
+            int(place): _failed("not-describable", "The model's descriptor is not finite.")
+            for place in prepared.usable[~finite]
+        }
+        if not finite.any():
+            raise _none_usable(failures)
+        rows = iter(range(len(descriptors)))
+        count = len(prepared.failures) + len(descriptors)
+        return Described(
+            rows=tuple(
+                failures[place] if place in failures else next(rows) for place in range(count)
+            ),
+            codes=self.manifest.quantiser.encode(descriptors[finite]),
+            descriptors=descriptors[finite],
+            centroids=prepared.centroids[finite],
+        )
+
+    def prepare(self, scan: Scan, timing: Timing) -> Prepared:
+        """A scan's segments as the model wants them.
 
         Raises:
             Problem: 413 if there are too many, 422 if none can be used.
@@ -90,22 +136,12 @@ class Describer:
             [(clouds[index] - origin).astype(np.float32) for index in usable],
             sensors[usable] - origin,
         )
-        descriptors = self._extractor.describe(near)
-        finite = np.isfinite(descriptors).all(axis=1)
-        for index in np.array(usable)[~finite]:
-            failures[int(index)] = _failed(
-                "not-describable", "The model's descriptor is not finite."
-            )
-        if not finite.any():
-            raise _none_usable(failures)
-        places = iter(range(len(scan)))
-        return Described(
-            rows=tuple(
-                failures[index] if index in failures else next(places) for index in range(len(scan))
-            ),
-            codes=self.manifest.quantiser.encode(descriptors[finite]),
-            descriptors=descriptors[finite],
-            centroids=near.centroids()[finite] + origin,
+        timing.lap("decode")
+        return Prepared(
+            inputs=self._extractor.prepare(near, lap=timing.lap),
+            usable=np.array(usable),
+            centroids=near.centroids() + origin,
+            failures=failures,
         )
 
     def _check_amount(self, scan: Scan) -> None:

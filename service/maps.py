@@ -1,15 +1,17 @@
-"""The maps that the service knows: stored, and searchable if the loaded model made them."""
+"""The maps that the service knows: stored, and searchable if the model that made them is loaded."""
 
 import hashlib
 import logging
-from dataclasses import dataclass
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from threading import Lock
 
 from placecell_client.map_file import CompactMap, MapFileError, decode
 
-from segments.manifest import Manifest
 from service.map_index import ExactIndex, MapIndex
 from service.map_store import MapStore
+from service.models import Models
 from service.problems import Problem
 
 logger = logging.getLogger("placecell")
@@ -24,7 +26,7 @@ class StoredMap:
         etag: SHA-256 of its file, in hex.
         bytes: of its file.
         content: its columns, sorted by id.
-        index: over its descriptors; None if another model made them.
+        index: over its descriptors; None if the model that made them is not loaded.
     """
 
     name: str
@@ -37,12 +39,10 @@ class StoredMap:
 class Maps:
     """All maps, by name. Safe to use from many threads: readers see a map whole, old or new."""
 
-    def __init__(self, store: MapStore, manifest: Manifest) -> None:
+    def __init__(self, store: MapStore, models: Models) -> None:
         """Load what is stored; a damaged file is set aside with a line in the log."""
         self._store = store
-        self._model_id = manifest.model_id
-        self._code_bytes = manifest.code_bytes
-        self._quantiser = manifest.quantiser
+        self._models = models
         self._writing = Lock()
         self._by_name: dict[str, StoredMap] = {}
         for name in store.names():
@@ -53,6 +53,16 @@ class Maps:
                 logger.error(
                     "map %r is damaged (%s); set aside as %s", name, error, store.set_aside(name)
                 )
+        self.index_all()
+
+    def index_all(self) -> None:
+        """Make those maps searchable whose models can be had by now."""
+        with self._writing:
+            self._models.want({stored.content.model_id for stored in self.all()})
+            self._by_name = {
+                name: replace(stored, index=stored.index or self._index(stored.content))
+                for name, stored in self._by_name.items()
+            }
 
     def __len__(self) -> int:
         return len(self._by_name)
@@ -82,8 +92,13 @@ class Maps:
             raise Problem(500, "map-damaged", f"The file of map {name!r} was altered on disk.")
         return stored, data
 
-    def put(self, name: str, data: bytes) -> tuple[StoredMap, bool]:
+    def put(
+        self, name: str, data: bytes, check: Callable[[CompactMap], None] = lambda _: None
+    ) -> tuple[StoredMap, bool]:
         """Store a map; on return it is safely on disk. The same file again changes nothing.
+
+        Args:
+            check: raises if whoever sends the map may not.
 
         Returns:
             The map, and whether the name is new.
@@ -91,24 +106,28 @@ class Maps:
         known = self._by_name.get(name)
         etag = hashlib.sha256(data).hexdigest()
         if known is not None and known.etag == etag and self._intact(known) is not None:
+            check(known.content)
             return known, False
         try:
             content = decode(data)
         except MapFileError as error:
             raise Problem(422, "invalid-map-file", f"Not a whole map file: {error}.") from error
-        if content.model_id != self._model_id:
-            raise Problem(
-                409,
-                "other-model",
-                f"The map was made by model {content.model_id!r}; loaded is {self._model_id!r}.",
-            )
-        if content.code_bytes != self._code_bytes:
+        manifest = self._models.named(content.model_id).manifest
+        if content.code_bytes != manifest.code_bytes:
             raise Problem(
                 422,
                 "invalid-map-file",
                 f"The map's codes have {content.code_bytes} bytes a segment; "
-                f"the model's have {self._code_bytes}.",
+                f"the model's have {manifest.code_bytes}.",
             )
+        if content.preprocessing != manifest.preprocessing["version"]:
+            raise Problem(
+                422,
+                "invalid-map-file",
+                f"The map's segments were prepared by version {content.preprocessing}; "
+                f"the model's are by version {manifest.preprocessing['version']}.",
+            )
+        check(content)
         stored = self._stored(name, data, content)
         with self._writing:
             is_new = name not in self._by_name
@@ -121,7 +140,8 @@ class Maps:
         """Remove a map; on return it is gone from the disk. 404 if there is none."""
         with self._writing:
             self.get(name)
-            self._store.delete(name)
+            with suppress(KeyError):  # someone removed the file by hand; so it is gone
+                self._store.delete(name)
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
 
     def _intact(self, stored: StoredMap) -> bytes | None:
@@ -133,14 +153,19 @@ class Maps:
         return data if hashlib.sha256(data).hexdigest() == stored.etag else None
 
     def _stored(self, name: str, data: bytes, content: CompactMap) -> StoredMap:
-        ours = content.model_id == self._model_id and content.code_bytes == self._code_bytes
         return StoredMap(
             name=name,
             etag=hashlib.sha256(data).hexdigest(),
             bytes=len(data),
             content=content,
-            index=ExactIndex(content.codes, self._quantiser) if ours else None,
+            index=self._index(content),
         )
+
+    def _index(self, content: CompactMap) -> MapIndex | None:
+        model = self._models.find(content.model_id)
+        if model is None or content.code_bytes != model.manifest.code_bytes:
+            return None
+        return ExactIndex(content.codes, model.manifest.quantiser)
 
 
 def unknown(name: str) -> Problem:

@@ -4,66 +4,85 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.pairs import PairClassifier
 from segments.types import Int8
+from service.keys import Holder
 from service.maps import Maps, StoredMap
+from service.models import Model, Models
 from service.problems import Problem
-from service.schemas import CandidateOut, CandidatesOut
+from service.schemas import CandidateOut
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Which maps are searched, and which are not because another model made them."""
+    """Which maps are searched, with the models that made them, and which are not.
 
-    searched: tuple[StoredMap, ...]
+    Attributes:
+        searched: by model; each has an index.
+        skipped: their models are not loaded, or not those of the codes.
+    """
+
+    searched: tuple[tuple[Model, tuple[StoredMap, ...]], ...]
     skipped: tuple[StoredMap, ...]
 
+    @property
+    def maps(self) -> list[StoredMap]:
+        """All that are searched, by name."""
+        every = [stored for _, group in self.searched for stored in group]
+        return sorted(every, key=lambda stored: stored.name)
 
-def scope_of(maps: Maps, names: list[str] | None, model_id: str) -> Scope:
-    """The maps of these names, or all.
+
+def scope_of(
+    maps: Maps, models: Models, names: list[str] | None, only: Model | None, holder: Holder
+) -> Scope:
+    """The maps of these names, or all that the key opens.
+
+    Args:
+        only: the model that made the codes; None: segments are described by any model.
 
     Raises:
-        Problem: 404 if a name is unknown, 409 if another model made a named map.
+        Problem: 403 if a name is not for this key, 404 if it is unknown, 409 if the map's model is
+            not loaded or not that of the codes.
     """
     if names is None:
-        everything = maps.all()
-        return Scope(
-            searched=tuple(stored for stored in everything if stored.index is not None),
-            skipped=tuple(stored for stored in everything if stored.index is None),
-        )
-    named = tuple(maps.get(name) for name in sorted(set(names)))
-    for stored in named:
-        if stored.index is None:
+        chosen = [stored for stored in maps.all() if holder.opens(stored.name)]
+    else:
+        for name in names:
+            holder.check_map(name)
+        chosen = [maps.get(name) for name in sorted(set(names))]
+    groups: dict[str, list[StoredMap]] = {}
+    skipped = []
+    for stored in chosen:
+        made_by = stored.content.model_id
+        if stored.index is not None and only in (None, models.find(made_by)):
+            groups.setdefault(made_by, []).append(stored)
+        elif names is None:
+            skipped.append(stored)
+        else:
+            there = only.id if only is not None else ", ".join(each.id for each in models.all())
             raise Problem(
                 409,
                 "other-model",
-                f"Map {stored.name!r} was made by model {stored.content.model_id!r}; "
-                f"loaded is {model_id!r}.",
+                f"Map {stored.name!r} was made by model {made_by!r}; there is {there}.",
             )
-    return Scope(named, ())
+    searched = [(models.named(made_by), tuple(group)) for made_by, group in groups.items()]
+    return Scope(tuple(searched), tuple(skipped))
 
 
 def candidates_of(
-    codes: Int8,
-    searched: tuple[StoredMap, ...],
-    k: int,
-    step: float,
-    classifier: PairClassifier | None,
-) -> list[CandidatesOut]:
+    codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int
+) -> list[list[CandidateOut]]:
     """The k nearest over all maps, nearest first; ties by map, then id.
 
     Args:
         codes: int8 (q, code bytes), the queries.
+        model: that made them and the maps.
         searched: maps with an index.
         k: candidates a query, at most.
-        step: of the quantiser, so that distances are in the descriptor's unit.
-        classifier: for the probability of a match; None leaves it out.
     """
     # Distance in steps, map, row (rows of a map are sorted by id): sorts as wanted.
     found: list[list[tuple[float, int, int]]] = [[] for _ in codes]
     for place, stored in enumerate(searched):
-        if stored.index is None:
-            continue
+        assert stored.index is not None
         distances, rows = stored.index.search(codes, k)
         for hits, query_distances, query_rows in zip(
             found, distances.tolist(), rows.tolist(), strict=True
@@ -73,23 +92,33 @@ def candidates_of(
                 for distance, row in zip(query_distances, query_rows, strict=True)
             )
     nearest = [sorted(hits)[:k] for hits in found]
-    probabilities = iter(_probabilities(codes, searched, nearest, classifier))
+    probabilities = iter(_probabilities(codes, model, searched, nearest))
+    step = model.manifest.quantiser.step
     return [
-        CandidatesOut(
-            candidates=[
-                _candidate(searched[place], row, distance * step, next(probabilities))
-                for distance, place, row in hits
-            ]
-        )
+        [
+            _candidate(searched[place], row, distance * step, next(probabilities))
+            for distance, place, row in hits
+        ]
         for hits in nearest
     ]
 
 
+def merged(by_model: list[list[CandidateOut]], k: int) -> list[CandidateOut]:
+    """One query's candidates of several models: the likeliest, for their distances do not compare.
+
+    Of models without a probability they come last.
+    """
+    if len(by_model) == 1:
+        return by_model[0]
+    every = [candidate for candidates in by_model for candidate in candidates]
+    return sorted(every, key=lambda one: -(one.probability or 0.0))[:k]
+
+
 def _probabilities(
     codes: Int8,
+    model: Model,
     searched: tuple[StoredMap, ...],
     nearest: list[list[tuple[float, int, int]]],
-    classifier: PairClassifier | None,
 ) -> list[float] | list[None]:
     """Of each candidate of each query, in order; all at once: a call costs more than a row."""
     pairs = [
@@ -97,10 +126,10 @@ def _probabilities(
         for query, hits in zip(codes, nearest, strict=True)
         for _, place, row in hits
     ]
-    if classifier is None or not pairs:
+    if model.classifier is None or not pairs:
         return [None] * len(pairs)
     a, b = (np.stack(side) for side in zip(*pairs, strict=True))
-    return [float(value) for value in classifier.probabilities(a, b)]
+    return [float(value) for value in model.classifier.probabilities(a, b)]
 
 
 def _candidate(

@@ -120,7 +120,8 @@ def install(app: FastAPI) -> None:
     """Make every error of the application a problem."""
 
     @app.exception_handler(Problem)
-    async def _(_: Request, problem: Problem) -> JSONResponse:
+    async def _(request: Request, problem: Problem) -> JSONResponse:
+        request.app.state.placecell.metrics.rejected.labels(problem.kind).inc()
         return problem.response
 
     @app.exception_handler(RequestValidationError)

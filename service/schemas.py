@@ -42,6 +42,9 @@ class SegmentIn(Request):
 class ScanRequest(Request, Generic[SegmentT]):
     """The segments of one scan, in either encoding."""
 
+    model: Name | None = Field(
+        None, description="Id or name of a loaded model; the default one unless said."
+    )
     segments: Annotated[list[SegmentT], Field(fail_fast=True)] = Field(min_length=1)
     origin: Point | None = Field(
         None, description="Added to all points and sensors, metres; for coordinates as float32."
@@ -56,7 +59,7 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
     model_id: Name | None = Field(None, description="Of the model that made the codes.")
     codes: CodesT | None = Field(None, description="Stored descriptors, as `/describe` gives them.")
     maps: Annotated[list[Name], Field(fail_fast=True)] | None = Field(
-        None, min_length=1, description="Names; all maps of the loaded model unless said."
+        None, min_length=1, description="Names; all maps that can be searched unless said."
     )
     k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
 
@@ -147,7 +150,7 @@ class CandidatesOut(BaseModel):
 
 
 class SkippedOut(BaseModel):
-    """A map that was not searched: another model made it."""
+    """A map that was not searched: its model is not loaded, or not the one that made the codes."""
 
     map: str
     model_id: str
@@ -159,7 +162,7 @@ class MatchResponse(BaseModel):
     model_id: str
     queries: list[CandidatesOut | Failed]
     searched: list[str]
-    skipped: list[SkippedOut]
+    skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")
 
 
 class MapOut(BaseModel):
@@ -213,10 +216,18 @@ class InfoResponse(BaseModel):
     """What the service is, and how much it takes at once."""
 
     version: str
-    model: ModelOut
+    model: ModelOut = Field(description="The default one.")
+    models: list[ModelOut] = Field(description="All that are loaded, the default one first.")
     limits: Limits
     map_file: MapFileOut
     up: Literal["z"] = "z"
+
+
+class ReloadResponse(BaseModel):
+    """What is loaded now."""
+
+    model_id: str = Field(description="Of the default model.")
+    models: list[str] = Field(description="Ids of all, the default one first.")
 
 
 class HealthResponse(BaseModel):

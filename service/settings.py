@@ -1,13 +1,24 @@
-"""Settings: from the environment (`PLACECELL_PORT`, `PLACECELL_LIMITS__K`, ...) or from code."""
+"""Settings: from the command line, the environment (`PLACECELL_LIMITS__K`, ...) or a file."""
 
+import os
 from pathlib import Path
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic_settings import (
+    BaseSettings,
+    PydanticBaseSettingsSource,
+    SettingsConfigDict,
+    TomlConfigSettingsSource,
+)
 
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 
 MEBIBYTE = 1 << 20
+
+PREFIX = "PLACECELL_"
+FILE_VARIABLE = PREFIX + "CONFIG"
+DEFAULT_FILE = "placecell.toml"
 
 
 class Limits(BaseModel):
@@ -41,28 +52,84 @@ class Limits(BaseModel):
         description="Metres from the sensors' median to any one of them, at most.",
     )
     k: int = Field(default=100, ge=1, description="Candidates a query, at most.")
+    batch: int = Field(
+        default=256, ge=1, description="Segments that the model computes together, at most."
+    )
+    requests: int = Field(
+        default=32,
+        ge=1,
+        description="Requests for recognition at work or waiting, at most; the others get a 429.",
+    )
+    deadline: float = Field(
+        default=10.0,
+        gt=0,
+        description="Seconds that a request may take; it may ask for fewer (Placecell-Timeout).",
+    )
+    body_seconds: float = Field(
+        default=20.0, gt=0, description="Seconds in which a request's body must have come."
+    )
 
 
 class Settings(BaseSettings):
     """Everything that can be set, each with a default that works from a checkout."""
 
     model_config = SettingsConfigDict(
-        env_prefix="PLACECELL_", env_nested_delimiter="__", frozen=True, extra="forbid"
+        env_prefix=PREFIX, env_nested_delimiter="__", frozen=True, extra="forbid"
     )
 
-    data_dir: Path = Field(Path("var"), description="Folder of the maps; one service owns it.")
-    models_dir: Path = Field(MODELS_FOLDER, description="Folder of the models' folders.")
+    data_dir: Path = Field(
+        default=Path("var"), description="Folder of the maps; one service owns it."
+    )
+    models_dir: Path = Field(default=MODELS_FOLDER, description="Folder of the models' folders.")
     model: str = Field(
-        DEFAULT_MODEL,
+        default=DEFAULT_MODEL,
         pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$",
         description="Name of the model to load.",
+    )
+    also: tuple[str, ...] = Field(
+        default=(), description="Names of models to load beside it, as a JSON list."
+    )
+    keys_file: Path | None = Field(
+        default=None, description="TOML file of keys (placecell keys); without it all may do all."
     )
     host: str = Field(default="127.0.0.1", description="Address to listen on.")
     port: int = Field(
         default=8000, ge=0, le=65_535, description="Port to listen on; 0: any free one."
     )
     workers: int = Field(
-        default=2, ge=1, description="Requests computed at once; the others wait for their turn."
+        default=2, ge=1, description="Requests decoded and searched at once, beside the model."
     )
-    threads: int = Field(default=0, ge=0, description="Threads an inference; 0: one a core.")
-    limits: Limits = Field(Limits(), description="How much is taken at once.")
+    threads: int = Field(default=0, ge=0, description="Cores that a model uses; 0: all there are.")
+    drain_seconds: float = Field(
+        default=2.0,
+        ge=0,
+        description="After SIGTERM /readyz fails for so long before connections are refused.",
+    )
+    log: Literal["json", "text"] = Field(default="text", description="How log lines are written.")
+    limits: Limits = Field(default=Limits(), description="How much is taken at once.")
+
+    @classmethod
+    def settings_customise_sources(
+        cls,
+        settings_cls: type[BaseSettings],
+        init_settings: PydanticBaseSettingsSource,
+        env_settings: PydanticBaseSettingsSource,
+        dotenv_settings: PydanticBaseSettingsSource,
+        file_secret_settings: PydanticBaseSettingsSource,
+    ) -> tuple[PydanticBaseSettingsSource, ...]:
+        """What is given goes before the environment, and that before the file."""
+        del dotenv_settings, file_secret_settings
+        file = TomlConfigSettingsSource(settings_cls, settings_file())
+        return init_settings, env_settings, file
+
+
+def settings_file() -> Path:
+    """Where the settings' file is, if there is one.
+
+    Raises:
+        ValueError: the environment names one that is not there.
+    """
+    named = os.environ.get(FILE_VARIABLE)
+    if named and not Path(named).is_file():
+        raise ValueError(f"{FILE_VARIABLE} names {named}, which is no file")
+    return Path(named or DEFAULT_FILE)

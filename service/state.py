@@ -9,13 +9,15 @@ import anyio
 import anyio.to_thread
 from fastapi import Depends, Request
 
-from segments.extractor import load_extractor
 from segments.manifest import ModelError
-from segments.pairs import PairClassifier, load_pair_classifier
-from service.describer import Describer
+from service.desk import Desk
+from service.keys import Holder, Keys
 from service.map_store import FolderMapStore, StoreLockedError
 from service.maps import Maps
+from service.metrics import Metrics
+from service.models import Models
 from service.settings import Settings
+from service.timing import Timing
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -25,28 +27,34 @@ class StartError(Exception):
     """The service cannot start; the message says why, for whoever starts it."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class State:
     """The parts of a running service.
 
     Attributes:
         settings: as started.
-        describer: the loaded model.
-        classifier: the model's pair classifier, if it has one.
+        metrics: what is counted and timed.
+        models: loaded.
         maps: stored and searchable.
+        keys: who may do what.
+        desk: takes in requests for recognition.
         turns: limits how many requests are computed at once.
+        draining: the service is about to stop; it is no longer ready.
     """
 
     settings: Settings
-    describer: Describer
-    classifier: PairClassifier | None
+    metrics: Metrics
+    models: Models
     maps: Maps
+    keys: Keys
+    desk: Desk
     turns: anyio.CapacityLimiter
+    draining: bool = False
 
     @property
     def model_id(self) -> str:
-        """Of the loaded model."""
-        return self.describer.manifest.model_id
+        """Of the default model."""
+        return self.models.default.id
 
     async def compute(
         self,
@@ -54,37 +62,42 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do blocking work (NumPy, ONNX Runtime, FAISS, disk) off the event loop, in turn."""
+        """Do blocking work (NumPy, FAISS, disk) off the event loop, in turn."""
         return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.turns)
 
 
 @contextmanager
 def open_state(settings: Settings) -> Iterator[State]:
-    """Load the model, take the data directory, load the maps; let go at the end.
+    """Load the models, take the data directory, load the maps; let go at the end.
 
     Raises:
-        StartError: the model or the data directory cannot be used.
+        StartError: a model, the keys or the data directory cannot be used.
     """
-    folder = settings.models_dir / settings.model
+    metrics = Metrics()
     try:
-        extractor = load_extractor(folder, settings.threads)
-        classifier = load_pair_classifier(folder, extractor.manifest)
+        keys = Keys(settings.keys_file)
+        models = Models(settings, metrics)
     except ModelError as error:
         raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
-    manifest = extractor.manifest
+    except ValueError as error:
+        raise StartError(f"keys: {error}") from error
     with ExitStack() as stack:
         try:
             store = stack.enter_context(FolderMapStore.open(settings.data_dir))
-            maps = Maps(store, manifest)
+            maps = Maps(store, models)
         except StoreLockedError as error:
             raise StartError(f"data directory {error}") from error
         except OSError as error:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
+        metrics.maps.set_function(lambda: len(maps))
+        metrics.map_segments.set_function(lambda: sum(len(each.content) for each in maps.all()))
         yield State(
             settings=settings,
-            describer=Describer(extractor, settings.limits),
-            classifier=classifier,
+            metrics=metrics,
+            models=models,
             maps=maps,
+            keys=keys,
+            desk=Desk(settings.limits, metrics),
             turns=anyio.CapacityLimiter(settings.workers),
         )
 
@@ -96,4 +109,20 @@ def state_of(request: Request) -> State:
     return state
 
 
+def holder_of(request: Request) -> Holder:
+    """Who sent the request; 401 if their key is not known."""
+    holder = state_of(request).keys.holder(request.headers.get("authorization"))
+    request.scope["state"]["key"] = holder.name
+    return holder
+
+
+def timing_of(request: Request) -> Timing:
+    """The request's stopwatch."""
+    timing = request.scope["state"]["timing"]
+    assert isinstance(timing, Timing)
+    return timing
+
+
 StateOf = Annotated[State, Depends(state_of)]
+HolderOf = Annotated[Holder, Depends(holder_of)]
+TimingOf = Annotated[Timing, Depends(timing_of)]

@@ -2,13 +2,15 @@
 
 from fastapi import APIRouter, Request, Response
 
-from service.bodies import ENCODINGS, MSGPACK, Body, answer_type, parse, read_body, render
-from service.describer import Described, Scan
+from service.bodies import ENCODINGS, MSGPACK, Body, answer_type, parse, render
+from service.describer import Described, Prepared, Scan
+from service.models import Model
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
 from service.problems import documented
 from service.schemas import DescribeRequest, DescribeResponse, DescriptorOut
-from service.state import State, StateOf
+from service.state import HolderOf, State, StateOf, TimingOf
+from service.timing import Timing
 
 router = APIRouter(tags=["recognition"])
 
@@ -17,33 +19,46 @@ router = APIRouter(tags=["recognition"])
     "/describe",
     summary="Descriptors of a scan's segments",
     response_model=DescribeResponse,
-    responses=packed_response(PackedDescribeResponse) | documented(400, 406, 413, 415, 422),
+    responses=packed_response(PackedDescribeResponse)
+    | documented(400, 401, 406, 408, 409, 413, 415, 422, 429, 504),
     openapi_extra=body_of(DescribeRequest, PackedDescribeRequest),
 )
-async def describe(request: Request, state: StateOf) -> Response:
+async def describe(
+    request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+) -> Response:
     """One result a segment, in order: its descriptor, or why it could not be used.
 
     If no segment can be used, the answer is a 422 instead.
     """
+    del holder  # any key will do
     answer = answer_type(request)
-    body = await read_body(request, ENCODINGS)
-    return Response(await state.compute(_describe, state, body, answer), media_type=answer)
+    async with state.desk.admit(request, ENCODINGS, timing) as body:
+        model, prepared = await state.compute(_read, state, body, timing)
+        described = await model.describer.describe(prepared, timing)
+        content = await state.compute(_written, model, described, answer, timing)
+    return Response(content, media_type=answer)
 
 
-def _describe(state: State, body: Body, answer: str) -> bytes:
+def _read(state: State, body: Body, timing: Timing) -> tuple[Model, Prepared]:
     request = parse(DescribeRequest, PackedDescribeRequest, body, state.settings.limits)
-    described = state.describer.describe(Scan.of(request.segments, request.origin))
+    model = state.models.named(request.model)
+    return model, model.describer.prepare(Scan.of(request.segments, request.origin), timing)
+
+
+def _written(model: Model, described: Described, answer: str, timing: Timing) -> bytes:
     response = _packed if answer == MSGPACK else _listed
-    return render(response(state, described), answer)
+    content = render(response(model, described), answer)
+    timing.lap("encode")
+    return content
 
 
-def _listed(state: State, described: Described) -> DescribeResponse:
+def _listed(model: Model, described: Described) -> DescribeResponse:
     codes = described.codes.tolist()
     descriptors = described.descriptors.tolist()
     centroids = described.centroids.tolist()
     return DescribeResponse(
-        model_id=state.model_id,
-        dimension=state.describer.manifest.dimension,
+        model_id=model.id,
+        dimension=model.manifest.dimension,
         descriptors=[
             DescriptorOut(codes=codes[row], descriptor=descriptors[row], centroid=centroids[row])
             if isinstance(row, int)
@@ -53,12 +68,12 @@ def _listed(state: State, described: Described) -> DescribeResponse:
     )
 
 
-def _packed(state: State, described: Described) -> PackedDescribeResponse:
+def _packed(model: Model, described: Described) -> PackedDescribeResponse:
     descriptors = described.descriptors.astype("<f4")
     centroids = described.centroids.tolist()
     return PackedDescribeResponse(
-        model_id=state.model_id,
-        dimension=state.describer.manifest.dimension,
+        model_id=model.id,
+        dimension=model.manifest.dimension,
         descriptors=[
             PackedDescriptor(
                 codes=described.codes[row].tobytes(),

@@ -1,11 +1,14 @@
 """`/livez`, `/readyz`, `/info`: for those who run the service, and for clients' limits."""
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import PlainTextResponse
 from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
+from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
+from segments.manifest import Manifest
 from service.problems import Problem, documented
 from service.schemas import HealthResponse, InfoResponse, MapFileOut, ModelOut
-from service.state import StateOf
+from service.state import HolderOf, StateOf
 
 router = APIRouter(tags=["health"])
 
@@ -19,30 +22,44 @@ async def livez() -> HealthResponse:
 @router.get("/readyz", summary="The service can work", responses=documented(503))
 async def readyz(state: StateOf) -> HealthResponse:
     """The model and the maps are loaded, and maps can be stored; send no requests if this fails."""
+    if state.draining:
+        raise Problem(503, "not-ready", "The service is about to stop.")
     if not state.maps.writable():
         raise Problem(503, "not-ready", "The data directory is gone or cannot be written.")
     return HealthResponse(status="ready")
 
 
-@router.get("/info", summary="Version, model, limits")
-async def info(request: Request, state: StateOf) -> InfoResponse:
+@router.get("/metrics", summary="For Prometheus", response_class=PlainTextResponse)
+async def metrics(state: StateOf) -> Response:
+    """Counts and times, in Prometheus' text format."""
+    return Response(generate_latest(state.metrics.registry), media_type=CONTENT_TYPE_LATEST)
+
+
+@router.get("/info", summary="Version, models, limits", responses=documented(401))
+async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoResponse:
     """What a client needs to know before it sends anything."""
-    manifest = state.describer.manifest
+    del holder  # any key will do
+    models = [_told(model.manifest) for model in state.models.all()]
     return InfoResponse(
         version=request.app.version,
-        model=ModelOut(
-            model_id=manifest.model_id,
-            name=manifest.name,
-            method=manifest.method,
-            network=manifest.network,
-            dimension=manifest.dimension,
-            code_bytes=manifest.code_bytes,
-            per_byte=manifest.quantiser.per_byte,
-            surroundings=manifest.surroundings is not None,
-            step=manifest.quantiser.step,
-            pair_threshold=manifest.pair_threshold,
-            preprocessing=manifest.preprocessing,
-        ),
+        model=models[0],
+        models=models,
         limits=state.settings.limits,
         map_file=MapFileOut(format=FORMAT, version=VERSION, media_type=MEDIA_TYPE),
+    )
+
+
+def _told(manifest: Manifest) -> ModelOut:
+    return ModelOut(
+        model_id=manifest.model_id,
+        name=manifest.name,
+        method=manifest.method,
+        network=manifest.network,
+        dimension=manifest.dimension,
+        code_bytes=manifest.code_bytes,
+        per_byte=manifest.quantiser.per_byte,
+        surroundings=manifest.surroundings is not None,
+        step=manifest.quantiser.step,
+        pair_threshold=manifest.pair_threshold,
+        preprocessing=manifest.preprocessing,
     )

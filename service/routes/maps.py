@@ -5,15 +5,17 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Header, Path, Request, Response
 from fastapi.responses import JSONResponse
-from placecell_client.map_file import MEDIA_TYPE
+from placecell_client.map_file import MEDIA_TYPE, CompactMap
 
+from service.account import audit
 from service.bodies import read_body
+from service.keys import Holder
 from service.map_store import NAME_PATTERN
 from service.maps import StoredMap
 from service.openapi import file_body
 from service.problems import Problem, documented
 from service.schemas import MapOut, MapsResponse
-from service.state import StateOf
+from service.state import HolderOf, State, StateOf, TimingOf
 
 OCTETS = "application/octet-stream"
 
@@ -53,10 +55,10 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.get("/maps", summary="The stored maps")
-async def list_maps(state: StateOf) -> MapsResponse:
-    """By name; those of another model than the loaded one are kept, but not searched."""
-    stored = [_summary(stored) for stored in state.maps.all()]
+@router.get("/maps", summary="The stored maps", responses=documented(401))
+async def list_maps(state: StateOf, holder: HolderOf) -> MapsResponse:
+    """By name, those that the key opens. Maps of a model that is not loaded are not searched."""
+    stored = [_summary(stored) for stored in state.maps.all() if holder.opens(stored.name)]
     return MapsResponse(model_id=state.model_id, maps=stored)
 
 
@@ -64,17 +66,28 @@ async def list_maps(state: StateOf) -> MapsResponse:
     "/maps/{map}",
     summary="Store a map",
     response_model=MapOut,
-    responses=_NEW_RESPONSE | documented(409, 413, 415, 422, 507),
+    responses=_NEW_RESPONSE | documented(400, 401, 403, 408, 409, 413, 415, 422, 507),
     openapi_extra=file_body(MEDIA_TYPE, OCTETS),
 )
-async def put_map(name: Name, request: Request, state: StateOf) -> Response:
+async def put_map(
+    name: Name, request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+) -> Response:
     """In place of the one of that name, whole or not at all.
 
     When the answer comes, the map is on disk and survives a crash. The same file again changes
     nothing.
     """
-    body = await read_body(request, {MEDIA_TYPE, OCTETS})
-    stored, is_new = await state.compute(state.maps.put, name, body.content)
+    holder.check_write(name)
+    limits = state.settings.limits
+    body = await read_body(request, {MEDIA_TYPE, OCTETS}, limits, limits.map_bytes)
+    timing.lap("receive")
+
+    def check(content: CompactMap) -> None:
+        holder.check_robots(content.robots)
+
+    stored, is_new = await state.compute(state.maps.put, name, body.content, check)
+    timing.lap("commit")
+    _tell(request, state, holder, "put", name, len(stored.content))
     return JSONResponse(
         _summary(stored).model_dump(mode="json"),
         status_code=201 if is_new else 200,
@@ -86,12 +99,16 @@ async def put_map(name: Name, request: Request, state: StateOf) -> Response:
     "/maps/{map}",
     summary="A map's file",
     response_class=Response,
-    responses=_FILE_RESPONSE | documented(404, 422),
+    responses=_FILE_RESPONSE | documented(401, 403, 404, 422),
 )
 async def get_map(
-    name: Name, state: StateOf, if_none_match: Annotated[str | None, Header()] = None
+    name: Name,
+    state: StateOf,
+    holder: HolderOf,
+    if_none_match: Annotated[str | None, Header()] = None,
 ) -> Response:
     """Byte by byte as it was put."""
+    holder.check_map(name)
     stored = state.maps.get(name)
     if if_none_match is not None and _names_tag(if_none_match, _etag(stored)):
         return Response(status_code=304, headers={"ETag": _etag(stored)})
@@ -100,11 +117,38 @@ async def get_map(
 
 
 @router.delete(
-    "/maps/{map}", summary="Remove a map", status_code=204, responses=documented(404, 422)
+    "/maps/{map}",
+    summary="Remove a map",
+    status_code=204,
+    responses=documented(401, 403, 404, 422),
 )
-async def delete_map(name: Name, state: StateOf) -> None:
+async def delete_map(
+    name: Name, request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+) -> None:
     """When the answer comes, it is gone from the disk."""
+    holder.check_write(name)
+    segments = len(state.maps.get(name).content)
     await state.compute(state.maps.delete, name)
+    timing.lap("commit")
+    _tell(request, state, holder, "delete", name, segments)
+
+
+def _tell(
+    request: Request, state: State, holder: Holder, operation: str, name: str, segments: int
+) -> None:
+    """The audit: who wrote what."""
+    state.metrics.writes.labels(operation).inc()
+    audit.info(
+        "%s %s map %s, %d segments",
+        *(holder.name, operation, name, segments),
+        extra={
+            "key": holder.name,
+            "operation": operation,
+            "map": name,
+            "segments": segments,
+            "request_id": request.scope["state"]["request_id"],
+        },
+    )
 
 
 def _summary(stored: StoredMap) -> MapOut:

@@ -1,76 +1,141 @@
 """`/match`: queries in, candidates out."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from fastapi import APIRouter, Request, Response
 
 from segments.types import Int8
-from service.bodies import ENCODINGS, Body, answer_type, parse, read_body, render
-from service.describer import Scan
-from service.matching import candidates_of, scope_of
+from service.bodies import ENCODINGS, Body, answer_type, parse, render
+from service.describer import Prepared, Scan
+from service.keys import Holder
+from service.matching import Scope, candidates_of, merged, scope_of
+from service.models import Model
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedMatchRequest
 from service.problems import Problem, ProblemError, documented
-from service.schemas import Failed, MatchRequest, MatchResponse, SkippedOut
-from service.state import State, StateOf
+from service.schemas import (
+    CandidateOut,
+    CandidatesOut,
+    Failed,
+    MatchRequest,
+    MatchResponse,
+    SkippedOut,
+)
+from service.state import HolderOf, State, StateOf, TimingOf
+from service.timing import Timing
 
 router = APIRouter(tags=["recognition"])
+
+Rows = tuple[int | Failed, ...]
+"""Of each query its row among the codes, or why it has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A request that was read and found good.
+
+    Attributes:
+        model_id: that the answer names: of the codes, or the default.
+        scope: where to look.
+        k: candidates a query.
+        codes: with their rows, if the request has its own.
+        prepared: the request's segments, for each model that will look.
+    """
+
+    model_id: str
+    scope: Scope
+    k: int
+    codes: tuple[Int8, Rows] | None
+    prepared: list[Prepared]
 
 
 @router.post(
     "/match",
     summary="The nearest segments of one map, some, or all",
     response_model=MatchResponse,
-    responses=packed_response(MatchResponse) | documented(400, 404, 406, 409, 413, 415, 422),
+    responses=packed_response(MatchResponse)
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 504),
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
-async def match(request: Request, state: StateOf) -> Response:
+async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
     """One result a query, in order: its candidates, nearest first, or why it could not be used.
 
-    Queries are rounded to codes before the search, as the maps' descriptors are. Maps of other
-    models are skipped, and listed; a 409 if the request names one.
+    Queries are rounded to codes before the search, as the maps' descriptors are. Each map is
+    searched with the model that made it. Maps whose model is not loaded are skipped, and listed; a
+    409 if the request names one. Candidates of several models are sorted by probability.
     """
     answer = answer_type(request)
-    body = await read_body(request, ENCODINGS)
-    return Response(await state.compute(_match, state, body, answer), media_type=answer)
+    async with state.desk.admit(request, ENCODINGS, timing) as body:
+        asked = await state.compute(_read, state, holder, body, timing)
+        queries = []
+        for (model, _), prepared in zip(asked.scope.searched, asked.prepared, strict=False):
+            described = await model.describer.describe(prepared, timing)
+            queries.append((described.codes, described.rows))
+        content = await state.compute(_search, asked, queries, answer, timing)
+    return Response(content, media_type=answer)
 
 
-def _match(state: State, body: Body, answer: str) -> bytes:
+def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Asked:
     query = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
     limit = state.settings.limits.k
     if query.k > limit:
-        detail = f"k is {query.k}; the limit is {limit}."
-        raise _invalid("/k", detail)
-    scope = scope_of(state.maps, query.maps, state.model_id)
-    rows: tuple[int | Failed, ...]
-    if query.segments is not None:
-        described = state.describer.describe(Scan.of(query.segments, query.origin))
-        codes, rows = described.codes, described.rows
-    else:
-        codes = _codes(state, query)
-        rows = tuple(range(len(codes)))
-    step = state.describer.manifest.quantiser.step
-    found = candidates_of(codes, scope.searched, query.k, step, state.classifier)
+        raise _invalid("/k", f"k is {query.k}; the limit is {limit}.")
+    own = None if query.model_id is None else state.models.named(query.model_id)
+    codes = None if own is None else _codes(state, query, own)
+    scope = scope_of(state.maps, state.models, query.maps, own, holder)
+    if query.segments is None:
+        assert own is not None
+        assert codes is not None
+        timing.lap("decode")
+        return Asked(own.id, scope, query.k, (codes, tuple(range(len(codes)))), [])
+    scan = Scan.of(query.segments, query.origin)
+    if not scope.searched:
+        # Nobody will look; but what is wrong with the segments is told all the same.
+        scope = Scope(((state.models.default, ()),), scope.skipped)
+    prepared = [model.describer.prepare(scan, timing) for model, _ in scope.searched]
+    return Asked(state.model_id, scope, query.k, None, prepared)
+
+
+def _search(asked: Asked, queries: list[tuple[Int8, Rows]], answer: str, timing: Timing) -> bytes:
+    if asked.codes is not None:
+        queries = [asked.codes] * len(asked.scope.searched)
+    found = [
+        [candidates[row] if isinstance(row, int) else row for row in rows]
+        for (model, searched), (codes, rows) in zip(asked.scope.searched, queries, strict=True)
+        for candidates in [candidates_of(codes, model, searched, asked.k)]
+    ]
+    if not found:
+        assert asked.codes is not None
+        found = [[[] for _ in asked.codes[0]]]
+    timing.lap("search")
     response = MatchResponse(
-        model_id=state.model_id,
-        queries=[found[row] if isinstance(row, int) else row for row in rows],
-        searched=[stored.name for stored in scope.searched],
+        model_id=asked.model_id,
+        queries=[_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
+        searched=[stored.name for stored in asked.scope.maps],
         skipped=[
             SkippedOut(map=stored.name, model_id=stored.content.model_id)
-            for stored in scope.skipped
+            for stored in asked.scope.skipped
         ],
     )
-    return render(response, answer)
+    content = render(response, answer)
+    timing.lap("encode")
+    return content
 
 
-def _codes(state: State, query: MatchRequest | PackedMatchRequest) -> Int8:
-    """The request's own codes, int8 (q, code bytes), if they are of the loaded model."""
-    if query.model_id != state.model_id:
-        raise Problem(
-            409,
-            "other-model",
-            f"The codes were made by model {query.model_id!r:.100}; loaded is {state.model_id!r}.",
-        )
-    codes = _rows(query, state.describer.manifest.code_bytes)
+def _one(by_model: list[list[CandidateOut] | Failed], k: int) -> CandidatesOut | Failed:
+    """One query's result: what any model found, or why none could look."""
+    found = [candidates for candidates in by_model if not isinstance(candidates, Failed)]
+    if found:
+        return CandidatesOut(candidates=merged(found, k))
+    failed = by_model[0]
+    assert isinstance(failed, Failed)
+    return failed
+
+
+def _codes(state: State, query: MatchRequest | PackedMatchRequest, model: Model) -> Int8:
+    """The request's own codes, int8 (q, code bytes)."""
+    codes = _rows(query, model.manifest.code_bytes)
     limit = state.settings.limits.segments
     if len(codes) > limit:
         raise Problem(

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from segments.extractor import load_extractor
+from segments.extractor import Inputs, load_extractor
 from segments.manifest import Manifest
 from segments.segments import Segments
 from tests.service.service_builders import assert_problem, cloud, request_of
@@ -144,10 +144,11 @@ def test_a_request_is_limited(start: Any) -> None:
 def test_a_descriptor_that_is_not_finite_is_an_error(
     service: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(_: object, segments: Segments) -> Any:
-        return np.where(np.arange(len(segments))[:, None] == 1, np.nan, np.zeros((1, 7)))
+    def broken(_: object, inputs: Inputs) -> Any:
+        rows = np.arange(len(inputs["features"]))[:, None]
+        return np.where(rows == 1, np.nan, np.zeros((1, 7), np.float32))
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.describe", broken)
+    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", broken)
     items = service.post("/describe", json=request_of([cloud(0), cloud(1), cloud(2)])).json()
     assert ["error" in item for item in items["descriptors"]] == [False, True, False]
     assert items["descriptors"][2]["centroid"] == pytest.approx(cloud(2).mean(axis=0), abs=1e-5)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from segments.extractor import Inputs
 from segments.manifest import Manifest
 from segments.quantiser import Quantiser
-from segments.segments import Segments
 from service.map_index import ExactIndex
 from tests.service.service_builders import assert_problem, cloud, random_codes, request_of
 
@@ -41,12 +41,12 @@ def test_the_service_answers_while_it_computes(
 ) -> None:
     entered, released = threading.Event(), threading.Event()
 
-    def slow(_: object, segments: Segments) -> Any:
+    def slow(_: object, inputs: Inputs) -> Any:
         entered.set()
         assert released.wait(60)
-        return np.zeros((len(segments), 7), np.float32)
+        return np.zeros((len(inputs["features"]), 7), np.float32)
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.describe", slow)
+    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", slow)
     with ThreadPoolExecutor(1) as pool:
         pending = pool.submit(service.post, "/describe", json=request_of([cloud(0)]))
         assert entered.wait(60)
@@ -70,7 +70,7 @@ def test_a_failure_tells_the_client_nothing_of_the_inside(
     def failing(*_: object) -> Any:
         raise RuntimeError("a secret of the inside")
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.describe", failing)
+    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", failing)
     response = service.post("/describe", json=request_of([cloud(0)]))
     assert_problem(response, 500, "internal-error")
     assert "secret" not in response.text
@@ -123,7 +123,7 @@ def test_the_description_is_complete(service: Any) -> None:
 @pytest.mark.parametrize("queries", [1, 19, 20, 64])
 def test_the_index_is_exact_and_breaks_ties_by_row(dimension: int, queries: int) -> None:
     codes = np.repeat(random_codes(40, 1, dimension), 10, axis=0)
-    codes[::10] = -128  # the farthest corner, so that sums are as large as they can be
+    codes[::10] = -127  # the farthest corner, so that sums are as large as they can be
     wanted = np.concatenate([codes[:: 400 // queries][:queries], codes[:1]])
     distances, rows = ExactIndex(codes, Quantiser(0.01)).search(wanted, 25)
     exact = ((wanted[:, None].astype(np.int64) - codes[None]) ** 2).sum(axis=2)

@@ -1,5 +1,6 @@
 """The service as a process, over real sockets."""
 
+import os
 import signal
 import socket
 import subprocess
@@ -31,7 +32,11 @@ def command(models_dir: Path, data_dir: Path, *more: str) -> list[str]:
 def running(models_dir: Path, data_dir: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The process and its address."""
     process = subprocess.Popen(
-        command(models_dir, data_dir), stdout=subprocess.PIPE, text=True, cwd=ROOT
+        command(models_dir, data_dir),
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0.5"},
     )
     assert process.stdout is not None
     try:

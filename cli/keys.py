@@ -1,0 +1,53 @@
+"""`placecell keys`: make a key for a robot or a person."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.sources import clear_errors
+
+
+def keys(
+    name: Annotated[str, typer.Argument(help="Whose key it is; in the audit log.")],
+    file: Annotated[
+        Path, typer.Option("--file", "-f", help="The service's file of keys; is added to.")
+    ] = Path("keys.toml"),
+    write: Annotated[bool, typer.Option("--write", help="May change maps.")] = False,
+    admin: Annotated[bool, typer.Option("--admin", help="May reload models.")] = False,
+    maps: Annotated[
+        list[str] | None,
+        typer.Option("--map", help="Only maps of such names, with * and ?; may be repeated."),
+    ] = None,
+    robot: Annotated[
+        str | None, typer.Option(help="May upload maps of this robot's segments alone.")
+    ] = None,
+) -> None:
+    """Make a key, add its hash to the file, and show the key once.
+
+    A running service takes it up at once. To withdraw a key, delete its section from the file.
+    """
+    from service.keys import Key, new_key, read_keys
+
+    with clear_errors():
+        known = {holder.name for holder in read_keys(file)} if file.exists() else set()
+        if name in known:
+            raise ValueError(f"{file}: has a key for {name!r} already; delete its section first")
+        secret, digest = new_key()
+        key = Key(sha256=digest, write=write, admin=admin, maps=tuple(maps or ["*"]), robot=robot)
+        section = _section(name, key.model_dump(exclude_none=True))
+        whole = (file.read_text().rstrip() + "\n\n" if known else "") + section
+        unfinished = file.with_name(file.name + ".unfinished")
+        unfinished.touch(mode=0o600)
+        unfinished.write_text(whole)
+        unfinished.replace(file)
+    typer.echo(secret)
+    typer.echo(f"Shown this once; {file} keeps its hash. A robot sends it as", err=True)
+    typer.echo("    Authorization: Bearer KEY", err=True)
+
+
+def _section(name: str, facts: dict[str, object]) -> str:
+    """TOML of a key; JSON's strings, booleans and lists are TOML's too."""
+    lines = [f"{key} = {json.dumps(value)}" for key, value in facts.items()]
+    return "\n".join([f"[{json.dumps(name)}]", *lines]) + "\n"

@@ -1,0 +1,72 @@
+"""An account of every request: its id, its times, who sent it, in headers, metrics and the log."""
+
+import logging
+import re
+import secrets
+from time import perf_counter
+
+from starlette.datastructures import MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from service.timing import Timing
+
+logger = logging.getLogger("placecell.requests")
+audit = logging.getLogger("placecell.audit")
+
+ID_PATTERN = re.compile(r"[A-Za-z0-9._-]{1,64}")
+"""Of a request's id that a client may choose: nothing that could forge a line of the log."""
+
+
+class Account:
+    """ASGI middleware, the outermost."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on, and note what became of it."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        given = dict(scope["headers"]).get(b"x-request-id", b"").decode("latin-1")
+        request_id = given if ID_PATTERN.fullmatch(given) else secrets.token_hex(8)
+        timing = Timing()
+        facts = scope.setdefault("state", {})
+        facts |= {"timing": timing, "request_id": request_id}
+        status = 0
+
+        async def noted(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+                headers = MutableHeaders(scope=message)
+                headers["X-Request-Id"] = request_id
+                headers["Placecell-Model"] = scope["app"].state.placecell.model_id
+                if times := timing.header():
+                    headers["Server-Timing"] = times
+            await send(message)
+
+        try:
+            await self._app(scope, receive, noted)
+        finally:
+            self._note(scope, status, timing)
+
+    def _note(self, scope: Scope, status: int, timing: Timing) -> None:
+        metrics = scope["app"].state.placecell.metrics
+        seconds = perf_counter() - timing.started
+        route = getattr(scope.get("route"), "path", "none")
+        metrics.requests.labels(route, scope["method"], status).inc()
+        metrics.seconds.labels(route).observe(seconds)
+        metrics.observe(timing)
+        logger.info(
+            "%s %s %s",
+            scope["method"],
+            route,
+            status,
+            extra={
+                "request_id": scope["state"]["request_id"],
+                "key": scope["state"].get("key"),
+                "milliseconds": round(1e3 * seconds, 2),
+                "stages": {stage: round(1e3 * spent, 2) for stage, spent in timing.items()},
+            },
+        )

@@ -1,0 +1,167 @@
+"""Keys: who may read, and who may write, which maps.
+
+A file names each key by its SHA-256; the key itself is shown once, when it is made. The file is
+looked at again when it has changed.
+
+    [robot-7]
+    sha256 = "9f86d081884c7d65..."
+    write = true
+    maps = ["yard", "hall-*"]
+    robot = "robot-7"
+"""
+
+import hashlib
+import hmac
+import logging
+import secrets
+import tomllib
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from service.problems import Problem
+
+PREFIX = "placecell_"
+"""Of a key, so that whoever finds one knows what it opens."""
+
+logger = logging.getLogger("placecell")
+
+
+class Key(BaseModel):
+    """What a key opens."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="Of the key.")
+    write: bool = Field(default=False, description="May change maps.")
+    admin: bool = Field(default=False, description="May reload models.")
+    maps: tuple[str, ...] = Field(default=("*",), description="Names of maps, with * and ?.")
+    robot: str | None = Field(default=None, description="May upload this robot's segments alone.")
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """Who sent a request, and what they may do."""
+
+    name: str
+    key: Key
+
+    def check_map(self, name: str) -> None:
+        """See that the key opens a map; 403 if not."""
+        if not self.opens(name):
+            raise Problem(403, "forbidden", f"This key does not open the map {name!r:.80}.")
+
+    def opens(self, name: str) -> bool:
+        """Whether the key opens a map."""
+        return any(fnmatchcase(name, pattern) for pattern in self.key.maps)
+
+    def check_write(self, name: str) -> None:
+        """See that the key may change a map; 403 if not."""
+        self.check_map(name)
+        if not self.key.write:
+            raise Problem(403, "forbidden", "This key reads, but does not write.")
+
+    def check_robots(self, robots: tuple[str, ...]) -> None:
+        """See that the key may upload these robots' segments; 403 if not."""
+        own = self.key.robot
+        if own is not None and set(robots) - {own}:
+            raise Problem(403, "forbidden", f"This key uploads segments of {own!r:.80} alone.")
+
+    def check_admin(self) -> None:
+        """See that the key may change what the service runs; 403 if not."""
+        if not self.key.admin:
+            raise Problem(403, "forbidden", "This key does not reload models.")
+
+
+ANYONE = Holder("anyone", Key(sha256="0" * 64, write=True, admin=True))
+"""Who may do all, where there are no keys."""
+
+KEYS = TypeAdapter(dict[str, Key])
+
+
+class Keys:
+    """The keys of a file; without a file everyone may do everything."""
+
+    def __init__(self, file: Path | None) -> None:
+        """Read them.
+
+        Raises:
+            ValueError: the file is missing or is no file of keys.
+        """
+        self._file = file
+        self._mark = _mark(file)
+        self._holders = read_keys(file) if file else []
+
+    def __bool__(self) -> bool:
+        return self._file is not None
+
+    def holder(self, authorization: str | None) -> Holder:
+        """Who sent a request with this Authorization header.
+
+        Raises:
+            Problem: 401 if it names no key that is known.
+        """
+        if self._file is None:
+            return ANYONE
+        self._look_again()
+        scheme, _, token = (authorization or "").partition(" ")
+        digest = hashlib.sha256(token.strip().encode()).hexdigest()
+        found = None
+        # All are compared, each in constant time: how long it takes tells nothing.
+        for holder in self._holders:
+            if hmac.compare_digest(holder.key.sha256, digest):
+                found = holder
+        if found is None or scheme.lower() != "bearer":
+            raise Problem(
+                401,
+                "unauthorized",
+                "A known key is needed: Authorization: Bearer KEY.",
+                headers={"WWW-Authenticate": "Bearer"},
+            )
+        return found
+
+    def _look_again(self) -> None:
+        mark = _mark(self._file)
+        if mark == self._mark or self._file is None:
+            return
+        self._mark = mark
+        try:
+            self._holders = read_keys(self._file)
+        except ValueError as error:
+            logger.error("the keys stay as they were: %s", error)
+
+
+def read_keys(file: Path) -> list[Holder]:
+    """The keys of a file.
+
+    Raises:
+        ValueError: it is missing or is no file of keys; the message does not show its content.
+    """
+    try:
+        keys = KEYS.validate_python(tomllib.loads(file.read_text()))
+    except OSError as error:
+        raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{file}: is no TOML ({type(error).__name__})") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"]))
+        raise ValueError(f"{file}: {where}: {first['msg']}") from error
+    return [Holder(name, key) for name, key in keys.items()]
+
+
+def new_key() -> tuple[str, str]:
+    """A new key, and its SHA-256 in hex."""
+    key = PREFIX + secrets.token_urlsafe(32)
+    return key, hashlib.sha256(key.encode()).hexdigest()
+
+
+def _mark(file: Path | None) -> tuple[int, int] | None:
+    """Changes when the file does."""
+    try:
+        status = file.stat() if file else None
+    except OSError:
+        return None
+    return (status.st_mtime_ns, status.st_ino) if status else None

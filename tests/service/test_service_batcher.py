@@ -1,0 +1,129 @@
+"""Micro-batching: batches form under load, and nobody suffers for others."""
+
+import asyncio
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from prometheus_client import CollectorRegistry
+
+from segments.extractor import Extractor, Inputs
+from segments.types import Float32
+from service.batcher import Batcher
+from service.metrics import Metrics
+from service.timing import Timing
+
+
+class Doubling(Extractor):
+    """Descriptors are twice the input; waits to be let go on, and notes the batches."""
+
+    def __init__(self) -> None:
+        self.batches: list[int] = []
+        self.entered = threading.Event()
+        self.go_on = threading.Event()
+        self.go_on.set()
+
+    def prepare(self, *_: Any, **__: Any) -> Inputs:
+        raise NotImplementedError
+
+    def infer(self, inputs: Inputs) -> Float32:
+        self.entered.set()
+        assert self.go_on.wait(60)
+        rows = inputs["x"]
+        self.batches.append(len(rows))
+        if (rows < 0).any():
+            raise ValueError("negative")
+        return 2 * np.asarray(rows, np.float32)
+
+
+def rows(first: float, count: int = 1) -> Inputs:
+    return {"x": np.full((count, 3), first, np.float32)}
+
+
+def sample(registry: CollectorRegistry, name: str) -> float:
+    value = registry.get_sample_value(name)
+    assert value is not None
+    return value
+
+
+async def gather_behind(model: Doubling, batcher: Batcher, *inputs: Inputs) -> list[Any]:
+    """Results of requests that came while the model was at work on another."""
+    model.go_on.clear()
+    model.entered.clear()
+    first = asyncio.create_task(batcher.infer(rows(0), Timing()))
+    await asyncio.to_thread(model.entered.wait)
+    others = [asyncio.create_task(batcher.infer(each, Timing())) for each in inputs]
+    await asyncio.sleep(0)
+    model.go_on.set()
+    await first
+    return await asyncio.gather(*others, return_exceptions=True)
+
+
+def test_what_comes_while_the_model_works_goes_together() -> None:
+    model, metrics = Doubling(), Metrics()
+
+    async def run() -> list[Any]:
+        batcher = Batcher(model, metrics, most=10)
+        return await gather_behind(model, batcher, *[rows(n, n) for n in range(1, 6)])
+
+    found = asyncio.run(run())
+    # One alone at once; then 1 + 2 + 3 + 4, for 5 more would be too many; then 5.
+    assert model.batches == [1, 10, 5]
+    for n, descriptors in enumerate(found, 1):
+        assert descriptors.tolist() == [[2.0 * n] * 3] * n
+    assert sample(metrics.registry, "placecell_queue_segments") == 0
+    assert sample(metrics.registry, "placecell_batch_requests_count") == 3
+    assert sample(metrics.registry, "placecell_batch_requests_sum") == 6
+    assert sample(metrics.registry, "placecell_batch_segments_sum") == 16
+
+
+def test_a_request_larger_than_a_batch_is_one() -> None:
+    model = Doubling()
+    found = asyncio.run(Batcher(model, Metrics(), most=4).infer(rows(1, 9), Timing()))
+    assert len(found) == 9
+    assert model.batches == [9]
+
+
+def test_a_bad_one_fails_alone() -> None:
+    model = Doubling()
+
+    async def run() -> list[Any]:
+        batcher = Batcher(model, Metrics(), most=10)
+        return await gather_behind(model, batcher, rows(1), rows(-1), rows(3))
+
+    good, bad, other = asyncio.run(run())
+    assert good.tolist() == [[2.0] * 3]
+    assert isinstance(bad, ValueError)
+    assert other.tolist() == [[6.0] * 3]
+
+
+def test_who_no_longer_waits_is_dropped() -> None:
+    model, metrics = Doubling(), Metrics()
+
+    async def run() -> None:
+        batcher = Batcher(model, metrics, most=10)
+        model.go_on.clear()
+        first = asyncio.create_task(batcher.infer(rows(0), Timing()))
+        await asyncio.to_thread(model.entered.wait)
+        gone = asyncio.create_task(batcher.infer(rows(7, 5), Timing()))
+        await asyncio.sleep(0)
+        gone.cancel()
+        await asyncio.sleep(0)
+        model.go_on.set()
+        await first
+        with pytest.raises(asyncio.CancelledError):
+            await gone
+        # The batcher is free again for the next.
+        assert (await batcher.infer(rows(2), Timing())).tolist() == [[4.0] * 3]
+
+    asyncio.run(run())
+    assert model.batches == [1, 1]
+    assert sample(metrics.registry, "placecell_queue_segments") == 0
+
+
+def test_laps_tell_waiting_from_work() -> None:
+    model, timing = Doubling(), Timing()
+    asyncio.run(Batcher(model, Metrics(), most=4).infer(rows(1), timing))
+    assert [stage for stage, _ in timing.items()] == ["queue", "infer"]
+    assert timing.header().startswith("queue;dur=")

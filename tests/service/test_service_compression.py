@@ -1,0 +1,57 @@
+"""Compressed bodies: the same answers, and bombs that do not go off."""
+
+import gzip
+import json
+from typing import Any
+
+import pytest
+import zstandard
+from placecell_client import encode
+
+from segments.manifest import Manifest
+from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
+
+CODERS: dict[str, Any] = {"gzip": gzip.compress, "zstd": zstandard.compress}
+
+
+@pytest.mark.parametrize("coding", CODERS)
+def test_a_compressed_body_means_the_same(service: Any, coding: str, manifest: Manifest) -> None:
+    body = json.dumps(request_of([cloud(0)])).encode()
+    headers = {"Content-Encoding": coding}
+    answer = service.post("/describe", content=CODERS[coding](body), headers=headers)
+    assert answer.json() == service.post("/describe", content=body).json()
+    data = encode(map_of(random_codes(5), manifest.model_id))
+    stored = service.put("/maps/yard", content=CODERS[coding](data), headers=headers)
+    assert stored.status_code == 201
+    assert service.get("/maps/yard").content == data
+
+
+@pytest.mark.parametrize("coding", CODERS)
+def test_bombs_are_refused(start: Any, coding: str) -> None:
+    headers = {"Content-Encoding": coding}
+    with start(limits={"body_bytes": 100_000, "map_bytes": 200_000}) as service:
+        bomb = CODERS[coding](bytes(300_000_000))
+        refused = service.post("/describe", content=bomb[:99_000], headers=headers)
+        assert_problem(refused, 413, "body-too-large")
+        just = CODERS[coding](b" " * 100_001)
+        assert_problem(
+            service.post("/describe", content=just, headers=headers), 413, "body-too-large"
+        )
+        larger = CODERS[coding](bytes(200_001))
+        response = service.put("/maps/yard", content=larger, headers=headers)
+        assert_problem(response, 413, "body-too-large", "200000")
+
+
+@pytest.mark.parametrize("coding", CODERS)
+def test_what_is_not_compressed_is_told(service: Any, coding: str) -> None:
+    response = service.post("/describe", content=b"{}", headers={"Content-Encoding": coding})
+    assert_problem(response, 400, f"not-{coding}")
+    whole = CODERS[coding](json.dumps(request_of([cloud(0)])).encode())
+    response = service.post("/describe", content=whole[:-20], headers={"Content-Encoding": coding})
+    assert response.status_code == 400
+
+
+def test_other_codings_are_told(service: Any) -> None:
+    response = service.post("/describe", content=b"", headers={"Content-Encoding": "br"})
+    assert_problem(response, 415, "unsupported-content-encoding", "gzip and zstd")
+    assert response.headers["accept-encoding"] == "gzip, zstd"

@@ -1,0 +1,216 @@
+"""Overload, deadlines, clients that go, slow bodies; and what is told about each request."""
+
+import asyncio
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from segments.extractor import EigenvalueExtractor, Inputs
+from service.app import create_app
+from service.settings import Settings
+from service.state import open_state
+from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
+
+
+@contextmanager
+def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
+    """The model waits while this lasts; the event is set once it has begun."""
+    begun, released = threading.Event(), threading.Event()
+
+    def slow(_: object, inputs: Inputs) -> Any:
+        begun.set()
+        assert released.wait(60)
+        return np.zeros((len(inputs["features"]), 7), np.float32)
+
+    monkeypatch.setattr(EigenvalueExtractor, "infer", slow)
+    try:
+        yield begun
+    finally:
+        released.set()
+
+
+def value(service: Any, name: str) -> float:
+    """Of a metric, its labels part of the name."""
+    lines = service.get("/metrics").text.splitlines()
+    return next((float(line.split()[-1]) for line in lines if line.startswith(name + " ")), 0.0)
+
+
+def test_too_many_requests_are_refused_at_once(start: Any, monkeypatch: Any) -> None:
+    body = request_of([cloud(0)])
+    with start(limits={"requests": 2}) as service, ThreadPoolExecutor(2) as pool:
+        with held(monkeypatch) as begun:
+            pending = [pool.submit(service.post, "/describe", json=body) for _ in range(2)]
+            assert begun.wait(60)
+            while value(service, "placecell_queue_requests") < 2:
+                time.sleep(0.01)
+            refused = service.post("/match", json=body)
+            assert_problem(refused, 429, "busy", "try again")
+            assert int(refused.headers["retry-after"]) >= 1
+            # Health is never throttled.
+            assert service.get("/livez").status_code == 200
+        assert [each.result(60).status_code for each in pending] == [200, 200]
+        assert service.post("/describe", json=body).status_code == 200
+        assert value(service, "placecell_queue_requests") == 0
+        assert value(service, 'placecell_rejected_total{reason="busy"}') == 1
+
+
+def test_a_request_ends_at_its_deadline(service: Any, monkeypatch: Any) -> None:
+    body = request_of([cloud(0)])
+    timeout = {"Placecell-Timeout": "0.2"}
+    with held(monkeypatch):
+        response = service.post("/describe", json=body, headers=timeout)
+        assert_problem(response, 504, "deadline-exceeded", "0.2 s")
+    assert service.post("/describe", json=body, headers=timeout).status_code == 200
+
+
+@pytest.mark.parametrize("given", ["0", "-1", "nan", "soon", ""])
+def test_a_deadline_must_be_one(service: Any, given: str) -> None:
+    response = service.post(
+        "/describe", json=request_of([cloud(0)]), headers={"Placecell-Timeout": given}
+    )
+    assert_problem(response, 400, "invalid-header", "seconds")
+
+
+def test_a_client_may_not_ask_for_more_time(start: Any, monkeypatch: Any) -> None:
+    with start(limits={"deadline": 0.2}) as service, held(monkeypatch):
+        response = service.post(
+            "/describe", json=request_of([cloud(0)]), headers={"Placecell-Timeout": "50"}
+        )
+        assert_problem(response, 504, "deadline-exceeded")
+
+
+def test_work_for_a_client_that_is_gone_is_dropped(
+    models_dir: Any, data_dir: Any, monkeypatch: Any
+) -> None:
+    settings = Settings(models_dir=models_dir, data_dir=data_dir, model="tiny")
+    seen: list[int] = []
+    original = EigenvalueExtractor.infer
+
+    def counting(self: EigenvalueExtractor, inputs: Inputs) -> Any:
+        seen.append(len(inputs["features"]))
+        time.sleep(0.2)
+        return original(self, inputs)
+
+    monkeypatch.setattr(EigenvalueExtractor, "infer", counting)
+    import json
+
+    async def call(app: Any, count: int, leave: bool) -> list[dict[str, Any]]:
+        """A request to the application; the client goes once all was sent, or stays."""
+        sent: list[dict[str, Any]] = []
+        content = json.dumps(request_of([cloud(n) for n in range(count)])).encode()
+        messages = [{"type": "http.request", "body": content, "more_body": False}]
+
+        async def receive() -> dict[str, Any]:
+            if messages:
+                return messages.pop(0)
+            if leave:
+                await asyncio.sleep(0.05)
+                return {"type": "http.disconnect"}
+            await asyncio.sleep(60)
+            raise AssertionError
+
+        async def send(message: Any) -> None:
+            sent.append(message)
+
+        scope = {
+            "type": "http", "method": "POST", "path": "/describe", "raw_path": b"/describe",
+            "query_string": b"", "headers": [(b"content-type", b"application/json")],
+            "http_version": "1.1", "scheme": "http", "server": ("x", 80), "client": ("y", 1),
+            "root_path": "",
+        }  # fmt: skip
+        await app(scope, receive, send)
+        return sent
+
+    async def run() -> None:
+        with open_state(settings) as state:
+            app = create_app(settings, state)
+            async with app.router.lifespan_context(app):
+                stays = asyncio.create_task(call(app, 1, leave=False))
+                await asyncio.sleep(0.05)
+                gone = await asyncio.gather(*[call(app, 3, leave=True) for _ in range(4)])
+                assert (await stays)[0]["status"] == 200
+                assert all(sent[0]["status"] == 400 for sent in gone)
+                assert (await call(app, 2, leave=False))[0]["status"] == 200
+
+    asyncio.run(run())
+    assert seen == [1, 2]
+
+
+def test_a_result_does_not_depend_on_other_requests(start: Any) -> None:
+    bodies = [request_of([cloud(10 * n + i) for i in range(1 + n % 5)]) for n in range(24)]
+    with start(model="onnx", limits={"requests": 64}) as service:
+        alone = [service.post("/describe", json=body).json() for body in bodies]
+        with ThreadPoolExecutor(12) as pool:
+            together = list(pool.map(lambda body: service.post("/describe", json=body), bodies))
+        batches = value(service, "placecell_batch_requests_count")
+        assert batches < 2 * len(bodies)  # some did go together
+    for one, other in zip(alone, together, strict=True):
+        for a, b in zip(one["descriptors"], other.json()["descriptors"], strict=True):
+            assert b["descriptor"] == pytest.approx(a["descriptor"], abs=1e-5)
+            assert b["codes"] == a["codes"]
+
+
+def test_every_answer_tells_its_id_its_model_and_its_times(service: Any, manifest: Any) -> None:
+    sent = {"X-Request-Id": "robot-7.42"}
+    response = service.post("/describe", json=request_of([cloud(0)]), headers=sent)
+    assert response.headers["x-request-id"] == "robot-7.42"
+    assert response.headers["placecell-model"] == manifest.model_id
+    stages = [part.split(";")[0] for part in response.headers["server-timing"].split(", ")]
+    assert stages == ["receive", "decode", "queue", "infer", "encode"]
+    forged = service.get("/livez", headers={"X-Request-Id": "a b\tc"})
+    assert forged.headers["x-request-id"] != "a b\tc"
+    assert len(forged.headers["x-request-id"]) == 16
+    assert service.get("/nowhere").headers["placecell-model"] == manifest.model_id
+
+
+def test_metrics_tell_what_was_done(service: Any, manifest: Any) -> None:
+    from placecell_client import encode
+
+    data = encode(map_of(random_codes(5), manifest.model_id))
+    assert service.put("/maps/yard", content=data).status_code == 201
+    service.post("/match", json=request_of([cloud(0)]))
+    service.get("/maps/unknown")
+    requests = 'placecell_requests_total{method="%s",route="%s",status="%s"}'
+    assert value(service, requests % ("PUT", "/maps/{map}", 201)) == 1
+    assert value(service, requests % ("POST", "/match", 200)) == 1
+    assert value(service, requests % ("GET", "/maps/{map}", 404)) == 1
+    assert value(service, "placecell_map_segments") == 5
+    assert value(service, "placecell_maps") == 1
+    assert value(service, 'placecell_writes_total{operation="put"}') == 1
+    for stage in ("search", "commit"):
+        assert value(service, f'placecell_stage_seconds_count{{stage="{stage}"}}') == 1
+    info = f'placecell_model_info{{model_id="{manifest.model_id}",role="default"}}'
+    assert value(service, info) == 1
+    service.delete("/maps/yard")
+    assert value(service, "placecell_map_segments") == 0
+
+
+def test_a_body_that_does_not_come_is_given_up(models_dir: Any, data_dir: Any) -> None:
+    settings = Settings.model_validate(
+        {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny"}
+        | {"limits": {"body_seconds": 0.1}}
+    )
+
+    async def dripping() -> Any:
+        yield b'{"segments": '
+        await asyncio.sleep(60)
+
+    async def run() -> None:
+        with open_state(settings) as state:
+            app = create_app(settings, state)
+            async with app.router.lifespan_context(app):
+                transport = httpx.ASGITransport(app)
+                async with httpx.AsyncClient(transport=transport, base_url="http://x") as client:
+                    response = await client.post("/describe", content=dripping())
+                    assert_problem(response, 408, "slow-body", "0.1 s")
+                    response = await client.put("/maps/yard", content=dripping())
+                    assert_problem(response, 408, "slow-body", "0.1 s")
+
+    asyncio.run(run())

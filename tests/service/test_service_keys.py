@@ -1,0 +1,196 @@
+"""Keys: who may do what; and that nothing leaks."""
+
+import hashlib
+import hmac
+import logging
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from placecell_client import encode
+from typer.testing import CliRunner
+
+from cli import app
+from segments.manifest import Manifest
+from service import keys as keys_module
+from service.keys import new_key, read_keys
+from service.settings import Settings
+from service.state import StartError, open_state
+from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    return tmp_path / "keys.toml"
+
+
+def made(file: Path, name: str, *options: str) -> dict[str, str]:
+    """Make a key as a user does; the headers that carry it."""
+    done = CliRunner().invoke(app, ["keys", name, "--file", str(file), *options])
+    assert done.exit_code == 0, done.output
+    return {"Authorization": "Bearer " + done.output.splitlines()[0]}
+
+
+def test_without_a_known_key_nothing_opens(start: Any, file: Path) -> None:
+    key = made(file, "ann")
+    with start(keys_file=file) as service:
+        for path in ("/info", "/maps", "/maps/yard"):
+            assert_problem(service.get(path), 401, "unauthorized", "Bearer")
+            wrong = {"Authorization": key["Authorization"] + "x"}
+            assert_problem(service.get(path, headers=wrong), 401, "unauthorized")
+        answer = service.post("/describe", json=request_of([cloud(0)]))
+        assert_problem(answer, 401, "unauthorized")
+        assert answer.headers["www-authenticate"] == "Bearer"
+        basic = {"Authorization": key["Authorization"].replace("Bearer", "Basic")}
+        assert_problem(service.get("/info", headers=basic), 401, "unauthorized")
+        for path in ("/livez", "/readyz", "/metrics"):
+            assert service.get(path).status_code == 200
+        assert service.get("/info", headers=key).status_code == 200
+        good = service.post("/describe", json=request_of([cloud(0)]), headers=key)
+        assert good.status_code == 200
+
+
+def test_a_reading_key_does_not_write(start: Any, file: Path, manifest: Manifest) -> None:
+    reads, writes = made(file, "reader"), made(file, "writer", "--write")
+    data = encode(map_of(random_codes(3), manifest.model_id))
+    with start(keys_file=file) as service:
+        assert_problem(
+            service.put("/maps/yard", content=data, headers=reads), 403, "forbidden", "reads"
+        )
+        assert service.put("/maps/yard", content=data, headers=writes).status_code == 201
+        assert_problem(service.delete("/maps/yard", headers=reads), 403, "forbidden")
+        assert service.get("/maps/yard", headers=reads).content == data
+        for headers in (reads, writes):
+            assert_problem(service.post("/models/reload", headers=headers), 403, "forbidden")
+
+
+def test_a_key_of_some_maps_opens_no_other(start: Any, file: Path, manifest: Manifest) -> None:
+    everything = made(file, "all", "--write")
+    halls = made(file, "halls", "--write", "--map", "hall-*", "--map", "yard")
+    data = encode(map_of(random_codes(3), manifest.model_id))
+    query = {"model_id": manifest.model_id, "codes": random_codes(1).tolist()}
+    with start(keys_file=file) as service:
+        for name in ("hall-1", "secret", "yard"):
+            assert service.put(f"/maps/{name}", content=data, headers=everything).is_success
+        listed = service.get("/maps", headers=halls).json()["maps"]
+        assert [each["name"] for each in listed] == ["hall-1", "yard"]
+        for response in (
+            service.get("/maps/secret", headers=halls),
+            service.put("/maps/secret", content=data, headers=halls),
+            service.delete("/maps/secret", headers=halls),
+            service.post("/match", json=query | {"maps": ["secret"]}, headers=halls),
+            # Nor does it tell which names there are.
+            service.get("/maps/unknown", headers=halls),
+        ):
+            assert_problem(response, 403, "forbidden")
+        found = service.post("/match", json=query, headers=halls).json()
+        assert found["searched"] == ["hall-1", "yard"]
+        assert found["skipped"] == []
+
+
+def test_a_robot_s_key_uploads_its_own_segments_alone(
+    start: Any, file: Path, manifest: Manifest
+) -> None:
+    key = made(file, "ann", "--write", "--robot", "ann")
+    with start(keys_file=file) as service:
+        own = encode(map_of(random_codes(3), manifest.model_id, robot="ann"))
+        other = encode(map_of(random_codes(3), manifest.model_id, robot="bob"))
+        assert service.put("/maps/a", content=own, headers=key).status_code == 201
+        refused = service.put("/maps/b", content=other, headers=key)
+        assert_problem(refused, 403, "forbidden", "'ann' alone")
+        assert service.get("/maps/b", headers=key).status_code == 404
+
+
+def test_keys_are_taken_up_and_withdrawn_without_a_restart(start: Any, file: Path) -> None:
+    first = made(file, "first")
+    with start(keys_file=file) as service:
+        second = made(file, "second")
+        assert service.get("/info", headers=second).status_code == 200
+        file.write_text(file.read_text().split("\n\n")[1])
+        os.utime(file, ns=(time.time_ns() + 10**9, time.time_ns() + 10**9))
+        assert_problem(service.get("/info", headers=first), 401, "unauthorized")
+        # A file that is broken while it is edited changes nothing.
+        file.write_text("[second")
+        os.utime(file, ns=(time.time_ns() + 2 * 10**9, time.time_ns() + 2 * 10**9))
+        assert service.get("/info", headers=second).status_code == 200
+
+
+def test_keys_are_hashed_at_rest_and_only_its_owner_reads_the_file(file: Path) -> None:
+    secret = made(file, "ann")["Authorization"].split()[1]
+    assert secret not in file.read_text()
+    assert hashlib.sha256(secret.encode()).hexdigest() in file.read_text()
+    assert file.stat().st_mode & 0o777 == 0o600
+    assert read_keys(file)[0].name == "ann"
+    again = CliRunner().invoke(app, ["keys", "ann", "--file", str(file)])
+    assert again.exit_code == 1
+    assert "already" in again.output
+
+
+def test_every_hash_is_compared_in_constant_time(
+    start: Any, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    headers = [made(file, f"robot-{n}") for n in range(5)]
+    compared: list[tuple[str, str]] = []
+
+    def watched(a: str, b: str) -> bool:
+        compared.append((a, b))
+        return hmac.compare_digest(a, b)
+
+    class Watched:
+        compare_digest = staticmethod(watched)
+
+    monkeypatch.setattr(keys_module, "hmac", Watched)
+    with start(keys_file=file) as service:
+        for sent in (headers[0], headers[4], {"Authorization": "Bearer no"}, {}):
+            compared.clear()
+            service.get("/info", headers=sent)
+            assert len(compared) == 5
+
+
+def test_no_secret_gets_into_log_or_answer(
+    start: Any, file: Path, manifest: Manifest, caplog: pytest.LogCaptureFixture
+) -> None:
+    key = made(file, "ann", "--write")
+    secret = key["Authorization"].split()[1]
+    caplog.set_level(logging.DEBUG)
+    data = encode(map_of(random_codes(3), manifest.model_id))
+    with start(keys_file=file) as service:
+        answers = [
+            service.put("/maps/yard", content=data, headers=key),
+            service.put("/maps/yard", content=b"rubbish", headers=key),
+            service.get("/info", headers={"Authorization": f"Basic {secret}"}),
+            service.get("/info", headers={"Authorization": secret}),
+        ]
+    assert all(secret not in answer.text for answer in answers)
+    assert secret not in caplog.text
+    # Each write leaves a line: who, what map, how many segments.
+    (line,) = [one for one in caplog.records if one.name == "placecell.audit"]
+    assert line.getMessage() == "ann put map yard, 3 segments"
+    assert vars(line)["request_id"] == answers[0].headers["x-request-id"]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("[", "TOML"),
+        ("[a]\nsha256 = 'short'", "a.sha256"),
+        ("[a]\nsha256 = '" + "0" * 64 + "'\nrights = 'all'", "a.rights"),
+        (None, "cannot be read"),
+    ],
+)
+def test_a_bad_file_of_keys_stops_the_start(
+    models_dir: Path, data_dir: Path, file: Path, content: str | None, words: str
+) -> None:
+    if content is not None:
+        file.write_text(content)
+    settings = Settings(models_dir=models_dir, data_dir=data_dir, model="tiny", keys_file=file)
+    with pytest.raises(StartError, match=words), open_state(settings):
+        pass
+
+
+def test_keys_are_long_and_never_the_same() -> None:
+    made_keys = {new_key()[0] for _ in range(100)}
+    assert len(made_keys) == 100
+    assert min(map(len, made_keys)) > 40
