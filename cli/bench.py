@@ -81,6 +81,138 @@ def describe(
     print_report(report)
 
 
+@bench.command()
+def serve(
+    segments: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
+            "(default: a short drive through the synthetic town)",
+        ),
+    ] = None,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw latency against load into this PNG.")
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder that keeps the town's drive.")
+    ] = Path("out/bench"),
+    seconds: Annotated[float, typer.Option(min=0.5, help="Duration of each level of load.")] = 10.0,
+    seed: Annotated[int, typer.Option(help="Of the town, the segments and the map.")] = 7,
+) -> None:
+    """Measure how the service bears load.
+
+    A generator of its own process sends /match requests on schedule, whether or not answers come,
+    to the real server over loopback: 50 segments a request in msgpack and in JSON, and 5 with and
+    without batching across requests; from a quarter of what the service bears to twice that.
+    """
+    from bench.describe import scans_of, town_scans
+    from bench.serve import Plan, draw
+    from bench.serve import bench as run
+
+    with clear_errors():
+        if segments is None:
+            some = town_scans(output / "town", seed, show)
+        else:
+            some = scans_of(load(segments))
+        report = run(some, Plan(seconds=seconds), seed, progress=show)
+        report["source"] = segments.stem if segments else "synthetic town"
+        if json_file:
+            json_file.parent.mkdir(parents=True, exist_ok=True)
+            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        if plot:
+            draw(report, plot)
+    print_load(report)
+
+
+@bench.command()
+def soak(
+    segments: Annotated[
+        Path | None,
+        typer.Option(metavar="PATH", help="Where to take segments from, as for 'serve'."),
+    ] = None,
+    minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 10.0,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw memory over time into this PNG.")
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder that keeps the town's drive.")
+    ] = Path("out/bench"),
+    seed: Annotated[int, typer.Option(help="Of the town, the segments and the bad clients.")] = 7,
+) -> None:
+    """Run the service for minutes at 80% of what it bears, among clients that misbehave.
+
+    Some die in the midst of a request, some send slowly, some send garbage. Ends with status 1 if
+    any client that behaved got an answer that is not expected.
+    """
+    from bench.describe import scans_of, town_scans
+    from bench.soak import Soak, draw_memory
+    from bench.soak import soak as run
+
+    with clear_errors():
+        some = scans_of(load(segments)) if segments else town_scans(output / "town", seed, show)
+        report = run(some, Soak(seconds=60 * minutes), seed)
+        if json_file:
+            json_file.parent.mkdir(parents=True, exist_ok=True)
+            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        if plot:
+            draw_memory(report, plot)
+    typer.echo(
+        f"{report['requests']:,} requests: {report['statuses']}, p99 "
+        f"{report['milliseconds']['p99']} ms; bad clients: {report['bad_clients']}"
+    )
+    typer.echo(
+        f"memory {report['memory_mb_first_half']:.0f} MB in the first half, "
+        f"{report['memory_mb_second_half']:.0f} MB in the second; at most "
+        f"{report['descriptors_most']:.0f} file descriptors, {report['descriptors_last']:.0f} after"
+    )
+    if report["unexpected"]:
+        raise typer.Exit(1)
+
+
+def print_load(report: dict[str, Any]) -> None:
+    """The figures on the terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    names = (
+        "case",
+        "offered",
+        "achieved",
+        "p50",
+        "p95",
+        "p99",
+        "max",
+        "429",
+        "p99 of 429",
+        "batch",
+    )
+    table = Table(*names, title="/match: segments a second, milliseconds")
+    for row in report["rows"]:
+        spent = row["milliseconds"]
+        table.add_row(
+            row["case"],
+            f"{row['offered']:,.0f}",
+            f"{row['achieved']:,.0f}",
+            *("-" if spent[key] is None else f"{spent[key]:.1f}" for key in spent),
+            str(row["rejected"]),
+            str(row["rejected_milliseconds"]["p99"] or "-"),
+            f"{row['batch_requests']:.1f}",
+        )
+    Console().print(table)
+    typer.echo(
+        f"saturation: {report['saturation_segments_per_second']:,.0f} segments a second, "
+        f"{report['http_over_library']:.0%} of the library alone; /match of 50 at half of it: "
+        f"p99 {report['match_50_p99_ms_at_half_saturation']:.1f} ms"
+    )
+
+
 def print_report(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
     from rich.console import Console

@@ -1,0 +1,119 @@
+"""The load generator, and short runs of what it is for; what they measure is not asserted."""
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bench import serve, soak
+from bench.load import Load, request_of, run
+from segments.segments import Segments
+
+
+def scans(count: int) -> list[Segments]:
+    """Boxes of points about the sensor, ten a scan."""
+    random = np.random.default_rng(0)
+    made = []
+    for _ in range(count):
+        clouds = [
+            (random.uniform(-1, 1, (300, 3)) * random.uniform(0.3, 2, 3)
+             + random.uniform(-15, 15, 3)).astype(np.float32)
+            for _ in range(10)
+        ]  # fmt: skip
+        made.append(Segments.of(clouds, np.zeros((10, 3))))
+    return made
+
+
+def test_requests_leave_when_due_whether_or_not_answers_come() -> None:
+    arrived: list[float] = []
+
+    async def slow(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        while await reader.readuntil(b"end"):
+            arrived.append(asyncio.get_running_loop().time())
+            await asyncio.sleep(0.3)
+            writer.write(
+                b"HTTP/1.1 429 Busy\r\nContent-Length: 2\r\nServer-Timing: a;dur=1\r\n\r\nno"
+            )
+
+    async def measure() -> Any:
+        server = await asyncio.start_server(slow, "127.0.0.1", 0)
+        host, port = server.sockets[0].getsockname()
+        outcome = await run(Load(host, port, (request_of("/x", "a/b", b"end"),), 50, 0.2))
+        server.close()
+        return outcome
+
+    outcome = asyncio.run(measure())
+    assert outcome.statuses == [429] * 10
+    # All came before the first answer went.
+    assert max(arrived) - min(arrived) < 0.3
+    assert min(outcome.milliseconds) >= 300
+    assert not outcome.stages  # of refusals nobody wants the steps
+
+
+def test_without_a_rate_clients_wait_for_their_answers() -> None:
+    inside, most = 0, 0
+
+    async def answer(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        nonlocal inside, most
+        while await reader.readuntil(b"end"):
+            inside += 1
+            most = max(most, inside)
+            await asyncio.sleep(0.02)
+            inside -= 1
+            head = b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\nServer-Timing: a;dur=1.5\r\n\r\n"
+            writer.write(head + b"ok")
+
+    async def measure() -> Any:
+        server = await asyncio.start_server(answer, "127.0.0.1", 0)
+        host, port = server.sockets[0].getsockname()
+        load = Load(host, port, (request_of("/x", "a/b", b"end"),), 0, 0.2, clients=3)
+        outcome = await run(load)
+        server.close()
+        return outcome
+
+    outcome = asyncio.run(measure())
+    assert most == 3
+    assert set(outcome.statuses) == {200}
+    assert outcome.stages["a"] == [1.5] * len(outcome.statuses)
+
+
+def test_a_connection_that_fails_is_told() -> None:
+    outcome = asyncio.run(run(Load("127.0.0.1", 1, (b"x",), 20, 0.1)))
+    assert outcome.statuses == [0, 0]
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_short_run_against_the_real_service(tmp_path: Path) -> None:
+    plan = serve.Plan(
+        segments=10, small=2, map_segments=200, levels=(0.5, 3.0), seconds=0.5, bodies=3
+    )
+    report = serve.bench(scans(4), plan)
+    assert len(report["rows"]) == 8
+    for row in report["rows"]:
+        assert not row["failed"]
+        assert row["requests"] > 0
+        assert {"decode", "queue", "infer", "search", "encode"} <= set(row["stages"])
+    assert report["saturation_segments_per_second"] > 0
+    assert report["match_50_p99_ms_at_half_saturation"] > 0
+    serve.draw(report, tmp_path / "serve.png")
+    assert (tmp_path / "serve.png").stat().st_size > 1000
+
+
+def test_a_short_soak(tmp_path: Path) -> None:
+    report = soak.soak(scans(4), soak.Soak(seconds=3.0, bad_clients=1, every=0.5))
+    assert report["unexpected"] == 0
+    told = {status for each in report["bad_clients"].values() for status in each}
+    assert told <= {"gone", "200", "400", "413", "415", "422", "429"}
+    assert report["descriptors_last"] <= report["descriptors_most"]
+    soak.draw_memory(report, tmp_path / "soak.png")
+    assert (tmp_path / "soak.png").stat().st_size > 1000
+
+
+def test_perturbed_codes_stay_near_and_differ() -> None:
+    codes = np.random.default_rng(0).integers(-128, 128, (20, 32)).astype(np.int8)
+    many = serve.perturbed(codes, 100, seed=1)
+    changed = (many != codes[np.arange(100) % 20]).mean()
+    assert 0.05 < changed < 0.15
+    assert (many == serve.perturbed(codes, 100, seed=1)).all()
