@@ -93,6 +93,7 @@ async def run(load: Load) -> Outcome:
     outcome.cpu = time.process_time() - computed
     for _, writer in free:
         writer.close()
+    await asyncio.sleep(0)  # so that they are closed before the loop is
     return outcome
 
 
@@ -103,6 +104,9 @@ async def _ask(load: Load, request: bytes, free: list[Connection]) -> tuple[int,
             reader, writer = free.pop()
         else:
             reader, writer = await asyncio.open_connection(load.host, load.port, limit=1 << 20)
+    except OSError:
+        return 0, {}
+    try:
         writer.write(request)
         head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").split("\r\n")
         pairs = (line.split(": ", 1) for line in head[1:] if line)
@@ -114,6 +118,7 @@ async def _ask(load: Load, request: bytes, free: list[Connection]) -> tuple[int,
             free.append((reader, writer))
         return int(head[0].split()[1]), headers
     except (OSError, asyncio.IncompleteReadError):
+        writer.close()
         return 0, {}
 
 

@@ -23,6 +23,9 @@ from bench.server import running_service
 from segments.segments import Segments
 from training.evaluation import machine
 
+Reader = asyncio.StreamReader
+Writer = asyncio.StreamWriter
+
 EXPECTED = {200, 429}
 """Of those who behave."""
 
@@ -97,7 +100,11 @@ async def _run(
     async def misbehave(kind: str, draw: random.Random) -> None:
         while True:
             try:
-                status = await BAD[kind](host, port, draw.choice(sent), draw)
+                reader, writer = await asyncio.open_connection(host, port)
+                try:
+                    status = await BAD[kind](reader, writer, draw.choice(sent), draw)
+                finally:
+                    writer.transport.abort()
             except OSError:
                 status = "refused"
             bad[kind][status] += 1
@@ -116,53 +123,49 @@ async def _run(
     return outcome, [*watched, last], bad
 
 
-async def dies(host: str, port: int, request: bytes, draw: random.Random) -> str:
-    """Closes the connection in the midst of a request, or of the answer to it."""
-    _, writer = await asyncio.open_connection(host, port)
+async def dies(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
+    """Leaves in the midst of a request, or of the answer to it."""
+    del reader
     writer.write(request[: draw.randrange(1, len(request) + 1)])
     await writer.drain()
     await asyncio.sleep(draw.uniform(0, 0.05))
-    writer.transport.abort()
     return "gone"
 
 
-async def dawdles(host: str, port: int, request: bytes, draw: random.Random) -> str:
+async def dawdles(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
     """Sends a request in ten pieces with pauses."""
-    reader, writer = await asyncio.open_connection(host, port)
-    for piece in range(10):
-        step = -(-len(request) // 10)
-        writer.write(request[piece * step : (piece + 1) * step])
+    step = -(-len(request) // 10)
+    for start in range(0, len(request), step):
+        writer.write(request[start : start + step])
         await writer.drain()
         await asyncio.sleep(draw.uniform(0, 0.2))
-    return await _status(reader, writer)
+    return await _status(reader)
 
 
-async def babbles(host: str, port: int, request: bytes, draw: random.Random) -> str:
+async def babbles(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
     """Sends garbage: no HTTP at all, or a request with some bytes of its body altered."""
-    reader, writer = await asyncio.open_connection(host, port)
     if draw.random() < 0.5:
         writer.write(draw.randbytes(draw.randrange(1, 5000)) + b"\r\n\r\n")
     else:
         altered = bytearray(request)
-        for _ in range(20):
-            altered[draw.randrange(len(request) // 2, len(request))] = draw.randrange(256)
         # The body's first bytes say what it holds.
         start = request.index(b"\r\n\r\n") + 4
         altered[start + draw.randrange(20)] = draw.randrange(256)
+        for _ in range(20):
+            altered[draw.randrange(len(request) // 2, len(request))] = draw.randrange(256)
         writer.write(bytes(altered))
-    return await _status(reader, writer)
+    return await _status(reader)
 
 
-async def _status(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> str:
+async def _status(reader: Reader) -> str:
     try:
         line = await asyncio.wait_for(reader.readline(), 30)
     except (OSError, TimeoutError):
         line = b""
-    writer.transport.abort()
     return line.split()[1].decode() if line else "closed"
 
 
-Bad = Callable[[str, int, bytes, random.Random], Awaitable[str]]
+Bad = Callable[[Reader, Writer, bytes, random.Random], Awaitable[str]]
 
 BAD: dict[str, Bad] = {"dies": dies, "dawdles": dawdles, "babbles": babbles}
 

@@ -1,14 +1,15 @@
 """The load generator, and short runs of what it is for; what they measure is not asserted."""
 
 import asyncio
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
 from bench import serve, soak
-from bench.load import Load, request_of, run
+from bench.load import Load, Outcome, request_of, run
 from segments.segments import Segments
 
 
@@ -26,25 +27,33 @@ def scans(count: int) -> list[Segments]:
     return made
 
 
+async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> Outcome:
+    """What the generator finds of a server that answers so."""
+
+    async def serve_one(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with suppress(asyncio.IncompleteReadError):
+            while await reader.readuntil(b"end"):
+                writer.write(await answer())
+        writer.close()
+
+    server = await asyncio.start_server(serve_one, "127.0.0.1", 0)
+    host, port = server.sockets[0].getsockname()
+    outcome = await run(Load(host, port, (request_of("/x", "a/b", b"end"),), **load))
+    server.close()
+    await asyncio.sleep(0.05)
+    return outcome
+
+
 def test_requests_leave_when_due_whether_or_not_answers_come() -> None:
     arrived: list[float] = []
 
-    async def slow(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        while await reader.readuntil(b"end"):
-            arrived.append(asyncio.get_running_loop().time())
-            await asyncio.sleep(0.3)
-            writer.write(
-                b"HTTP/1.1 429 Busy\r\nContent-Length: 2\r\nServer-Timing: a;dur=1\r\n\r\nno"
-            )
+    async def slow() -> bytes:
+        arrived.append(asyncio.get_running_loop().time())
+        await asyncio.sleep(0.3)
+        head = b"HTTP/1.1 429 Busy\r\nContent-Length: 2\r\nServer-Timing: a;dur=1\r\n\r\n"
+        return head + b"no"
 
-    async def measure() -> Any:
-        server = await asyncio.start_server(slow, "127.0.0.1", 0)
-        host, port = server.sockets[0].getsockname()
-        outcome = await run(Load(host, port, (request_of("/x", "a/b", b"end"),), 50, 0.2))
-        server.close()
-        return outcome
-
-    outcome = asyncio.run(measure())
+    outcome = asyncio.run(measured(slow, rate=50, seconds=0.2))
     assert outcome.statuses == [429] * 10
     # All came before the first answer went.
     assert max(arrived) - min(arrived) < 0.3
@@ -55,25 +64,15 @@ def test_requests_leave_when_due_whether_or_not_answers_come() -> None:
 def test_without_a_rate_clients_wait_for_their_answers() -> None:
     inside, most = 0, 0
 
-    async def answer(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def answer() -> bytes:
         nonlocal inside, most
-        while await reader.readuntil(b"end"):
-            inside += 1
-            most = max(most, inside)
-            await asyncio.sleep(0.02)
-            inside -= 1
-            head = b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\nServer-Timing: a;dur=1.5\r\n\r\n"
-            writer.write(head + b"ok")
+        inside += 1
+        most = max(most, inside)
+        await asyncio.sleep(0.02)
+        inside -= 1
+        return b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\nServer-Timing: a;dur=1.5\r\n\r\nok"
 
-    async def measure() -> Any:
-        server = await asyncio.start_server(answer, "127.0.0.1", 0)
-        host, port = server.sockets[0].getsockname()
-        load = Load(host, port, (request_of("/x", "a/b", b"end"),), 0, 0.2, clients=3)
-        outcome = await run(load)
-        server.close()
-        return outcome
-
-    outcome = asyncio.run(measure())
+    outcome = asyncio.run(measured(answer, rate=0, seconds=0.2, clients=3))
     assert most == 3
     assert set(outcome.statuses) == {200}
     assert outcome.stages["a"] == [1.5] * len(outcome.statuses)
@@ -84,7 +83,6 @@ def test_a_connection_that_fails_is_told() -> None:
     assert outcome.statuses == [0, 0]
 
 
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_short_run_against_the_real_service(tmp_path: Path) -> None:
     plan = serve.Plan(
         segments=10, small=2, map_segments=200, levels=(0.5, 3.0), seconds=0.5, bodies=3
