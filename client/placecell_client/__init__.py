@@ -1,5 +1,6 @@
-"""What a robot needs to talk to a Placecell service: an HTTP client and the compact map file."""
+"""What a robot needs to talk to a Placecell service: HTTP clients and the compact map file."""
 
+from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
 from placecell_client.errors import ServiceError
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
@@ -12,8 +13,10 @@ from placecell_client.results import (
     Matches,
     Skipped,
 )
+from placecell_client.retries import Retries
 
 __all__ = [
+    "AsyncClient",
     "Candidate",
     "Client",
     "CompactMap",
@@ -23,6 +26,7 @@ __all__ = [
     "MapFileError",
     "MapSummary",
     "Matches",
+    "Retries",
     "ServiceError",
     "Skipped",
     "decode",

@@ -26,7 +26,7 @@ class CompactMap:
         model_id: of the model that made the descriptors; those of different ids never compare.
         preprocessing: version of the steps from points to the model's input.
         frame: name of the coordinate frame, z up.
-        codes: int8 (n, d), stored descriptors.
+        codes: int8 (n, code bytes), stored descriptors.
         centroids: float64 (n, 3), metres in the coordinate frame.
         ids: uint32 (n,), each once.
         robots: names of the robots.
@@ -92,7 +92,7 @@ def _check_texts(compact_map: CompactMap) -> None:
 def _check_columns(compact_map: CompactMap) -> None:
     n, f = len(compact_map.ids), len(compact_map.frame_times)
     if compact_map.codes.ndim != 2 or not compact_map.codes.shape[1]:
-        raise MapFileError(f"codes: shape {compact_map.codes.shape}, not (n, d) with d > 0")
+        raise MapFileError(f"codes: shape {compact_map.codes.shape}, not (n, bytes) with bytes > 0")
     expected = {
         "codes": (np.int8, (n, compact_map.codes.shape[1])),
         "centroids": (np.float64, (n, 3)),

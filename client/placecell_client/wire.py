@@ -4,7 +4,6 @@ import json
 from collections.abc import Sequence
 from typing import Any, Literal
 
-import httpx
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,12 +19,21 @@ def dumps(body: dict[str, Any], encoding: Encoding) -> bytes:
     return json.dumps(body, separators=(",", ":"), allow_nan=False).encode()
 
 
-def loads(response: httpx.Response) -> dict[str, Any]:
-    """An answer's body, in the encoding that it names."""
-    media_type = response.headers.get("content-type", "").partition(";")[0].strip()
-    packed = media_type == MEDIA_TYPES["msgpack"]
-    content: dict[str, Any] = msgpack.unpackb(response.content) if packed else response.json()
-    return content
+def loads(media_type: str, content: bytes) -> dict[str, Any]:
+    """An answer's body, in the encoding that it names.
+
+    Raises:
+        ValueError: it is in neither encoding, or cut short, or no map.
+    """
+    if media_type == MEDIA_TYPES["msgpack"]:
+        body = msgpack.unpackb(content)
+    elif media_type == MEDIA_TYPES["json"]:
+        body = json.loads(content)
+    else:
+        raise ValueError(f"The answer is neither of {' nor of '.join(MEDIA_TYPES.values())}")
+    if not isinstance(body, dict):
+        raise ValueError("The answer is no map")
+    return body
 
 
 def segments_of(

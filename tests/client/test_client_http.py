@@ -1,20 +1,22 @@
 import json
-from collections.abc import Callable
+import pickle
 
 import httpx
 import numpy as np
 import pytest
 from placecell_client import Client, Description, ItemError, ServiceError, decode, encode
 
+from tests.client import client_fakes
+from tests.client.client_fakes import CANDIDATE, SUMMARY, Handler
 from tests.client.map_builders import random_map
 
 CLOUD = np.arange(12, dtype=np.float32).reshape(4, 3)
 ERROR = {"type": "urn:x", "title": "Too few points", "detail": "4 points"}
 
 
-def client_of(answer: Callable[[httpx.Request], httpx.Response]) -> Client:
+def client_of(answer: Handler) -> Client:
     # JSON, for these tests look into bodies; test_client_wire looks into both encodings.
-    return Client("http://service", transport=httpx.MockTransport(answer), encoding="json")
+    return client_fakes.client_of(answer, encoding="json")
 
 
 def test_describe_sends_points_and_gives_arrays() -> None:
@@ -45,12 +47,8 @@ def test_match_of_a_description_leaves_out_what_has_no_descriptor() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         body = json.loads(request.content)
         assert body == {"k": 2, "maps": ["a"], "model_id": "m", "codes": [[3, 4]]}
-        candidate = {
-            "map": "a", "id": 9, "robot": "r", "distance": 0.5, "probability": None,
-            "centroid": [1, 2, 3], "frame": "f",
-        }  # fmt: skip
         skipped = [{"map": "b", "model_id": "n"}]
-        queries = [{"candidates": [candidate]}]
+        queries = [{"candidates": [CANDIDATE]}]
         return httpx.Response(
             200,
             json={"model_id": "m", "queries": queries, "searched": ["a"], "skipped": skipped},
@@ -100,12 +98,9 @@ def test_maps_travel_as_files() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         if request.method == "PUT":
             stored[request.url.path] = request.content
-            summary = {
-                "name": "yard", "segments": 20, "bytes": 1, "model_id": "m", "robots": ["ann"],
-                "time_span": [0, 1], "etag": "e", "frame": "f", "later": "field",
-            }  # fmt: skip
-            return httpx.Response(201, json=summary)
-        return httpx.Response(200, content=stored[request.url.path])
+            return httpx.Response(201, json=SUMMARY)
+        headers = {"Content-Type": "application/vnd.placecell.map"}
+        return httpx.Response(200, content=stored[request.url.path], headers=headers)
 
     given = random_map()
     with client_of(answer) as client:
@@ -129,16 +124,9 @@ def test_a_problem_becomes_an_error() -> None:
         "No map 'x'.",
         "urn:p",
     )
-
-
-def test_an_error_page_of_a_proxy_becomes_an_error_too() -> None:
-    with (
-        client_of(lambda _: httpx.Response(502, html="<h1>Bad gateway</h1>")) as client,
-        pytest.raises(ServiceError) as raised,
-    ):
-        client.info()
-    assert raised.value.status == 502
-    assert raised.value.title == "Bad Gateway"
+    assert error.retry_after is None
+    assert str(error) == f"404 Unknown map: No map 'x'. (request {error.request_id})"
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
 
 
 def test_arrays_are_checked_before_they_are_sent() -> None:

@@ -9,20 +9,25 @@ import numpy as np
 from placecell_client import Client, ItemError
 from placecell_client.wire import segments_of
 
+from segments.quantiser import LEVELS, Quantiser
+
 DOCUMENT = Path(__file__).resolve().parents[2] / "client" / "MSGPACK.md"
-HEX = r"([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?"
+LINE = r" {0,2}(\d+)  ([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?"
 ORIGIN = [500000.0, 5400000.0, 300.0]
 CLOUD = np.array([[4.0, 2.0, 0.5], [4.25, 2.0, 0.75]])
 
 
 def example(name: str) -> bytes:
-    """The bytes of a block; its comments stand two spaces behind."""
+    """The bytes of a block: each line has an offset, bytes, and two spaces behind, a comment."""
     text = DOCUMENT.read_text()
     block = re.search(rf"```{name}\n(.*?)```\n\n(\d+) bytes", text, re.DOTALL)
     assert block is not None
-    lines = [re.fullmatch(HEX, line) for line in block[1].splitlines()]
-    data = b"".join(bytes.fromhex(line[1]) for line in lines if line is not None)
-    assert None not in lines
+    data = b""
+    for line in block[1].splitlines():
+        parts = re.fullmatch(LINE, line)
+        assert parts is not None, line
+        assert int(parts[1]) == len(data), line
+        data += bytes.fromhex(parts[2])
     assert len(data) == int(block[2])
     return data
 
@@ -52,3 +57,38 @@ def test_the_answer_is_read_by_the_client() -> None:
     assert described.errors == {
         1: ItemError("urn:placecell:problem:too-few-points", "Too few points", "2 points.")
     }
+
+
+def test_a_program_finds_the_descriptor_where_the_document_says() -> None:
+    text = DOCUMENT.read_text()
+    told = re.search(r"(\d+) bytes at offset (\d+), behind its `(.{5})`", text)
+    assert told is not None
+    length, offset = int(told[1]), int(told[2])
+    data = example("answer")
+    assert data[offset - 2 : offset] == bytes.fromhex(told[3])
+    assert np.frombuffer(data, "<f4", length // 4, offset).tolist() == [0.0625, -0.125]
+    assert f"answer.data() + {offset}, {length})" in text
+
+
+def test_the_levels_are_the_quantisers() -> None:
+    rows = re.findall(
+        r"^\| (\d) \| (\d+) \| (.*) \| (-\d+) \|$", DOCUMENT.read_text(), re.MULTILINE
+    )
+    assert [int(row[0]) for row in rows] == sorted(LEVELS)
+    for row in rows:
+        per_byte, base, lowest = int(row[0]), int(row[1]), int(row[3])
+        told = row[2].replace("..., ", "").split(", ")
+        first, second, last = int(told[0]), int(told[1]), int(told[-1])
+        levels = np.arange(first, last + 1, second - first)
+        assert len(levels) == base
+        numbers = np.arange(base**per_byte)
+        digits = numbers[:, None] // base ** np.arange(per_byte) % base
+        codes = (numbers + lowest).astype(np.int8)[:, None]
+        np.testing.assert_array_equal(Quantiser(1.0, per_byte).levels(codes), levels[digits])
+
+
+def test_the_worked_byte_is_the_quantisers() -> None:
+    told = re.search(r"four in a byte, `(..)` is .*: levels (.*)\.", DOCUMENT.read_text())
+    assert told is not None
+    code = np.frombuffer(bytes.fromhex(told[1]), np.int8)[None]
+    assert Quantiser(1.0, 4).levels(code).tolist() == [[int(level) for level in told[2].split(",")]]

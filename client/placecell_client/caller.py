@@ -1,0 +1,56 @@
+"""What both clients share: all but the sending."""
+
+import re
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import httpx
+
+from placecell_client.attempts import Attempts, Policy
+from placecell_client.calls import Call, Calls
+from placecell_client.retries import Retries
+from placecell_client.wire import MEDIA_TYPES, Encoding
+
+T = TypeVar("T")
+
+
+class Caller:
+    """Knows how to call one service; its subclasses say what the arguments are."""
+
+    def __init__(
+        self,
+        base_url: str,
+        encoding: Encoding,
+        compress: bool,
+        timeout: float,
+        retries: Retries,
+        jitter: Callable[[], float],
+        clock: Callable[[], float],
+    ) -> None:
+        if encoding not in MEDIA_TYPES:
+            raise ValueError(f"encoding {encoding!r} is none of {', '.join(MEDIA_TYPES)}")
+        self._base_url = httpx.URL(base_url)
+        self._calls = Calls(encoding, compress)
+        self._policy = Policy(timeout, retries, jitter, clock)
+
+    def __repr__(self) -> str:
+        # httpx hides a password in the URL.
+        return f"{type(self).__name__}({self._base_url!r})"
+
+    def _attempts(self, call: Call[T]) -> Attempts[T]:
+        return Attempts(call, self._policy)
+
+
+def http_options(base_url: str, key: str | None) -> dict[str, Any]:
+    """Arguments of httpx's clients; the key is kept in their headers alone, whose repr hides it.
+
+    Raises:
+        ValueError: the key cannot stand in a header. It is not told: it may be right but for a
+            line's end.
+    """
+    if key is None:
+        return {"base_url": base_url}
+    # No quotes and backslashes: escaped, they would hide the key in an error page from us.
+    if not re.fullmatch(r"[!#-\[\]-~]+", key):
+        raise ValueError('key: not one or more visible ASCII characters other than " and \\')
+    return {"base_url": base_url, "headers": {"Authorization": f"Bearer {key}"}}

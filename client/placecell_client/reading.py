@@ -1,0 +1,139 @@
+"""Answers of success, read into what the client gives.
+
+Each function raises a ValueError, KeyError, TypeError or the like if the answer is not as the
+service makes it.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from placecell_client.answer import Answer
+from placecell_client.map_file import MEDIA_TYPE
+from placecell_client.results import (
+    Candidate,
+    Description,
+    Info,
+    ItemError,
+    MapSummary,
+    Matches,
+    Skipped,
+)
+from placecell_client.wire import loads, row_of
+
+
+def info(answer: Answer) -> Info:
+    """Of `GET /info`."""
+    content = _content(answer)
+    return Info(
+        version=content["version"],
+        model_id=content["model"]["model_id"],
+        model=content["model"],
+        limits=content["limits"],
+        map_file_version=content["map_file"]["version"],
+    )
+
+
+def description(answer: Answer, count: int) -> Description:
+    """Of `POST /describe` with this many segments."""
+    content = _content(answer)
+    items = _items(content["descriptors"], count)
+    good = [index for index, item in enumerate(items) if "error" not in item]
+    if not good:
+        raise ValueError("The answer has no descriptor at all")
+    rows = np.stack([row_of(items[index]["codes"], "int8") for index in good])
+    values = np.stack([row_of(items[index]["descriptor"], "<f4") for index in good])
+    if values.shape[1] != content["dimension"]:
+        raise ValueError(f"The descriptors have not {content['dimension']} dimensions")
+    codes = np.zeros((count, rows.shape[1]), dtype=np.int8)
+    descriptors = np.full((count, values.shape[1]), np.nan, dtype=np.float32)
+    centroids = np.full((count, 3), np.nan)
+    codes[good] = rows
+    descriptors[good] = values
+    for index in good:
+        x, y, z = items[index]["centroid"]
+        centroids[index] = x, y, z
+    return Description(content["model_id"], codes, descriptors, centroids, _errors(items))
+
+
+def matches(answer: Answer, count: int) -> Matches:
+    """Of `POST /match` with this many queries."""
+    content = _content(answer)
+    items = _items(content["queries"], count)
+    return Matches(
+        model_id=content["model_id"],
+        queries=tuple(
+            tuple(_candidate(candidate) for candidate in item["candidates"])
+            if "error" not in item
+            else ()
+            for item in items
+        ),
+        errors=_errors(items),
+        searched=tuple(content["searched"]),
+        skipped=tuple(Skipped(item["map"], item["model_id"]) for item in content["skipped"]),
+    )
+
+
+def matches_of(answer: Answer, description: Description, rows: list[int]) -> Matches:
+    """Of `POST /match` with these rows of a description, by the description's own indices."""
+    found = matches(answer, len(rows))
+    queries: list[tuple[Candidate, ...]] = [()] * len(description.codes)
+    for row, candidates in zip(rows, found.queries, strict=True):
+        queries[row] = candidates
+    errors = description.errors | {rows[index]: error for index, error in found.errors.items()}
+    return Matches(found.model_id, tuple(queries), errors, found.searched, found.skipped)
+
+
+def summaries(answer: Answer) -> tuple[MapSummary, ...]:
+    """Of `GET /maps`."""
+    return tuple(MapSummary.of(item) for item in _content(answer)["maps"])
+
+
+def summary(answer: Answer) -> MapSummary:
+    """Of `PUT /maps/{map}`."""
+    return MapSummary.of(_content(answer))
+
+
+def file(answer: Answer) -> bytes:
+    """Of `GET /maps/{map}`."""
+    if answer.media_type != MEDIA_TYPE:
+        raise ValueError(f"The answer is not {MEDIA_TYPE}")
+    return answer.content
+
+
+def gone(answer: Answer) -> None:
+    """Of `DELETE /maps/{map}`; 404 is of one repeated."""
+    # The page of a network that asks for a log-in says success too.
+    if answer.status not in {204, 404}:
+        raise ValueError("The answer is not 204 No Content")
+
+
+def _content(answer: Answer) -> dict[str, Any]:
+    return loads(answer.media_type, answer.content)
+
+
+def _items(items: list[dict[str, Any]], count: int) -> list[dict[str, Any]]:
+    if len(items) != count:
+        raise ValueError(f"The answer has {len(items)} results for {count} segments")
+    return items
+
+
+def _errors(items: list[dict[str, Any]]) -> dict[int, ItemError]:
+    return {
+        index: ItemError(item["error"]["type"], item["error"]["title"], item["error"]["detail"])
+        for index, item in enumerate(items)
+        if "error" in item
+    }
+
+
+def _candidate(item: dict[str, Any]) -> Candidate:
+    x, y, z = item["centroid"]
+    return Candidate(
+        map=item["map"],
+        id=item["id"],
+        robot=item["robot"],
+        distance=item["distance"],
+        probability=item["probability"],
+        centroid=(x, y, z),
+        frame=item["frame"],
+    )

@@ -1,0 +1,112 @@
+"""Time that passes at once, and clients that speak to a function."""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import msgpack  # type: ignore[import-untyped]
+from placecell_client import AsyncClient, Client
+
+Handler = Callable[[httpx.Request], httpx.Response]
+
+MSGPACK = "application/msgpack"
+INFO = {
+    "version": "1.0",
+    "model": {"model_id": "m", "dimension": 2},
+    "limits": {"k": 100},
+    "map_file": {"version": 0},
+}
+SUMMARY = {
+    "name": "yard", "segments": 20, "bytes": 1, "model_id": "m", "robots": ["ann"],
+    "time_span": [0, 1], "etag": "e", "frame": "f", "later": "field",
+}  # fmt: skip
+DESCRIBED = {
+    "model_id": "m",
+    "dimension": 2,
+    "descriptors": [
+        {
+            "codes": b"\x03\xff",
+            "descriptor": b"\0\0\0\x3f\0\0\x80\xbf",
+            "centroid": [1.0, 2.0, 3.0],
+        }
+    ],
+}
+CANDIDATE = {
+    "map": "yard", "id": 9, "robot": "r", "distance": 0.5, "probability": None,
+    "centroid": [1, 2, 3], "frame": "f",
+}  # fmt: skip
+MATCHED = {
+    "model_id": "m",
+    "queries": [{"candidates": [CANDIDATE]}],
+    "searched": ["yard"],
+    "skipped": [],
+}
+
+
+def packed(content: object) -> httpx.Response:
+    headers = {"Content-Type": MSGPACK}
+    return httpx.Response(200, content=msgpack.packb(content), headers=headers)
+
+
+class Time:
+    """A clock that sleeping advances, and what was slept, seconds."""
+
+    def __init__(self) -> None:
+        self.now = 1000.0
+        self.slept: list[float] = []
+
+    def clock(self) -> float:
+        return self.now
+
+    def sleep(self, seconds: float) -> None:
+        self.slept.append(seconds)
+        self.now += seconds
+
+    async def async_sleep(self, seconds: float) -> None:
+        self.sleep(seconds)
+
+
+def client_of(handler: Handler, time: Time | None = None, **options: Any) -> Client:
+    """Jitter is always the longest."""
+    time = time or Time()
+    options = {"jitter": lambda: 1.0, "sleep": time.sleep, "clock": time.clock} | options
+    return Client("http://service", transport=_transport(handler), **options)
+
+
+def async_client_of(handler: Handler, time: Time | None = None, **options: Any) -> AsyncClient:
+    time = time or Time()
+    options = {"jitter": lambda: 1.0, "sleep": time.async_sleep, "clock": time.clock} | options
+    return AsyncClient("http://service", transport=_transport(handler), **options)
+
+
+def _transport(handler: Handler) -> httpx.MockTransport:
+    """Each request its own response, so that tests may give the same one twice."""
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        given = handler(request)
+        try:
+            content = given.content
+        except httpx.ResponseNotRead:
+            return given
+        return httpx.Response(given.status_code, headers=given.headers, content=content)
+
+    return httpx.MockTransport(answer)
+
+
+class Blocking:
+    """An `AsyncClient` whose methods are called as those of `Client`: what holds for one, holds."""
+
+    def __init__(self, handler: Handler, time: Time | None = None, **options: Any) -> None:
+        self._arguments = (handler, time)
+        self._options = options
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        def method(*arguments: Any, **options: Any) -> Any:
+            async def call() -> Any:
+                async with async_client_of(*self._arguments, **self._options) as client:
+                    return await getattr(client, name)(*arguments, **options)
+
+            return asyncio.run(call())
+
+        return method

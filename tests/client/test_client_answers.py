@@ -1,0 +1,238 @@
+"""Answers that are none of a service's: each is a ServiceError that says what came."""
+
+import contextlib
+import json
+import pickle
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import msgpack  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from placecell_client import Client, Description, MapFileError, ServiceError
+
+from tests.client.client_fakes import (
+    CANDIDATE,
+    DESCRIBED,
+    INFO,
+    MATCHED,
+    MSGPACK,
+    SUMMARY,
+    client_of,
+    packed,
+)
+from tests.client.map_builders import random_map
+
+CLOUD = np.zeros((4, 3), np.float32)
+DESCRIPTION = Description(
+    "m", np.array([[3, -1]], np.int8), np.zeros((1, 2), np.float32), np.zeros((1, 3)), {}
+)
+Call = Callable[[Client], Any]
+CALLS: dict[str, tuple[Call, httpx.Response]] = {
+    "info": (lambda client: client.info(), httpx.Response(200, json=INFO)),
+    "describe": (lambda client: client.describe([CLOUD], np.zeros(3)), packed(DESCRIBED)),
+    "match": (lambda client: client.match(DESCRIPTION), packed(MATCHED)),
+    "maps": (lambda client: client.maps(), httpx.Response(200, json={"maps": [SUMMARY]})),
+    "put_map": (
+        lambda client: client.put_map("yard", random_map()),
+        httpx.Response(200, json=SUMMARY),
+    ),
+    "get_map": (lambda client: client.get_map("yard"), httpx.Response(200)),
+    "get_map_file": (lambda client: client.get_map_file("yard"), httpx.Response(200)),
+    "delete_map": (lambda client: client.delete_map("yard"), httpx.Response(204)),
+}
+READING = ["info", "describe", "match", "maps", "put_map"]
+
+
+def error_of(call: str, response: httpx.Response) -> ServiceError:
+    with client_of(lambda _: response) as client, pytest.raises(ServiceError) as raised:
+        CALLS[call][0](client)
+    return raised.value
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_page_that_says_success_is_told(call: str) -> None:
+    error = error_of(call, httpx.Response(200, html="<h1>Log in\n to the network</h1>"))
+    assert (error.status, error.title) == (200, "Unreadable answer")
+    assert error.type == "urn:placecell:problem:unreadable-answer"
+    assert "text/html" in error.detail
+    assert "'<h1>Log in to the network</h1>'" in error.detail
+    assert error.request_id is not None
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_an_error_page_of_a_proxy_is_told(call: str) -> None:
+    error = error_of(call, httpx.Response(502, html="<h1>nginx</h1>"))
+    assert (error.status, error.title, error.type) == (502, "Bad Gateway", "about:blank")
+    assert "text/html" in error.detail
+    assert "<h1>nginx</h1>" in error.detail
+
+
+@pytest.mark.parametrize(
+    "response",
+    [
+        httpx.Response(500, content=b'{"title": ', headers={"Content-Type": "application/json"}),
+        httpx.Response(500, json=["an", "array"]),
+        httpx.Response(500, content=b"[" * 100_000, headers={"Content-Type": "application/json"}),
+        httpx.Response(500, content=b"\xff\xfe", headers={"Content-Type": "text/plain"}),
+        httpx.Response(500, json={"title": None, "detail": None, "type": None}),
+        httpx.Response(500),
+    ],
+)
+def test_a_refusal_in_any_words_is_an_error(response: httpx.Response) -> None:
+    error = error_of("info", response)
+    assert (error.status, error.title, error.type) == (500, "Internal Server Error", "about:blank")
+    assert error.detail
+
+
+def test_an_unknown_status_is_an_error() -> None:
+    assert str(error_of("info", httpx.Response(299 + 300))).startswith("599 Unknown status")
+
+
+@pytest.mark.parametrize("call", READING)
+def test_every_cut_of_an_answer_is_told(call: str) -> None:
+    whole = CALLS[call][1]
+    headers = {"Content-Type": whole.headers["Content-Type"]}
+    for length in range(len(whole.content)):
+        cut = httpx.Response(200, content=whole.content[:length], headers=headers)
+        assert error_of(call, cut).title == "Unreadable answer"
+
+
+@pytest.mark.parametrize("call", READING)
+@pytest.mark.parametrize("body", [{}, [], None, 7, "text"])
+def test_a_body_that_holds_something_else_is_told(call: str, body: object) -> None:
+    for response in (packed(body), httpx.Response(200, json=body)):
+        assert error_of(call, response).title == "Unreadable answer"
+
+
+def without(content: Any, path: tuple[Any, ...]) -> Any:
+    copy = pickle.loads(pickle.dumps(content))
+    inner = copy
+    for key in path[:-1]:
+        inner = inner[key]
+    del inner[path[-1]]
+    return copy
+
+
+@pytest.mark.parametrize("key", DESCRIBED["descriptors"][0])  # type: ignore[index]
+def test_a_key_that_is_missing_is_named(key: str) -> None:
+    error = error_of("describe", packed(without(DESCRIBED, ("descriptors", 0, key))))
+    assert f"The key '{key}' is missing" in error.detail
+    assert MSGPACK in error.detail
+
+
+@pytest.mark.parametrize("key", CANDIDATE)
+def test_a_key_of_a_candidate_that_is_missing_is_named(key: str) -> None:
+    error = error_of("match", packed(without(MATCHED, ("queries", 0, "candidates", 0, key))))
+    assert f"The key '{key}' is missing" in error.detail
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"codes": b""}, ""),
+        ({"codes": 7}, ""),
+        ({"descriptor": b"\0\0\0\x3f"}, "same shape"),
+        ({"descriptor": b"\0\0\0\x3f\0"}, ""),
+        ({"descriptor": None}, ""),
+        ({"centroid": [1.0, 2.0]}, ""),
+        ({"centroid": 1.0}, ""),
+        ({"centroid": None}, ""),
+        ({"error": {"type": "t"}}, ""),
+    ],
+)
+def test_a_descriptor_that_is_none_is_told(changes: dict[str, Any], message: str) -> None:
+    good: dict[str, Any] = DESCRIBED["descriptors"][0]  # type: ignore[index]
+    body = DESCRIBED | {"descriptors": [good, good | changes]}
+
+    def describe(client: Client) -> Description:
+        return client.describe([CLOUD, CLOUD], np.zeros(3))
+
+    with (
+        client_of(lambda _: packed(body)) as client,
+        pytest.raises(ServiceError, match="Unreadable") as raised,
+    ):
+        describe(client)
+    assert message in raised.value.detail
+
+
+@pytest.mark.parametrize("dimension", [1, 10**18, -1, "2", None])
+def test_a_dimension_that_is_not_the_descriptors_is_told(dimension: Any) -> None:
+    error = error_of("describe", packed(DESCRIBED | {"dimension": dimension}))
+    assert "dimensions" in error.detail
+
+
+def test_results_are_as_many_as_segments() -> None:
+    twice = DESCRIBED["descriptors"] * 2  # type: ignore[operator]
+    assert (
+        "2 results for 1" in error_of("describe", packed(DESCRIBED | {"descriptors": twice})).detail
+    )
+    assert "0 results for 1" in error_of("match", packed(MATCHED | {"queries": []})).detail
+
+
+def test_a_body_that_is_not_as_encoded_is_told() -> None:
+    response = httpx.Response(
+        200,
+        headers={"Content-Type": "application/json", "Content-Encoding": "gzip"},
+        stream=httpx.ByteStream(json.dumps(INFO).encode()),
+    )
+    assert error_of("info", response).title == "Unreadable answer"
+
+
+def test_a_file_that_is_no_map_is_told() -> None:
+    headers = {"Content-Type": "application/vnd.placecell.map"}
+    broken = httpx.Response(200, content=b"broken", headers=headers)
+    with client_of(lambda _: broken) as client, pytest.raises(MapFileError):
+        client.get_map("yard")
+
+
+@given(
+    st.recursive(
+        st.none() | st.integers(-9, 9) | st.text(max_size=3) | st.binary(max_size=9),
+        lambda inner: (
+            st.lists(inner, max_size=3)
+            | st.dictionaries(
+                st.sampled_from(
+                    [
+                        "model_id",
+                        "descriptors",
+                        "codes",
+                        "descriptor",
+                        "centroid",
+                        "dimension",
+                        "queries",
+                        "candidates",
+                        "error",
+                        "searched",
+                        "skipped",
+                        "maps",
+                        "name",
+                    ]
+                ),
+                inner,
+            )
+        ),
+    )
+)
+def test_any_answer_is_read_or_is_an_error(content: object) -> None:
+    for call in READING:
+        with client_of(lambda _: packed(content)) as client, contextlib.suppress(ServiceError):
+            CALLS[call][0](client)
+
+
+@given(st.binary(max_size=50), st.sampled_from([MSGPACK, "application/json", "text/html", ""]))
+def test_any_bytes_are_an_error(content: bytes, media_type: str) -> None:
+    response = httpx.Response(200, content=content, headers={"Content-Type": media_type})
+    for call in READING:
+        error_of(call, response)
+
+
+def test_the_answers_that_are_broken_here_can_be_read() -> None:
+    for name in READING:
+        call, response = CALLS[name]
+        with client_of(lambda _, response=response: response) as client:  # type: ignore[misc]
+            assert call(client)
+    assert msgpack.unpackb(packed(DESCRIBED).content) == DESCRIBED

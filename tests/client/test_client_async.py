@@ -1,0 +1,165 @@
+"""The client for asyncio is the other client."""
+
+import asyncio
+import gzip
+import inspect
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from placecell_client import AsyncClient, Client, Description, encode
+
+from tests.client.client_fakes import (
+    DESCRIBED,
+    INFO,
+    MATCHED,
+    SUMMARY,
+    Blocking,
+    async_client_of,
+    client_of,
+    packed,
+)
+from tests.client.map_builders import random_map
+
+CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
+MAP = random_map()
+OWN = {"x-request-id", "placecell-timeout"}
+PATIENCE = 10
+"""Seconds of silence, of which no test waits for the end."""
+
+
+def public(kind: type) -> dict[str, list[tuple[str, Any, Any]]]:
+    """Methods, and the names, kinds and defaults of their arguments."""
+    return {
+        name: [(part.name, part.kind, part.default) for part in signature.parameters.values()]
+        for name, method in inspect.getmembers(kind, inspect.isfunction)
+        if not name.startswith("_")
+        for signature in [inspect.signature(method)]
+    }
+
+
+def test_both_have_the_same_methods() -> None:
+    assert public(Client) == public(AsyncClient)
+    constructors = [list(inspect.signature(kind).parameters) for kind in (Client, AsyncClient)]
+    assert constructors[0] == constructors[1]
+    assert set(public(Client)) == {
+        "close", "info", "describe", "match", "maps", "put_map", "get_map", "get_map_file",
+        "delete_map",
+    }  # fmt: skip
+
+
+FILE = httpx.Response(
+    200, content=encode(MAP), headers={"Content-Type": "application/vnd.placecell.map"}
+)
+ANSWERS = {
+    ("GET", "/info"): httpx.Response(200, json=INFO),
+    ("POST", "/describe"): packed(DESCRIBED),
+    ("POST", "/match"): packed(MATCHED),
+    ("GET", "/maps"): httpx.Response(200, json={"maps": [SUMMARY]}),
+    ("PUT", "/maps/yard"): httpx.Response(201, json=SUMMARY),
+    ("GET", "/maps/yard"): FILE,
+    ("DELETE", "/maps/yard"): httpx.Response(204),
+}
+
+
+def answer(request: httpx.Request) -> httpx.Response:
+    return ANSWERS[request.method, request.url.path]
+
+
+def plain(result: Any) -> Any:
+    """What can be compared."""
+    if isinstance(result, Description):
+        return [
+            result.model_id, result.codes.tolist(), result.descriptors.tolist(),
+            result.centroids.tolist(), result.errors,
+        ]  # fmt: skip
+    return encode(result) if hasattr(result, "frame_times") else result
+
+
+@pytest.mark.parametrize("options", [{}, {"compress": True, "key": "k", "encoding": "json"}])
+def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
+    told: list[Any] = []
+    for make in (client_of, Blocking):
+        seen: list[Any] = []
+
+        def keep(request: httpx.Request, seen: list[Any] = seen) -> httpx.Response:
+            headers = {k: v for k, v in request.headers.items() if k not in OWN}
+            seen.append((request.method, request.url.raw_path, headers, request.content))
+            return answer(request)
+
+        client: Any = make(keep, **options)
+        described = client.describe([CLOUD], [1.0, 2.0, 3.0])
+        assert described.codes.tolist() == [[3, -1]]
+        results = [
+            described,
+            client.info(),
+            client.match(described, maps=["yard"], k=3),
+            client.match(segments=[CLOUD], sensors=[1.0, 2.0, 3.0]),
+            client.maps(),
+            client.put_map("yard", MAP),
+            client.get_map("yard"),
+            client.get_map_file("yard"),
+            client.delete_map("yard"),
+        ]
+        told.append(([plain(result) for result in results], seen))
+    assert told[0] == told[1]
+    assert len(told[0][1]) == 9
+
+
+def test_maps_are_compressed_if_asked() -> None:
+    for make, large in ((client_of, True), (Blocking, True), (client_of, False)):
+        sent: list[httpx.Request] = []
+
+        def keep(request: httpx.Request, sent: list[httpx.Request] = sent) -> httpx.Response:
+            sent.append(request)
+            return answer(request)
+
+        data = encode(MAP) if large else b"m" * 1024
+        client: Any = make(keep, compress=True)
+        client.put_map("yard", data)
+        client.info()
+        if large:
+            assert sent[0].headers["Content-Encoding"] == "gzip"
+            assert gzip.decompress(sent[0].content) == data
+            # No time in it: the same map tomorrow is the same upload.
+            assert sent[0].content[4:8] == bytes(4)
+        else:
+            assert "Content-Encoding" not in sent[0].headers
+            assert sent[0].content == data
+        assert "Content-Encoding" not in sent[1].headers
+
+
+def test_tasks_share_a_client() -> None:
+    async def calls() -> list[Any]:
+        async with async_client_of(answer) as client:
+            return await asyncio.gather(*(client.info() for _ in range(20)))
+
+    assert len(asyncio.run(calls())) == 20
+
+
+async def silent(request: httpx.Request) -> httpx.Response:
+    await asyncio.sleep(PATIENCE)
+    return answer(request)
+
+
+def test_a_call_can_be_cancelled() -> None:
+    async def call() -> None:
+        async with (
+            AsyncClient("http://service", transport=httpx.MockTransport(silent)) as client,
+            asyncio.timeout(0.05),
+        ):
+            await client.info()
+
+    with pytest.raises(TimeoutError):
+        asyncio.run(call())
+
+
+def test_an_answer_that_does_not_come_is_given_up() -> None:
+    async def call() -> None:
+        transport = httpx.MockTransport(silent)
+        async with AsyncClient("http://service", 0.05, transport=transport) as client:
+            await client.info()
+
+    with pytest.raises(httpx.ReadTimeout):
+        asyncio.run(call())
