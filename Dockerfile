@@ -1,21 +1,37 @@
-# The service alone: no torch, no compiler, no recorded data.
+# The service alone: no torch, no compiler, no recorded data. deploy/README.md says how to run it.
 #
-#     docker build -t placecell .
-#     docker run -p 127.0.0.1:8000:8000 -v placecell-maps:/data placecell
-FROM python:3.11-slim
-
-WORKDIR /app
+#     docker build -t placecell:0.1.0 .
+FROM python:3.11-slim-bookworm AS builder
+WORKDIR /build
 COPY . .
-RUN pip install --no-cache-dir --constraint constraints.txt ./client '.[service]'
-RUN useradd --system --uid 10001 placecell && mkdir /data && chown placecell /data
+# A checkout made under a strict umask would leave the models unreadable to the service's user.
+RUN chmod -R a+rX models
+# From the environment the pins hold for what builds the packages, too.
+ENV PIP_CONSTRAINT=/build/constraints.txt
+RUN python -m venv /opt/venv && \
+    /opt/venv/bin/pip install --no-cache-dir ./client '.[service]'
 
-ENV PLACECELL_DATA_DIR=/data \
-    PLACECELL_MODELS_DIR=/app/models \
+FROM python:3.11-slim-bookworm
+RUN useradd --uid 10001 --user-group --no-log-init --no-create-home --home-dir /nonexistent placecell && \
+    install --directory --owner=placecell --group=placecell --mode=0750 /data
+COPY --from=builder /opt/venv /opt/venv
+COPY --from=builder /build/models /opt/models
+
+# It writes to /data and /tmp only, so the rest may be read-only: --read-only --tmpfs /tmp.
+# It listens on every address of the container, and so will not start without PLACECELL_KEYS_FILE.
+# Unless told not to, ONNX Runtime reports its use to its makers.
+ENV PATH=/opt/venv/bin:$PATH \
+    PYTHONUNBUFFERED=1 \
     NUMBA_CACHE_DIR=/tmp/numba \
-    PYTHONUNBUFFERED=1
-USER placecell
+    ORT_DISABLE_TELEMETRY=1 \
+    PLACECELL_HOST=0.0.0.0 \
+    PLACECELL_PORT=8000 \
+    PLACECELL_DATA_DIR=/data \
+    PLACECELL_MODELS_DIR=/opt/models
+# By number: Kubernetes' runAsNonRoot can't tell who a name is.
+USER 10001:10001
 VOLUME /data
 EXPOSE 8000
-HEALTHCHECK --interval=10s --timeout=3s --start-period=20s \
-    CMD ["python", "-c", "import urllib.request as r; r.urlopen('http://127.0.0.1:8000/readyz', timeout=2)"]
-CMD ["placecell", "serve", "--host", "0.0.0.0", "--allow-remote"]
+HEALTHCHECK --interval=5s --timeout=3s --start-period=60s \
+    CMD ["python", "-c", "import http.client, os, sys; c = http.client.HTTPConnection('127.0.0.1', int(os.environ['PLACECELL_PORT']), timeout=2); c.request('GET', '/readyz'); sys.exit(c.getresponse().status != 200)"]
+CMD ["placecell", "serve"]
