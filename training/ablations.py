@@ -30,10 +30,10 @@ from training.run import Run
 from training.sgd import Sgd
 from training.training_set import Source, TrainingSet, check_apart
 
-RATES = (0.05, 0.1, 0.2)
+RATES = (0.05, 0.2)
 """Learning rates that each loss is tried with; the best on the validation groups counts."""
 
-NETWORKS = ("fast", "paper-reduced", "paper")
+NETWORKS = ("fast", "paper-reduced")
 """Beside the model's own."""
 
 

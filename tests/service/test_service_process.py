@@ -29,10 +29,12 @@ def command(models_dir: Path, data_dir: Path, *more: str) -> list[str]:
 
 
 @contextmanager
-def running(models_dir: Path, data_dir: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def running(
+    models_dir: Path, data_dir: Path, *options: str
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The process and its address."""
     process = subprocess.Popen(
-        command(models_dir, data_dir),
+        command(models_dir, data_dir, *options),
         stdout=subprocess.PIPE,
         text=True,
         cwd=ROOT,
