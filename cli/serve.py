@@ -20,7 +20,7 @@ def serve(
         Path | None, typer.Option(help="Folder of the maps; one service owns it. (default: var)")
     ] = None,
     model: Annotated[
-        str | None, typer.Option(help="Name of the model to load. (default: group)")
+        str | None, typer.Option(help="Name of the default model. (default: context)")
     ] = None,
     models_dir: Annotated[
         Path | None, typer.Option(help="Folder of the models' folders. (default: models)")
