@@ -283,3 +283,48 @@ def test_the_study_draws_its_curves(workshop: Path, tmp_path: Path) -> None:
 def test_experiments_want_both_drives_or_none(workshop: Path) -> None:
     drive = workshop / "data" / "robot_a.safetensors"
     assert "both" in run("experiments", "--train", drive, status=1).output
+
+
+def test_ablations_compare_and_go_on(
+    workshop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("cli.sources.TOWN_SCANS", 14)
+    a, b = (workshop / "data" / f"robot_{name}.safetensors" for name in "ab")
+    words = ("ablations", "--train", a, "--train", "town:5", "--test", b, "--part", "data")
+    shape = ("--epochs", 1, "--seeds", 1, "--output", tmp_path)
+    run(*words, *shape)
+    report = json.loads((tmp_path / "ablations.json").read_text())
+    assert [row["name"] for row in report["rows"]] == ["seed-0", "without-towns"]
+    assert all(0 < row["top1"] <= 1 for row in report["rows"])
+    assert "wide int8" in report["throughput"]
+    text = (tmp_path / "ablations.md").read_text()
+    assert "--train=town:5" in text
+    assert str(tmp_path) not in text
+    history = tmp_path / "runs" / "model-seed-0" / "history.json"
+    before = history.stat().st_mtime_ns
+    run(*words, *shape)
+    assert history.stat().st_mtime_ns == before
+    assert "augmentation" in run(*words, *shape, "--part", "luck", status=1).output
+
+
+def test_config_tells_every_setting_and_its_source(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "own.toml"
+    file.write_text("port = 9000\n[limits]\nk = 50\n")
+    monkeypatch.setenv("PLACECELL_CONFIG", str(file))
+    monkeypatch.setenv("PLACECELL_LIMITS__DEADLINE", "3")
+    lines = {
+        cells[1].strip(): [cell.strip() for cell in cells[2:4]]
+        for line in run("config").output.splitlines()
+        if len(cells := line.split("│")) > 4 and cells[1].strip()
+    }
+    assert lines["PLACECELL_PORT"][0] == "9000"
+    assert lines["PLACECELL_PORT"][1] != "default"
+    assert lines["PLACECELL_LIMITS__K"][0] == "50"
+    assert lines["PLACECELL_LIMITS__DEADLINE"] == ["3.0", "environment"]
+    assert lines["PLACECELL_WORKERS"] == ["2", "default"]
+    file.write_text("prot = 9000\n")
+    assert "prot" in run("config", status=1).output
+    monkeypatch.setenv("PLACECELL_CONFIG", str(tmp_path / "absent.toml"))
+    assert "no file" in run("config", status=1).output

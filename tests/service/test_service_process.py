@@ -5,6 +5,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -43,7 +44,7 @@ def running(
     assert process.stdout is not None
     try:
         line = process.stdout.readline()
-        assert "listens on http://127.0.0.1:" in line
+        assert "listens on http://" in line
         yield process, line.split("listens on ")[1].split()[0]
     finally:
         process.kill()
@@ -222,3 +223,56 @@ def test_settings_come_from_the_environment(
     assert done.returncode == 1
     assert "limits.k" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        for head in ("what is this\n\n", "GET /livez HTTP/1.1\nbad header\n\n", "\x00\x01\n\n"):
+            status, answer = raw_request(address, head)
+            assert status == 400
+            assert PROBLEM in answer
+            assert "invalid-http" in answer
+        huge = "GET /livez HTTP/1.1\nHost: x\nX-Huge: " + "a" * 200_000 + "\n\n"
+        status, answer = raw_request(address, huge)
+        assert status == 431
+        assert PROBLEM in answer
+        assert httpx.get(f"{address}/livez").status_code == 200
+
+
+def test_sigterm_drains(models_dir: Path, data_dir: Path) -> None:
+    """First it is not ready, but answers; what is in flight is answered; then it ends."""
+    body = b'{"model_id": "m", "codes": [[1]]}'
+    head = f"POST /match HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n\r\n".encode()
+    with running(models_dir, data_dir) as (process, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=60) as connection:
+            connection.sendall(head + body[:5])
+            assert httpx.get(f"{address}/readyz").status_code == 200
+            process.send_signal(signal.SIGTERM)
+            deadline = time.monotonic() + 30
+            while (status := httpx.get(f"{address}/readyz").status_code) == 200:
+                assert time.monotonic() < deadline
+            assert status == 503
+            assert httpx.get(f"{address}/livez").status_code == 200
+            while True:
+                try:
+                    httpx.get(f"{address}/livez")
+                except httpx.TransportError:
+                    break
+                assert time.monotonic() < deadline
+            connection.sendall(body[5:])
+            answer = connection.recv(65536)
+            # The codes are of no model that is loaded: an answer all the same.
+            assert answer.startswith(b"HTTP/1.1 409")
+        assert process.wait(30) in (0, -signal.SIGTERM)
+
+
+def test_a_service_with_keys_may_listen_to_all(
+    models_dir: Path, data_dir: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "keys.toml"
+    file.write_text("[a]\nsha256 = '" + "0" * 64 + "'\n")
+    with running(models_dir, data_dir, "--host", "0.0.0.0", "--keys-file", str(file)) as (_, shown):
+        port = shown.rpartition(":")[2]
+        assert httpx.get(f"http://127.0.0.1:{port}/livez").status_code == 200
+        assert httpx.get(f"http://127.0.0.1:{port}/maps").status_code == 401
