@@ -1,6 +1,9 @@
 """`placecell keys`: make a key for a robot or a person."""
 
 import json
+import os
+import tempfile
+import tomllib
 from pathlib import Path
 from typing import Annotated
 
@@ -37,17 +40,34 @@ def keys(
         secret, digest = new_key()
         key = Key(sha256=digest, write=write, admin=admin, maps=tuple(maps or ["*"]), robot=robot)
         section = _section(name, key.model_dump(exclude_none=True))
-        whole = (file.read_text().rstrip() + "\n\n" if known else "") + section
-        unfinished = file.with_name(file.name + ".unfinished")
-        unfinished.touch(mode=0o600)
-        unfinished.write_text(whole)
-        unfinished.replace(file)
+        before = file.read_text().rstrip() + "\n\n" if file.exists() else ""
+        replace(file.resolve(), before + section)
     typer.echo(secret)
     typer.echo(f"Shown this once; {file} keeps its hash. A robot sends it as", err=True)
     typer.echo("    Authorization: Bearer KEY", err=True)
 
 
+def replace(file: Path, content: str) -> None:
+    """Write the whole file, or nothing; as open as it was, and a new one to its owner alone.
+
+    Raises:
+        ValueError: the name cannot stand in it.
+    """
+    from service.keys import KEYS
+
+    try:
+        KEYS.validate_python(tomllib.loads(content))
+    except ValueError as error:
+        raise ValueError(f"{file}: would be no file of keys any more ({error!s:.100})") from error
+    mode = file.stat().st_mode & 0o777 if file.exists() else 0o600
+    descriptor, unfinished = tempfile.mkstemp(".unfinished", ".", file.parent)
+    with os.fdopen(descriptor, "w") as written:
+        written.write(content)
+        os.fchmod(written.fileno(), mode)
+    Path(unfinished).replace(file)
+
+
 def _section(name: str, facts: dict[str, object]) -> str:
     """TOML of a key; JSON's strings, booleans and lists are TOML's too."""
-    lines = [f"{key} = {json.dumps(value)}" for key, value in facts.items()]
-    return "\n".join([f"[{json.dumps(name)}]", *lines]) + "\n"
+    lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in facts.items()]
+    return "\n".join([f"[{json.dumps(name, ensure_ascii=False)}]", *lines]) + "\n"

@@ -1,6 +1,7 @@
 """`placecell serve`: run the service."""
 
 import ipaddress
+import os
 import socket
 from pathlib import Path
 from typing import Annotated, Any
@@ -43,6 +44,8 @@ def serve(
     from placecell.toml or the file that PLACECELL_CONFIG names, or is the default: 'placecell
     config' shows all. SIGTERM drains: /readyz fails first, and requests at work are answered.
     """
+    # Requests are searched side by side; threads within a search would be in each other's way.
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
     from service import logs
     from service.app import create_app, version
     from service.server import Server
@@ -81,8 +84,9 @@ def _listening_socket(host: str, port: int, open_to_all: bool) -> socket.socket:
     """A socket that listens; what connects now waits until the service is ready."""
     try:
         family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-    except OSError as error:
-        raise _refusal(f"host {host!r}: {error.strerror}") from error
+    except (OSError, UnicodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else "no name of a host"
+        raise _refusal(f"host {host!r}: {why}") from error
     if not ipaddress.ip_address(address[0]).is_loopback and not open_to_all:
         raise _refusal(
             f"host {host!r} can be reached from other machines, and the service has no keys: "

@@ -1,17 +1,26 @@
 """An account of every request: its id, its times, who sent it, in headers, metrics and the log."""
 
+import asyncio
 import logging
 import re
 import secrets
 from time import perf_counter
 
+import anyio
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.problems import Problem, unexpected
 from service.timing import Timing
 
 logger = logging.getLogger("placecell.requests")
 audit = logging.getLogger("placecell.audit")
+
+METHODS = {"GET", "HEAD", "OPTIONS", "PUT", "POST", "DELETE", "PATCH"}
+"""Told by name; others are made up by clients, without end."""
+
+SEND_SECONDS = 300.0
+"""That a client may take to read an answer."""
 
 ID_PATTERN = re.compile(r"[A-Za-z0-9._-]{1,64}")
 """Of a request's id that a client may choose: nothing that could forge a line of the log."""
@@ -31,7 +40,8 @@ class Account:
         given = dict(scope["headers"]).get(b"x-request-id", b"").decode("latin-1")
         request_id = given if ID_PATTERN.fullmatch(given) else secrets.token_hex(8)
         timing = Timing()
-        facts = scope.setdefault("state", {})
+        # The server's own dictionary is that of all requests.
+        facts = scope["state"] = dict(scope.get("state", {}))
         facts |= {"timing": timing, "request_id": request_id}
         status = 0
 
@@ -41,13 +51,28 @@ class Account:
                 status = message["status"]
                 headers = MutableHeaders(scope=message)
                 headers["X-Request-Id"] = request_id
-                headers["Placecell-Model"] = scope["app"].state.placecell.model_id
+                default = scope["app"].state.placecell.model_id
+                headers["Placecell-Model"] = facts.get("model_id", default)
                 if times := timing.header():
                     headers["Server-Timing"] = times
-            await send(message)
+            with anyio.fail_after(SEND_SECONDS):
+                await send(message)
 
         try:
             await self._app(scope, receive, noted)
+        except asyncio.CancelledError:
+            # The server stops, and no longer waits for this request.
+            if status:
+                raise
+            stopping = Problem(
+                503, "stopping", "The service stops.", headers={"Connection": "close"}
+            )
+            await stopping.response(scope, receive, noted)
+        except Exception:
+            logger.exception("failed at %s", scope["path"])
+            if status:
+                raise
+            await unexpected().response(scope, receive, noted)
         finally:
             self._note(scope, status, timing)
 
@@ -55,12 +80,13 @@ class Account:
         metrics = scope["app"].state.placecell.metrics
         seconds = perf_counter() - timing.started
         route = getattr(scope.get("route"), "path", "none")
-        metrics.requests.labels(route, scope["method"], status).inc()
+        method = scope["method"] if scope["method"] in METHODS else "other"
+        metrics.requests.labels(route, method, status).inc()
         metrics.seconds.labels(route).observe(seconds)
         metrics.observe(timing)
         logger.info(
             "%s %s %s",
-            scope["method"],
+            method,
             route,
             status,
             extra={

@@ -40,7 +40,13 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
             app.state.placecell = opened
             yield
 
-    app = FastAPI(title="Placecell", version=version(), description=DESCRIPTION, lifespan=lifespan)
+    app = FastAPI(
+        title="Placecell",
+        version=version(),
+        description=DESCRIPTION,
+        lifespan=lifespan,
+        redirect_slashes=False,  # they would lead to whatever host the request names
+    )
     app.add_middleware(BodyLimit, limits=settings.limits)
     app.add_middleware(Account)
     problems.install(app)

@@ -34,12 +34,13 @@ class Body:
 
 
 async def read_body(
-    request: Request, media_types: Collection[str], limits: Limits, most: int | None = None
+    request: Request, media_types: Collection[str], seconds: float, most: int
 ) -> Body:
     """The body, if it is of one of these types; a request that names none is taken at its word.
 
     Args:
-        most: bytes that a compressed body may hold; those of a request unless said.
+        seconds: in which it must have come.
+        most: bytes that a compressed body may hold.
 
     Raises:
         Problem: 415 for another type or coding, 413 for too much, 408 if it does not come.
@@ -61,18 +62,17 @@ async def read_body(
             headers={"Accept-Encoding": ", ".join(CODINGS)},
         )
     try:
-        with anyio.fail_after(limits.body_seconds):
+        with anyio.fail_after(seconds):
             content = await request.body()
     except TimeoutError as error:
         raise Problem(
             408,
             "slow-body",
-            f"The body did not come within {limits.body_seconds:g} s.",
+            f"The body did not come within {seconds:g} s.",
             headers={"Connection": "close"},
         ) from error
     if coding != "identity":
-        limit = most or limits.body_bytes
-        content = await anyio.to_thread.run_sync(decompress, content, coding, limit)
+        content = await anyio.to_thread.run_sync(decompress, content, coding, most)
     return Body(stated, content)
 
 
@@ -142,7 +142,8 @@ def _count(body: bytes, limits: Limits) -> None:
     """
     limit = 4 * limits.points + 1_000 * limits.segments
     values = body.count(b",") + body.count(b"[") + body.count(b"{")
-    if values > limit:
+    # Two keys a segment, and those of the request: each that is unknown would be an error to tell.
+    if values > limit or body.count(b":") > 4 * limits.segments + 1_000:
         raise Problem(
             413,
             "too-many-values",

@@ -137,8 +137,10 @@ class Describer:
             sensors[usable] - origin,
         )
         timing.lap("decode")
+        inputs = self._extractor.prepare(near, lap=timing.lap)
+        timing.lap("voxelise")  # what is left of the steps before the network
         return Prepared(
-            inputs=self._extractor.prepare(near, lap=timing.lap),
+            inputs=inputs,
             usable=np.array(usable),
             centroids=near.centroids() + origin,
             failures=failures,

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from placecell_client import CompactMap
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from service.problems import Problem
@@ -38,7 +39,7 @@ class Key(BaseModel):
     write: bool = Field(default=False, description="May change maps.")
     admin: bool = Field(default=False, description="May reload models.")
     maps: tuple[str, ...] = Field(default=("*",), description="Names of maps, with * and ?.")
-    robot: str | None = Field(default=None, description="May upload this robot's segments alone.")
+    robot: str | None = Field(default=None, description="May write this robot's segments alone.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +64,11 @@ class Holder:
         if not self.key.write:
             raise Problem(403, "forbidden", "This key reads, but does not write.")
 
-    def check_robots(self, robots: tuple[str, ...]) -> None:
-        """See that the key may upload these robots' segments; 403 if not."""
+    def check_content(self, content: CompactMap) -> None:
+        """See that the key may store, replace or remove these robots' segments; 403 if not."""
         own = self.key.robot
-        if own is not None and set(robots) - {own}:
-            raise Problem(403, "forbidden", f"This key uploads segments of {own!r:.80} alone.")
+        if own is not None and set(content.robots) - {own}:
+            raise Problem(403, "forbidden", f"This key writes segments of {own!r:.80} alone.")
 
     def check_admin(self) -> None:
         """See that the key may change what the service runs; 403 if not."""
@@ -126,11 +127,11 @@ class Keys:
         mark = _mark(self._file)
         if mark == self._mark or self._file is None:
             return
-        self._mark = mark
         try:
             self._holders = read_keys(self._file)
         except ValueError as error:
             logger.error("the keys stay as they were: %s", error)
+        self._mark = mark
 
 
 def read_keys(file: Path) -> list[Holder]:
@@ -158,10 +159,12 @@ def new_key() -> tuple[str, str]:
     return key, hashlib.sha256(key.encode()).hexdigest()
 
 
-def _mark(file: Path | None) -> tuple[int, int] | None:
+def _mark(file: Path | None) -> tuple[int, ...] | None:
     """Changes when the file does."""
     try:
         status = file.stat() if file else None
     except OSError:
         return None
-    return (status.st_mtime_ns, status.st_ino) if status else None
+    if status is None:
+        return None
+    return status.st_mtime_ns, status.st_ctime_ns, status.st_ino, status.st_size

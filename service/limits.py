@@ -6,8 +6,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service.problems import Problem
 from service.settings import Limits
 
-DISCARDED_BYTES = 256 << 20
-DISCARDED_SECONDS = 10.0
+PATIENCE = (256 << 20, 5.0)
+"""Bytes and seconds of a body that is too large, until the client may be cut off."""
 
 
 class BodyLimit:
@@ -23,20 +23,14 @@ class BodyLimit:
             await self._app(scope, receive, send)
             return
         limit = self._limit(scope)
-        problem = Problem(
-            413,
-            "body-too-large",
-            f"The body is larger than {limit} bytes, the limit; see /info.",
-            # What is left of the body would be read as the next request.
-            headers={"Connection": "close"},
-        )
         headers = dict(scope["headers"])
         stated = headers.get(b"content-length", b"")
         if stated.isdigit() and int(stated) > limit:
             # A client that expects a 100 waits for the answer before it sends.
             if b"expect" not in headers:
-                await _discard(receive)
-            await problem.response(scope, receive, send)
+                await discard(receive, *PATIENCE)
+            scope["app"].state.placecell.metrics.rejected.labels("body-too-large").inc()
+            await _too_large(limit).response(scope, receive, send)
             return
         received = 0
 
@@ -47,8 +41,8 @@ class BodyLimit:
                 received += len(message.get("body", b""))
                 if received > limit:
                     if message.get("more_body", False):
-                        await _discard(receive)
-                    raise problem
+                        await discard(receive, *PATIENCE)
+                    raise _too_large(limit)
             return message
 
         await self._app(scope, counted, send)
@@ -59,15 +53,26 @@ class BodyLimit:
         return self._limits.body_bytes
 
 
-async def _discard(receive: Receive) -> None:
-    """Take what is left of a body, within reason.
+def _too_large(limit: int) -> Problem:
+    return Problem(
+        413,
+        "body-too-large",
+        f"The body is larger than {limit} bytes, the limit; see /info.",
+        # What is left of the body would be read as the next request.
+        headers={"Connection": "close"},
+    )
+
+
+async def discard(receive: Receive, most: int = 4 << 20, seconds: float = 0.5) -> bool:
+    """Take what is left of a body, within reason; whether that was all.
 
     A connection closed on a client that still sends is reset, and the client may never read why.
     """
     discarded = 0
-    with anyio.move_on_after(DISCARDED_SECONDS):
-        while discarded < DISCARDED_BYTES:
+    with anyio.move_on_after(seconds):
+        while discarded < most:
             message = await receive()
             discarded += len(message.get("body", b""))
             if not message.get("more_body", False):
-                return
+                return True
+    return False

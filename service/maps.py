@@ -98,7 +98,8 @@ class Maps:
         """Store a map; on return it is safely on disk. The same file again changes nothing.
 
         Args:
-            check: raises if whoever sends the map may not.
+            check: raises if whoever sends the map may not store such a one, or replace what is
+                there.
 
         Returns:
             The map, and whether the name is new.
@@ -112,7 +113,10 @@ class Maps:
             content = decode(data)
         except MapFileError as error:
             raise Problem(422, "invalid-map-file", f"Not a whole map file: {error}.") from error
-        manifest = self._models.named(content.model_id).manifest
+        model = self._models.find(content.model_id)
+        if model is None:
+            raise self._models.unknown(content.model_id)
+        manifest = model.manifest
         if content.code_bytes != manifest.code_bytes:
             raise Problem(
                 422,
@@ -130,19 +134,31 @@ class Maps:
         check(content)
         stored = self._stored(name, data, content)
         with self._writing:
-            is_new = name not in self._by_name
+            old = self._by_name.get(name)
+            is_new = old is None
+            if old is not None:
+                check(old.content)
             self._store.write(name, data)
             # A new dictionary, so that a reader in the midst of the old one is not disturbed.
             self._by_name = self._by_name | {name: stored}
         return stored, is_new
 
-    def delete(self, name: str) -> None:
-        """Remove a map; on return it is gone from the disk. 404 if there is none."""
+    def delete(self, name: str, check: Callable[[CompactMap], None] = lambda _: None) -> int:
+        """Remove a map; on return it is gone from the disk. 404 if there is none.
+
+        Args:
+            check: raises if whoever asks may not remove such a map.
+
+        Returns:
+            How many segments it had.
+        """
         with self._writing:
-            self.get(name)
+            old = self.get(name)
+            check(old.content)
             with suppress(KeyError):  # someone removed the file by hand; so it is gone
                 self._store.delete(name)
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+        return len(old.content)
 
     def _intact(self, stored: StoredMap) -> bytes | None:
         """The map's file, or None if the disk no longer holds what was put."""

@@ -1,6 +1,7 @@
 """From queries to candidates in one map, some, or all."""
 
 from dataclasses import dataclass
+from heapq import nsmallest
 
 import numpy as np
 
@@ -91,15 +92,16 @@ def candidates_of(
                 (distance, place, row)
                 for distance, row in zip(query_distances, query_rows, strict=True)
             )
-    nearest = [sorted(hits)[:k] for hits in found]
-    probabilities = iter(_probabilities(codes, model, searched, nearest))
+            # Never more than of two maps at once, however many there are.
+            hits[:] = nsmallest(k, hits)
+    probabilities = iter(_probabilities(codes, model, searched, found))
     step = model.manifest.quantiser.step
     return [
         [
             _candidate(searched[place], row, distance * step, next(probabilities))
             for distance, place, row in hits
         ]
-        for hits in nearest
+        for hits in found
     ]
 
 
@@ -137,7 +139,8 @@ def _candidate(
 ) -> CandidateOut:
     content = stored.content
     x, y, z = content.centroids[row].tolist()
-    return CandidateOut(
+    # Not validated: the values are our own, and there are hundreds a request.
+    return CandidateOut.model_construct(
         map=stored.name,
         id=int(content.ids[row]),
         robot=content.robots[content.robot[row]],

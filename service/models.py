@@ -4,6 +4,7 @@ import logging
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Lock
 
 from segments.extractor import load_extractor
 from segments.manifest import FILE, Manifest, ModelError
@@ -50,13 +51,14 @@ class Models:
         """
         self._settings = settings
         self._metrics = metrics
+        self._loading = Lock()
         self._by_id: dict[str, Model] = {}
         self.default = self.reload()
 
     def all(self) -> list[Model]:
         """The default first."""
-        others = [model for model in self._by_id.values() if model is not self.default]
-        return [self.default, *others]
+        default = self.default
+        return [default, *(model for model in self._by_id.values() if model is not default)]
 
     def find(self, model_id: str) -> Model | None:
         """The model of this id, if it is loaded."""
@@ -73,9 +75,15 @@ class Models:
         for model in self.all():
             if wanted in {model.id, model.manifest.name}:
                 return model
-        loaded = ", ".join(model.id for model in self.all())
-        raise Problem(
-            409, "other-model", f"Model {wanted!r:.100} is not loaded; there is {loaded}."
+        raise self.unknown(wanted)
+
+    def unknown(self, wanted: str) -> Problem:
+        """The problem of a model that is not loaded."""
+        return Problem(
+            409,
+            "other-model",
+            f"Model {wanted!r:.100} is not loaded; the default is {self.default.id}, /info "
+            "shows all.",
         )
 
     def reload(self) -> Model:
@@ -90,12 +98,13 @@ class Models:
             ModelError: a model cannot be used; those that were loaded go on.
         """
         settings = self._settings
-        default = self._load(settings.models_dir / settings.model)
-        others = [self._load(settings.models_dir / name) for name in settings.also]
-        # A new dictionary, so that a reader in the midst of the old one is not disturbed.
-        self._by_id = self._by_id | {model.id: model for model in [default, *others]}
-        self.default = default
-        self._tell()
+        with self._loading:
+            default = self._load(settings.models_dir / settings.model)
+            others = [self._load(settings.models_dir / name) for name in settings.also]
+            # A new dictionary, so that a reader in the midst of the old one is not disturbed.
+            self._by_id = self._by_id | {model.id: model for model in [default, *others]}
+            self.default = default
+            self._tell()
         return default
 
     def want(self, model_ids: Iterable[str]) -> None:
@@ -103,15 +112,16 @@ class Models:
 
         A model that cannot be loaded is left out, with a line in the log: its maps stay stored.
         """
-        missing = set(model_ids) - set(self._by_id)
-        for file in sorted(self._settings.models_dir.glob(f"*/{FILE}")) if missing else ():
-            try:
-                if Manifest.load(file.parent).model_id in missing:
-                    model = self._load(file.parent)
-                    self._by_id = self._by_id | {model.id: model}
-            except ModelError as error:
-                logger.warning("model left out: %s", error)
-        self._tell()
+        with self._loading:
+            missing = set(model_ids) - set(self._by_id)
+            for file in sorted(self._settings.models_dir.glob(f"*/{FILE}")) if missing else ():
+                try:
+                    if Manifest.load(file.parent).model_id in missing:
+                        model = self._load(file.parent)
+                        self._by_id = self._by_id | {model.id: model}
+                except ModelError as error:
+                    logger.warning("model left out: %s", error)
+            self._tell()
 
     def _load(self, folder: Path) -> Model:
         known = self._by_id.get(Manifest.load(folder).model_id)

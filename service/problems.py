@@ -94,12 +94,17 @@ def title_of(kind: str) -> str:
 
 def invalid(error: ValidationError | RequestValidationError) -> Problem:
     """The problem of a request that does not fit its schema; 400 if it is not even JSON."""
+    found = (
+        error.errors(include_url=False, include_context=False, include_input=False)
+        if isinstance(error, ValidationError)
+        else error.errors()
+    )
     errors = [
         ProblemError(pointer=_pointer(item["loc"]), detail=_plain(str(item["msg"])))
-        for item in error.errors()[:SHOWN_ERRORS]
+        for item in found[:SHOWN_ERRORS]
     ]
     first = errors[0]
-    if any(item["type"] == "json_invalid" for item in error.errors()):
+    if any(item["type"] == "json_invalid" for item in found[:SHOWN_ERRORS]):
         return Problem(400, "not-json", f"The body is not JSON: {first.detail}.")
     where = first.pointer or "The body"
     return Problem(422, "invalid-request", f"{where}: {first.detail}.", errors)
@@ -144,15 +149,11 @@ def install(app: FastAPI) -> None:
         logger.error("failed on disk", exc_info=error)
         if error.errno in {errno.ENOSPC, errno.EDQUOT}:
             return Problem(507, "disk-full", "The disk is full; nothing was changed.").response
-        return _unexpected().response
-
-    @app.exception_handler(Exception)
-    async def _(_: Request, __: Exception) -> JSONResponse:
-        # The server logs the exception with its trace; the client gets neither.
-        return _unexpected().response
+        return unexpected().response
 
 
-def _unexpected() -> Problem:
+def unexpected() -> Problem:
+    """A fault of the service itself: the log has its trace, the client gets none of it."""
     return Problem(500, "internal-error", "The service failed; its log says why.")
 
 

@@ -63,10 +63,26 @@ class Limits(BaseModel):
     deadline: float = Field(
         default=10.0,
         gt=0,
+        allow_inf_nan=False,
         description="Seconds that a request may take; it may ask for fewer (Placecell-Timeout).",
     )
     body_seconds: float = Field(
-        default=20.0, gt=0, description="Seconds in which a request's body must have come."
+        default=8.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds in which the body of such a request must have come.",
+    )
+    uploads: int = Field(
+        default=4, ge=1, description="Maps that are uploaded at once; the others get a 429."
+    )
+    upload_seconds: float = Field(
+        default=120.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds in which a map must have come and been stored.",
+    )
+    connections: int = Field(
+        default=1_000, ge=1, description="Open at once; further ones are closed."
     )
 
 

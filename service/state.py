@@ -38,6 +38,7 @@ class State:
         maps: stored and searchable.
         keys: who may do what.
         desk: takes in requests for recognition.
+        uploads: takes in maps.
         turns: limits how many requests are computed at once.
         draining: the service is about to stop; it is no longer ready.
     """
@@ -48,6 +49,7 @@ class State:
     maps: Maps
     keys: Keys
     desk: Desk
+    uploads: Desk
     turns: anyio.CapacityLimiter
     draining: bool = False
 
@@ -89,6 +91,7 @@ def open_state(settings: Settings) -> Iterator[State]:
             raise StartError(f"data directory {error}") from error
         except OSError as error:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
+        limits, gauge = settings.limits, metrics.queue_requests
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each.content) for each in maps.all()))
         yield State(
@@ -97,26 +100,32 @@ def open_state(settings: Settings) -> Iterator[State]:
             models=models,
             maps=maps,
             keys=keys,
-            desk=Desk(settings.limits, metrics),
+            desk=Desk(
+                limits.requests, limits.deadline, limits.body_seconds, limits.body_bytes, gauge
+            ),
+            uploads=Desk(
+                limits.uploads, limits.upload_seconds, limits.upload_seconds, limits.map_bytes
+            ),
             turns=anyio.CapacityLimiter(settings.workers),
         )
 
 
-def state_of(request: Request) -> State:
+async def state_of(request: Request) -> State:
     """The state of the application that a request came to."""
     state = request.app.state.placecell
     assert isinstance(state, State)
     return state
 
 
-def holder_of(request: Request) -> Holder:
+async def holder_of(request: Request) -> Holder:
     """Who sent the request; 401 if their key is not known."""
-    holder = state_of(request).keys.holder(request.headers.get("authorization"))
+    state = await state_of(request)
+    holder = state.keys.holder(request.headers.get("authorization"))
     request.scope["state"]["key"] = holder.name
     return holder
 
 
-def timing_of(request: Request) -> Timing:
+async def timing_of(request: Request) -> Timing:
     """The request's stopwatch."""
     timing = request.scope["state"]["timing"]
     assert isinstance(timing, Timing)

@@ -34,18 +34,21 @@ async def describe(
     answer = answer_type(request)
     async with state.desk.admit(request, ENCODINGS, timing) as body:
         model, prepared = await state.compute(_read, state, body, timing)
+        request.state.model_id = model.id
         described = await model.describer.describe(prepared, timing)
         content = await state.compute(_written, model, described, answer, timing)
     return Response(content, media_type=answer)
 
 
 def _read(state: State, body: Body, timing: Timing) -> tuple[Model, Prepared]:
+    timing.lap("queue")
     request = parse(DescribeRequest, PackedDescribeRequest, body, state.settings.limits)
     model = state.models.named(request.model)
     return model, model.describer.prepare(Scan.of(request.segments, request.origin), timing)
 
 
 def _written(model: Model, described: Described, answer: str, timing: Timing) -> bytes:
+    timing.lap("queue")
     response = _packed if answer == MSGPACK else _listed
     content = render(response(model, described), answer)
     timing.lap("encode")

@@ -1,14 +1,14 @@
 """`/maps`: the maps that robots put, get and remove."""
 
 import re
+from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Header, Path, Request, Response
 from fastapi.responses import JSONResponse
-from placecell_client.map_file import MEDIA_TYPE, CompactMap
+from placecell_client.map_file import MEDIA_TYPE
 
 from service.account import audit
-from service.bodies import read_body
 from service.keys import Holder
 from service.map_store import NAME_PATTERN
 from service.maps import StoredMap
@@ -24,7 +24,7 @@ router = APIRouter(tags=["maps"])
 NAME_RULE = "1 to 64 letters, digits, dots, dashes, underscores; a letter or digit first"
 
 
-def checked_name(
+async def checked_name(
     name: Annotated[
         str,
         Path(
@@ -66,7 +66,7 @@ async def list_maps(state: StateOf, holder: HolderOf) -> MapsResponse:
     "/maps/{map}",
     summary="Store a map",
     response_model=MapOut,
-    responses=_NEW_RESPONSE | documented(400, 401, 403, 408, 409, 413, 415, 422, 507),
+    responses=_NEW_RESPONSE | documented(400, 401, 403, 408, 409, 413, 415, 422, 429, 504, 507),
     openapi_extra=file_body(MEDIA_TYPE, OCTETS),
 )
 async def put_map(
@@ -78,14 +78,9 @@ async def put_map(
     nothing.
     """
     holder.check_write(name)
-    limits = state.settings.limits
-    body = await read_body(request, {MEDIA_TYPE, OCTETS}, limits, limits.map_bytes)
-    timing.lap("receive")
-
-    def check(content: CompactMap) -> None:
-        holder.check_robots(content.robots)
-
-    stored, is_new = await state.compute(state.maps.put, name, body.content, check)
+    async with state.uploads.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
+        put = partial(state.maps.put, name, body.content, holder.check_content)
+        stored, is_new = await state.compute(put)
     timing.lap("commit")
     _tell(request, state, holder, "put", name, len(stored.content))
     return JSONResponse(
@@ -127,8 +122,7 @@ async def delete_map(
 ) -> None:
     """When the answer comes, it is gone from the disk."""
     holder.check_write(name)
-    segments = len(state.maps.get(name).content)
-    await state.compute(state.maps.delete, name)
+    segments = await state.compute(state.maps.delete, name, holder.check_content)
     timing.lap("commit")
     _tell(request, state, holder, "delete", name, segments)
 

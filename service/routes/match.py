@@ -68,6 +68,7 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
     answer = answer_type(request)
     async with state.desk.admit(request, ENCODINGS, timing) as body:
         asked = await state.compute(_read, state, holder, body, timing)
+        request.state.model_id = asked.model_id
         queries = []
         for (model, _), prepared in zip(asked.scope.searched, asked.prepared, strict=False):
             described = await model.describer.describe(prepared, timing)
@@ -77,6 +78,7 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
 
 
 def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Asked:
+    timing.lap("queue")
     query = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
     limit = state.settings.limits.k
     if query.k > limit:
@@ -89,15 +91,16 @@ def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Asked:
         assert codes is not None
         timing.lap("decode")
         return Asked(own.id, scope, query.k, (codes, tuple(range(len(codes)))), [])
-    scan = Scan.of(query.segments, query.origin)
+    scan, default = Scan.of(query.segments, query.origin), state.models.default
     if not scope.searched:
         # Nobody will look; but what is wrong with the segments is told all the same.
-        scope = Scope(((state.models.default, ()),), scope.skipped)
+        scope = Scope(((default, ()),), scope.skipped)
     prepared = [model.describer.prepare(scan, timing) for model, _ in scope.searched]
-    return Asked(state.model_id, scope, query.k, None, prepared)
+    return Asked(default.id, scope, query.k, None, prepared)
 
 
 def _search(asked: Asked, queries: list[tuple[Int8, Rows]], answer: str, timing: Timing) -> bytes:
+    timing.lap("queue")
     if asked.codes is not None:
         queries = [asked.codes] * len(asked.scope.searched)
     found = [

@@ -1,6 +1,7 @@
 """Overload, deadlines, clients that go, slow bodies; and what is told about each request."""
 
 import asyncio
+import json
 import threading
 import time
 from collections.abc import Iterator
@@ -99,7 +100,6 @@ def test_work_for_a_client_that_is_gone_is_dropped(
         return original(self, inputs)
 
     monkeypatch.setattr(EigenvalueExtractor, "infer", counting)
-    import json
 
     async def call(app: Any, count: int, leave: bool) -> list[dict[str, Any]]:
         """A request to the application; the client goes once all was sent, or stays."""
@@ -163,7 +163,7 @@ def test_every_answer_tells_its_id_its_model_and_its_times(service: Any, manifes
     assert response.headers["x-request-id"] == "robot-7.42"
     assert response.headers["placecell-model"] == manifest.model_id
     stages = [part.split(";")[0] for part in response.headers["server-timing"].split(", ")]
-    assert stages == ["receive", "decode", "queue", "infer", "encode"]
+    assert stages == ["receive", "queue", "decode", "voxelise", "infer", "encode"]
     forged = service.get("/livez", headers={"X-Request-Id": "a b\tc"})
     assert forged.headers["x-request-id"] != "a b\tc"
     assert len(forged.headers["x-request-id"]) == 16
@@ -195,7 +195,7 @@ def test_metrics_tell_what_was_done(service: Any, manifest: Any) -> None:
 def test_a_body_that_does_not_come_is_given_up(models_dir: Any, data_dir: Any) -> None:
     settings = Settings.model_validate(
         {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny"}
-        | {"limits": {"body_seconds": 0.1}}
+        | {"limits": {"body_seconds": 0.1, "upload_seconds": 0.2}}
     )
 
     async def dripping() -> Any:
@@ -211,6 +211,89 @@ def test_a_body_that_does_not_come_is_given_up(models_dir: Any, data_dir: Any) -
                     response = await client.post("/describe", content=dripping())
                     assert_problem(response, 408, "slow-body", "0.1 s")
                     response = await client.put("/maps/yard", content=dripping())
-                    assert_problem(response, 408, "slow-body", "0.1 s")
+                    assert response.status_code in {408, 504}
+                    assert "0.2 s" in response.json()["detail"]
 
     asyncio.run(run())
+
+
+def test_clients_cannot_make_up_metrics(service: Any) -> None:
+    for n in range(5):
+        service.request(f"MADE{n}", "/livez")
+        service.get(f"/made-up-{n}")
+    text = service.get("/metrics").text
+    assert "MADE" not in text
+    assert "made-up" not in text
+    assert 'method="other"' in text
+    assert 'placecell_requests_total{method="GET",route="none",status="404"} 5.0' in text
+
+
+def test_a_fault_of_our_own_is_told_and_counted(service: Any, monkeypatch: Any) -> None:
+    def failing(*_: object) -> Any:
+        raise RuntimeError("a secret of the inside")
+
+    monkeypatch.setattr(EigenvalueExtractor, "infer", failing)
+    response = service.post("/describe", json=request_of([cloud(0)]))
+    assert_problem(response, 500, "internal-error")
+    assert response.headers["x-request-id"]
+    route = 'placecell_requests_total{method="POST",route="/describe",status="500"}'
+    assert value(service, route) == 1
+
+
+def test_unknown_keys_without_end_are_refused_before_they_are_read(service: Any) -> None:
+    body = b"{" + b",".join(b'"%x":0' % n for n in range(300_000)) + b"}"
+    assert_problem(service.post("/describe", content=body), 413, "too-many-values")
+
+
+def test_departed_clients_do_not_let_more_in_than_there_is_room(
+    models_dir: Any, data_dir: Any, monkeypatch: Any
+) -> None:
+    """A thread goes on after its client has gone; its place is free only when it is done."""
+    limits = {"requests": 4}
+    settings = Settings.model_validate(
+        {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny", "limits": limits}
+    )
+    inside, most = 0, 0
+    lock = threading.Lock()
+
+    def slow(*_: object, **__: object) -> Any:
+        nonlocal inside, most
+        with lock:
+            inside += 1
+            most = max(most, inside)
+        time.sleep(0.05)
+        with lock:
+            inside -= 1
+        raise RuntimeError
+
+    monkeypatch.setattr(EigenvalueExtractor, "prepare", slow)
+
+    async def leave(app: Any) -> None:
+        content = json.dumps(request_of([cloud(0)])).encode()
+        messages = [{"type": "http.request", "body": content, "more_body": False}]
+
+        async def receive() -> dict[str, Any]:
+            if messages:
+                return messages.pop(0)
+            await asyncio.sleep(0.01)
+            return {"type": "http.disconnect"}
+
+        async def send(message: Any) -> None:
+            del message
+
+        scope = {
+            "type": "http", "method": "POST", "path": "/describe", "raw_path": b"/describe",
+            "query_string": b"", "headers": [(b"content-type", b"application/json")],
+            "http_version": "1.1", "scheme": "http", "server": ("x", 80), "client": ("y", 1),
+            "root_path": "",
+        }  # fmt: skip
+        await app(scope, receive, send)
+
+    async def run() -> None:
+        with open_state(settings) as state:
+            app = create_app(settings, state)
+            async with app.router.lifespan_context(app):
+                await asyncio.gather(*[leave(app) for _ in range(20)])
+
+    asyncio.run(run())
+    assert most <= settings.workers

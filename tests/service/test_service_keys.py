@@ -101,6 +101,16 @@ def test_a_robot_s_key_uploads_its_own_segments_alone(
         refused = service.put("/maps/b", content=other, headers=key)
         assert_problem(refused, 403, "forbidden", "'ann' alone")
         assert service.get("/maps/b", headers=key).status_code == 404
+        # Nor does it replace or remove what another robot has stored.
+        anyone = made(file, "all", "--write")
+        assert service.put("/maps/bobs", content=other, headers=anyone).status_code == 201
+        empty = encode(map_of(random_codes(0), manifest.model_id, robot="ann"))
+        for data in (own, empty):
+            refused = service.put("/maps/bobs", content=data, headers=key)
+            assert_problem(refused, 403, "forbidden")
+        assert_problem(service.delete("/maps/bobs", headers=key), 403, "forbidden")
+        assert service.get("/maps/bobs", headers=anyone).content == other
+        assert service.delete("/maps/a", headers=key).status_code == 204
 
 
 def test_keys_are_taken_up_and_withdrawn_without_a_restart(start: Any, file: Path) -> None:
@@ -194,3 +204,33 @@ def test_keys_are_long_and_never_the_same() -> None:
     made_keys = {new_key()[0] for _ in range(100)}
     assert len(made_keys) == 100
     assert min(map(len, made_keys)) > 40
+
+
+@pytest.mark.parametrize("name", ["robot 😀", 'a "quoted" one', "with.dots", "back\\slash"])
+def test_any_name_leaves_a_file_that_can_be_read(file: Path, name: str) -> None:
+    file.write_text("# ours\n")
+    file.chmod(0o640)
+    made(file, name)
+    made(file, "another")
+    assert [holder.name for holder in read_keys(file)] == [name, "another"]
+    assert file.read_text().startswith("# ours\n")
+    assert file.stat().st_mode & 0o777 == 0o640
+    assert [path.name for path in file.parent.iterdir()] == ["keys.toml"]
+
+
+def test_a_name_that_cannot_stand_in_the_file_changes_nothing(file: Path) -> None:
+    made(file, "ann")
+    before = file.read_text()
+    done = CliRunner().invoke(app, ["keys", "a\x7fb", "--file", str(file)])
+    assert done.exit_code == 1
+    assert file.read_text() == before
+
+
+def test_a_key_s_rights_changed_in_place_are_noticed(start: Any, file: Path) -> None:
+    key = made(file, "owner", "--admin")
+    with start(keys_file=file) as service:
+        assert service.post("/models/reload", headers=key).status_code == 200
+        times = file.stat()
+        file.write_text(file.read_text().replace("admin = true", "admin = false"))
+        os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
+        assert_problem(service.post("/models/reload", headers=key), 403, "forbidden")

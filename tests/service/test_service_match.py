@@ -174,3 +174,16 @@ def test_maps_of_another_model_are_never_compared(
     with start(model="other") as service:
         response = service.post("/match", json=by_codes(codes, other_manifest, k=1)).json()
         assert response["searched"] == ["old"]
+
+
+def test_many_maps_give_the_nearest_of_all(service: Any, manifest: Manifest) -> None:
+    codes = random_codes(60, seed=3)
+    for number in range(6):
+        part = codes[10 * number : 10 * number + 10]
+        put(service, f"map-{number}", part, manifest, first_id=10 * number)
+    query = random_codes(4, seed=4)
+    found = service.post("/match", json=by_codes(query, manifest, k=7)).json()["queries"]
+    apart = ((query[:, None].astype(int) - codes[None].astype(int)) ** 2).sum(axis=2)
+    for row, answer in enumerate(found):
+        wanted = np.argsort(apart[row], kind="stable")[:7]
+        assert [each["id"] for each in answer["candidates"]] == wanted.tolist()

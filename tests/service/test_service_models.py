@@ -115,3 +115,16 @@ def test_a_broken_model_is_refused_and_the_old_one_goes_on(
         (onnx / "model.onnx").write_bytes((onnx / "model.onnx").read_bytes()[:-7])
         assert_problem(service.post("/models/reload"), 409, "broken-model", "SHA-256")
         assert service.post("/describe", json=request_of([cloud(0)])).status_code == 200
+
+
+def test_an_answer_names_the_model_that_made_it(start: Any, other_manifest: Manifest) -> None:
+    with start(also=["other"]) as service:
+        response = service.post("/describe", json=request_of([cloud(0)]) | {"model": "other"})
+        assert response.headers["placecell-model"] == other_manifest.model_id
+        assert response.json()["model_id"] == other_manifest.model_id
+
+
+def test_a_map_names_its_model_by_id(service: Any, manifest: Manifest) -> None:
+    data = encode(map_of(random_codes(3), manifest.name))
+    assert_problem(service.put("/maps/yard", content=data), 409, "other-model")
+    assert service.get("/maps/yard").status_code == 404

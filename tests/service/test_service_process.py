@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +19,15 @@ from placecell_client import Client, MapFileError, ServiceError, encode
 from segments.manifest import Manifest
 from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
 
+PROGRAM = "import service.server; service.server.HEAD_SECONDS = 2; from cli import app; app()"
+"""`placecell`, but less patient."""
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def command(models_dir: Path, data_dir: Path, *more: str) -> list[str]:
     return [
-        sys.executable, "-m", "cli", "serve", "--model", "tiny", "--port", "0",
+        sys.executable, "-c", PROGRAM, "serve", "--model", "tiny", "--port", "0",
         "--models-dir", str(models_dir), "--data-dir", str(data_dir), *more,
     ]  # fmt: skip
 
@@ -276,3 +279,55 @@ def test_a_service_with_keys_may_listen_to_all(
         port = shown.rpartition(":")[2]
         assert httpx.get(f"http://127.0.0.1:{port}/livez").status_code == 200
         assert httpx.get(f"http://127.0.0.1:{port}/maps").status_code == 401
+
+
+def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        host, port = address.removeprefix("http://").split(":")
+        heads = (b"", b"GET /livez HT", b"POST /describe HTTP/1.1\r\nHost: x\r\n")
+        connections = [socket.create_connection((host, int(port)), timeout=30) for _ in heads]
+        for connection, head in zip(connections, heads, strict=True):
+            connection.sendall(head)
+        for connection in connections:
+            with connection, suppress(ConnectionResetError):
+                assert connection.recv(1000) == b""
+        # Refused before its body has come, a client may not go on for ever.
+        with socket.create_connection((host, int(port)), timeout=30) as connection:
+            head = b"POST /describe HTTP/1.1\r\nHost: x\r\nContent-Type: text/plain\r\n"
+            connection.sendall(head + b"Content-Length: 99\r\n\r\n")
+            answer = b""
+            with suppress(ConnectionResetError):
+                while part := connection.recv(1000):
+                    answer += part
+            assert answer.startswith(b"HTTP/1.1 415")
+        with httpx.Client(base_url=address) as client:
+            for _ in range(4):
+                assert client.get("/livez").status_code == 200
+
+
+def test_a_bad_chunk_after_the_answer_ends_the_connection(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=30) as connection:
+            head = b"POST /describe HTTP/1.1\r\nHost: x\r\nContent-Type: text/plain\r\n"
+            connection.sendall(head + b"Transfer-Encoding: chunked\r\n\r\n")
+            assert connection.recv(65536).startswith(b"HTTP/1.1 415")
+            connection.sendall(b"zz\r\n")
+            with suppress(ConnectionResetError):
+                while connection.recv(65536):
+                    pass
+        assert httpx.get(f"{address}/livez").status_code == 200
+
+
+def test_a_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (process, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=60) as connection:
+            connection.sendall(b"PUT /maps/a HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\nx")
+            assert httpx.get(f"{address}/livez").status_code == 200
+            process.send_signal(signal.SIGTERM)
+            time.sleep(0.2)
+            assert process.poll() is None
+            process.send_signal(signal.SIGTERM)
+            # Not after the ten seconds that the upload might still take.
+            process.wait(5)
