@@ -1,12 +1,13 @@
 """What each part of the context model is worth: the same training with one thing changed.
 
+All but the losses are compared with the group-based loss.
+
 placecell ablations --train DRIVE@0:299 --train town:11 --test DRIVE@300:500
 """
 
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,15 +17,14 @@ from rich.progress import Progress
 from segments.extractor import MODEL_FILE, load_extractor
 from segments.manifest import FULL_FILE
 from segments.parameters import SURROUNDINGS_V1
-from training import group_based, metric
+from training import metric
 from training.augmentation import Augmentation
 from training.comparison import throughput
 from training.context import ContextRecipe, learn_surroundings
 from training.evaluation import measure
 from training.group_based import GroupBasedRecipe
-from training.methods import Trained
+from training.methods import Trained, train_segment
 from training.metric import MetricRecipe
-from training.networks import DescriptorNetwork
 from training.publishing import Data, collect, export_network, fingerprint, whole
 from training.run import Run
 from training.sgd import Sgd
@@ -143,7 +143,7 @@ def _measured(
     name = variant.training_name()
     identity = fingerprint(data, name, variant.network, variant.segment)
     run = Run(output / "runs" / name, variant.seed, identity, progress)
-    network = _train(variant, data, run)
+    network = train_segment(data.training, data.validation, run, variant.network, variant.segment)
     projection = learn_surroundings(data.training.recorded(), variant.surroundings)
     trained = Trained("context", variant.network, network, projection=projection)
     with whole(output / "models" / f"{variant.part}-{variant.name}") as folder:
@@ -163,11 +163,3 @@ def _measured(
         key: figures[key]
         for key in ("top1", "recall_at_25", "cross_view_top1", "pair_auc_by_distance")
     }
-
-
-def _train(variant: Variant, data: Data, run: Run) -> DescriptorNetwork:
-    if isinstance(variant.segment, MetricRecipe):
-        learn = partial(metric.train, recipe=variant.segment)
-    else:
-        learn = partial(group_based.train, recipe=variant.segment)
-    return learn(data.training, data.validation, run, variant.network)

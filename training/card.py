@@ -49,7 +49,7 @@ WHAT = {
     "siamese": "The paper's Siamese extractor: two branches and a third network, trained on pairs.",
     "contrastive": "The paper's contrastive extractor: trained to bring matches together and keep "
     "hard non-matches apart.",
-    "context": "A segment by itself, trained as the group-based extractor, and what stands around "
+    "context": "A segment by itself, by the multi-similarity loss, and what stands around "
     "it, by linear discriminant analysis.",
     "group": "The paper's group-based extractor: trained to tell groups of segments apart.",
 }

@@ -1,6 +1,7 @@
 """Recognition in context: a segment and what stands around it (beyond the paper).
 
-The segment itself is described by a network trained group-based (III-C). Its surroundings
+The segment itself is described by a network trained by the multi-similarity loss (Wang et al.,
+2019), which did best of those compared (docs/recognition.md). Its surroundings
 (`segments.surroundings`) are projected by linear discriminant analysis, which finds the directions
 in which groups lie apart while views of one group stay together: a closed form, learned in seconds,
 that hardly over-fits. Both stand side by side in the descriptor, the
@@ -17,6 +18,7 @@ from scipy.stats import ortho_group
 
 from segments.types import Float32, Float64, Int64
 from training.group_based import GroupBasedRecipe
+from training.metric import MetricRecipe
 from training.training_set import TrainingSet
 
 
@@ -24,7 +26,9 @@ from training.training_set import TrainingSet
 class ContextRecipe:
     """Settings of the training; the defaults made the model that ships."""
 
-    segment: GroupBasedRecipe = field(default_factory=lambda: GroupBasedRecipe(epochs=30))
+    segment: GroupBasedRecipe | MetricRecipe = field(
+        default_factory=lambda: MetricRecipe("multi-similarity")
+    )
     dimension: int = 96
     """Of the surroundings in the descriptor."""
     weight: float = 1.2

@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from training import context, contrastive, group_based, siamese
+from training import context, contrastive, group_based, metric, siamese
 from training.context import Projection
+from training.group_based import GroupBasedRecipe
+from training.metric import MetricRecipe
 from training.networks import DescriptorNetwork
 from training.run import Run
 from training.siamese import MatchNetwork
@@ -67,9 +69,22 @@ def train(
         recipe = given.pop("recipe", context.ContextRecipe())
         projection = context.learn_surroundings(training.recorded(), recipe)
         segment_recipe = replace(recipe.segment, **given)
-        learned = group_based.train(training, validation, run, network, segment_recipe)
+        learned = train_segment(training, validation, run, network, segment_recipe)
         return Trained(method, network, learned, projection=projection)
     raise ValueError(f"no method {method!r}; there are {', '.join(METHODS)}, context")
+
+
+def train_segment(
+    training: TrainingSet,
+    validation: TrainingSet,
+    run: Run,
+    network: str,
+    recipe: GroupBasedRecipe | MetricRecipe,
+) -> DescriptorNetwork:
+    """The descriptor network of the context model, by either kind of loss."""
+    if isinstance(recipe, MetricRecipe):
+        return metric.train(training, validation, run, network, recipe)
+    return group_based.train(training, validation, run, network, recipe)
 
 
 def run_folder(runs: Path, method: str, network: str, seed: int) -> Path:

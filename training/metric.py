@@ -66,7 +66,7 @@ class MetricRecipe:
     loss: str
     """One of `LOSSES`."""
     epochs: int = 30
-    sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.1))
+    sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
     augmentation: Augmentation = field(default_factory=Augmentation)
 
