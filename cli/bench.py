@@ -2,13 +2,53 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cli.sources import clear_errors, load, show
 
+if TYPE_CHECKING:
+    from segments.segments import Segments
+
 bench = typer.Typer(help="Measure speed on this machine.", no_args_is_help=True)
+
+
+Source = Annotated[
+    Path | None,
+    typer.Option(
+        "--segments",
+        metavar="PATH",
+        help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
+        "(default: a short drive through the synthetic town)",
+    ),
+]
+JsonFile = Annotated[
+    Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
+]
+Kept = Annotated[
+    Path,
+    typer.Option(
+        "--output", "-o", help="Folder that keeps the town's drive and the paper's network."
+    ),
+]
+Seed = Annotated[int, typer.Option(help="Of the town, and of everything that is drawn.")]
+
+
+def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Segments], str]":
+    """The segments of each scan, and where they are from."""
+    from bench.describe import scans_of, town_scans
+
+    if segments is None:
+        return town_scans(output / "town", seed, show), "synthetic town"
+    return scans_of(load(segments)), segments.stem
+
+
+def write_json(report: dict[str, Any], file: Path | None) -> None:
+    """Write the figures, if that is wanted."""
+    if file:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(report, indent=2) + "\n")
 
 
 @bench.callback()
@@ -18,38 +58,20 @@ def benches() -> None:
 
 @bench.command()
 def describe(
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
-            "(default: a short drive through the synthetic town)",
-        ),
-    ] = None,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
-    ] = None,
+    segments: Source = None,
+    json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Draw accuracy against speed into this PNG."),
     ] = None,
-    output: Annotated[
-        Path,
-        typer.Option(
-            "--output",
-            "-o",
-            help="Folder that keeps the paper's exported network and the town's drive.",
-        ),
-    ] = Path("out/bench"),
+    output: Kept = Path("out/bench"),
     repeats: Annotated[
         int, typer.Option(min=1, help="Measurements of each figure; the median is given.")
     ] = 5,
     seconds: Annotated[
         float, typer.Option(min=0.0, help="Duration of each measurement, at least.")
     ] = 0.5,
-    seed: Annotated[
-        int, typer.Option(help="Of the town, the drawn segments and the paper's random weights.")
-    ] = 7,
+    seed: Seed = 7,
 ) -> None:
     """Measure how fast segments become descriptors.
 
@@ -62,20 +84,15 @@ def describe(
 
         placecell bench describe --json figures.json --plot speed.png
     """
-    from bench.describe import Plan, draw, scans_of, town_scans
+    from bench.describe import Plan, draw
     from bench.describe import bench as run
 
     with clear_errors():
-        if segments is None:
-            some = town_scans(output / "town", seed, show)
-        else:
-            some = scans_of(load(segments))
+        some, name = scans_from(segments, output, seed)
         plan = Plan(repeats=repeats, seconds=seconds)
         report = run(some, output, plan, seed, progress=show)
-        report["source"] = segments.stem if segments else "synthetic town"
-        if json_file:
-            json_file.parent.mkdir(parents=True, exist_ok=True)
-            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        report["source"] = name
+        write_json(report, json_file)
         if plot:
             draw(report, plot)
     print_report(report)
@@ -83,25 +100,14 @@ def describe(
 
 @bench.command()
 def serve(
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
-            "(default: a short drive through the synthetic town)",
-        ),
-    ] = None,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
-    ] = None,
+    segments: Source = None,
+    json_file: JsonFile = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw latency against load into this PNG.")
     ] = None,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder that keeps the town's drive.")
-    ] = Path("out/bench"),
+    output: Kept = Path("out/bench"),
     seconds: Annotated[float, typer.Option(min=0.5, help="Duration of each level of load.")] = 10.0,
-    seed: Annotated[int, typer.Option(help="Of the town, the segments and the map.")] = 7,
+    seed: Seed = 7,
 ) -> None:
     """Measure how the service bears load.
 
@@ -109,20 +115,14 @@ def serve(
     to the real server over loopback: 50 segments a request in msgpack and in JSON, and 5 with and
     without batching across requests; from a quarter of what the service bears to twice that.
     """
-    from bench.describe import scans_of, town_scans
     from bench.serve import Plan, draw
     from bench.serve import bench as run
 
     with clear_errors():
-        if segments is None:
-            some = town_scans(output / "town", seed, show)
-        else:
-            some = scans_of(load(segments))
+        some, name = scans_from(segments, output, seed)
         report = run(some, Plan(seconds=seconds), seed, progress=show)
-        report["source"] = segments.stem if segments else "synthetic town"
-        if json_file:
-            json_file.parent.mkdir(parents=True, exist_ok=True)
-            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        report["source"] = name
+        write_json(report, json_file)
         if plot:
             draw(report, plot)
     print_load(report)
@@ -130,37 +130,28 @@ def serve(
 
 @bench.command()
 def soak(
-    segments: Annotated[
-        Path | None,
-        typer.Option(metavar="PATH", help="Where to take segments from, as for 'serve'."),
-    ] = None,
+    segments: Source = None,
     minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 10.0,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
-    ] = None,
+    json_file: JsonFile = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw memory over time into this PNG.")
     ] = None,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder that keeps the town's drive.")
-    ] = Path("out/bench"),
-    seed: Annotated[int, typer.Option(help="Of the town, the segments and the bad clients.")] = 7,
+    output: Kept = Path("out/bench"),
+    seed: Seed = 7,
 ) -> None:
     """Run the service for minutes at 80% of what it bears, among clients that misbehave.
 
     Some die in the midst of a request, some send slowly, some send garbage. Ends with status 1 if
     any client that behaved got an answer that is not expected.
     """
-    from bench.describe import scans_of, town_scans
     from bench.soak import Soak, draw_memory
     from bench.soak import soak as run
 
     with clear_errors():
-        some = scans_of(load(segments)) if segments else town_scans(output / "town", seed, show)
+        some, name = scans_from(segments, output, seed)
         report = run(some, Soak(seconds=60 * minutes), seed)
-        if json_file:
-            json_file.parent.mkdir(parents=True, exist_ok=True)
-            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        report["source"] = name
+        write_json(report, json_file)
         if plot:
             draw_memory(report, plot)
     typer.echo(

@@ -1,5 +1,7 @@
 """Tiny models, clouds and maps for a service under test."""
 
+import asyncio
+import json
 from pathlib import Path
 from typing import Any
 
@@ -133,3 +135,27 @@ def post_packed(service: Any, path: str, body: Any, accept: str = MSGPACK) -> An
     """Send a body as msgpack; bytes are sent as they are."""
     content = body if isinstance(body, bytes) else msgpack.packb(body)
     return service.post(path, content=content, headers={"Content-Type": MSGPACK, "Accept": accept})
+
+
+async def ask_app(app: Any, body: Any, leave_after: float = 60.0) -> list[dict[str, Any]]:
+    """What an ASGI application sends for a `/describe` whose client goes after so many seconds."""
+    sent: list[dict[str, Any]] = []
+    messages = [{"type": "http.request", "body": json.dumps(body).encode(), "more_body": False}]
+
+    async def receive() -> dict[str, Any]:
+        if messages:
+            return messages.pop(0)
+        await asyncio.sleep(leave_after)
+        return {"type": "http.disconnect"}
+
+    async def send(message: Any) -> None:
+        sent.append(message)
+
+    scope = {
+        "type": "http", "method": "POST", "path": "/describe", "raw_path": b"/describe",
+        "query_string": b"", "headers": [(b"content-type", b"application/json")],
+        "http_version": "1.1", "scheme": "http", "server": ("x", 80), "client": ("y", 1),
+        "root_path": "",
+    }  # fmt: skip
+    await app(scope, receive, send)
+    return sent

@@ -1,7 +1,6 @@
 """Overload, deadlines, clients that go, slow bodies; and what is told about each request."""
 
 import asyncio
-import json
 import threading
 import time
 from collections.abc import Iterator
@@ -17,7 +16,14 @@ from segments.extractor import EigenvalueExtractor, Inputs
 from service.app import create_app
 from service.settings import Settings
 from service.state import open_state
-from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
+from tests.service.service_builders import (
+    ask_app,
+    assert_problem,
+    cloud,
+    map_of,
+    random_codes,
+    request_of,
+)
 
 
 @contextmanager
@@ -101,43 +107,19 @@ def test_work_for_a_client_that_is_gone_is_dropped(
 
     monkeypatch.setattr(EigenvalueExtractor, "infer", counting)
 
-    async def call(app: Any, count: int, leave: bool) -> list[dict[str, Any]]:
-        """A request to the application; the client goes once all was sent, or stays."""
-        sent: list[dict[str, Any]] = []
-        content = json.dumps(request_of([cloud(n) for n in range(count)])).encode()
-        messages = [{"type": "http.request", "body": content, "more_body": False}]
-
-        async def receive() -> dict[str, Any]:
-            if messages:
-                return messages.pop(0)
-            if leave:
-                await asyncio.sleep(0.05)
-                return {"type": "http.disconnect"}
-            await asyncio.sleep(60)
-            raise AssertionError
-
-        async def send(message: Any) -> None:
-            sent.append(message)
-
-        scope = {
-            "type": "http", "method": "POST", "path": "/describe", "raw_path": b"/describe",
-            "query_string": b"", "headers": [(b"content-type", b"application/json")],
-            "http_version": "1.1", "scheme": "http", "server": ("x", 80), "client": ("y", 1),
-            "root_path": "",
-        }  # fmt: skip
-        await app(scope, receive, send)
-        return sent
+    async def call(app: Any, count: int, leave_after: float = 60.0) -> list[dict[str, Any]]:
+        return await ask_app(app, request_of([cloud(n) for n in range(count)]), leave_after)
 
     async def run() -> None:
         with open_state(settings) as state:
             app = create_app(settings, state)
             async with app.router.lifespan_context(app):
-                stays = asyncio.create_task(call(app, 1, leave=False))
+                stays = asyncio.create_task(call(app, 1))
                 await asyncio.sleep(0.05)
-                gone = await asyncio.gather(*[call(app, 3, leave=True) for _ in range(4)])
+                gone = await asyncio.gather(*[call(app, 3, 0.05) for _ in range(4)])
                 assert (await stays)[0]["status"] == 200
                 assert all(sent[0]["status"] == 400 for sent in gone)
-                assert (await call(app, 2, leave=False))[0]["status"] == 200
+                assert (await call(app, 2))[0]["status"] == 200
 
     asyncio.run(run())
     assert seen == [1, 2]
@@ -267,33 +249,13 @@ def test_departed_clients_do_not_let_more_in_than_there_is_room(
         raise RuntimeError
 
     monkeypatch.setattr(EigenvalueExtractor, "prepare", slow)
-
-    async def leave(app: Any) -> None:
-        content = json.dumps(request_of([cloud(0)])).encode()
-        messages = [{"type": "http.request", "body": content, "more_body": False}]
-
-        async def receive() -> dict[str, Any]:
-            if messages:
-                return messages.pop(0)
-            await asyncio.sleep(0.01)
-            return {"type": "http.disconnect"}
-
-        async def send(message: Any) -> None:
-            del message
-
-        scope = {
-            "type": "http", "method": "POST", "path": "/describe", "raw_path": b"/describe",
-            "query_string": b"", "headers": [(b"content-type", b"application/json")],
-            "http_version": "1.1", "scheme": "http", "server": ("x", 80), "client": ("y", 1),
-            "root_path": "",
-        }  # fmt: skip
-        await app(scope, receive, send)
+    body = request_of([cloud(0)])
 
     async def run() -> None:
         with open_state(settings) as state:
             app = create_app(settings, state)
             async with app.router.lifespan_context(app):
-                await asyncio.gather(*[leave(app) for _ in range(20)])
+                await asyncio.gather(*[ask_app(app, body, 0.01) for _ in range(20)])
 
     asyncio.run(run())
     assert most <= settings.workers
