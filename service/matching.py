@@ -1,11 +1,10 @@
 """From queries to candidates in one map, some, or all."""
 
 from dataclasses import dataclass
-from heapq import nsmallest
 
 import numpy as np
 
-from segments.types import Int8
+from segments.types import Int8, Int64
 from service.keys import Holder
 from service.maps import Maps, StoredMap
 from service.models import Model, Models
@@ -80,28 +79,27 @@ def candidates_of(
         searched: maps with an index.
         k: candidates a query, at most.
     """
-    # Distance in steps, map, row (rows of a map are sorted by id): sorts as wanted.
-    found: list[list[tuple[float, int, int]]] = [[] for _ in codes]
+    found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
     for place, stored in enumerate(searched):
         assert stored.index is not None
         distances, rows = stored.index.search(codes, k)
-        for hits, query_distances, query_rows in zip(
-            found, distances.tolist(), rows.tolist(), strict=True
-        ):
-            hits.extend(
-                (distance, place, row)
-                for distance, row in zip(query_distances, query_rows, strict=True)
-            )
-            # Never more than of two maps at once, however many there are.
-            hits[:] = nsmallest(k, hits)
-    probabilities = iter(_probabilities(codes, model, searched, found))
-    step = model.manifest.quantiser.step
+        here = distances, np.full_like(rows, place), rows
+        found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
+        # By distance in steps, map, row (rows of a map are sorted by id). Never more than of two
+        # maps at once, however many there are.
+        order = np.lexsort(found[::-1], axis=1)[:, :k]
+        found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
+    distances, places, rows = found
+    probabilities = _probabilities(codes, model, searched, places, rows)
+    lengths = distances * model.manifest.quantiser.step
     return [
         [
-            _candidate(searched[place], row, distance * step, next(probabilities))
-            for distance, place, row in hits
+            _candidate(searched[place], row, length, probability)
+            for place, row, length, probability in zip(*query, strict=True)
         ]
-        for hits in found
+        for query in zip(
+            places.tolist(), rows.tolist(), lengths.tolist(), probabilities, strict=True
+        )
     ]
 
 
@@ -117,21 +115,22 @@ def merged(by_model: list[list[CandidateOut]], k: int) -> list[CandidateOut]:
 
 
 def _probabilities(
-    codes: Int8,
-    model: Model,
-    searched: tuple[StoredMap, ...],
-    nearest: list[list[tuple[float, int, int]]],
-) -> list[float] | list[None]:
-    """Of each candidate of each query, in order; all at once: a call costs more than a row."""
-    pairs = [
-        (query, searched[place].content.codes[row])
-        for query, hits in zip(codes, nearest, strict=True)
-        for _, place, row in hits
-    ]
-    if model.classifier is None or not pairs:
-        return [None] * len(pairs)
-    a, b = (np.stack(side) for side in zip(*pairs, strict=True))
-    return [float(value) for value in model.classifier.probabilities(a, b)]
+    codes: Int8, model: Model, searched: tuple[StoredMap, ...], places: Int64, rows: Int64
+) -> list[list[float | None]]:
+    """Of each candidate of each query, (q, k); all at once: a call costs more than a row."""
+    queries, k = rows.shape
+    if model.classifier is None or not rows.size:
+        return [[None] * k for _ in range(queries)]
+    found = np.empty((queries, k, codes.shape[1]), dtype=np.int8)
+    for place, stored in enumerate(searched):
+        here = places == place
+        found[here] = stored.content.codes[rows[here]]
+    asked = np.repeat(codes, k, axis=0)
+    probabilities = model.classifier.probabilities(asked, found.reshape(asked.shape))
+    listed: list[list[float | None]] = (
+        np.asarray(probabilities, np.float64).reshape(queries, k).tolist()
+    )
+    return listed
 
 
 def _candidate(
