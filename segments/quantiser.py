@@ -72,7 +72,10 @@ class Quantiser:
         count = LEVELS[self.per_byte]
         cells = np.floor(descriptors / (self.step * self.spacing) + count / 2)
         digits = cells.clip(0, count - 1).astype(np.int64)
-        numbers = digits.reshape(len(digits), digits.shape[1] // self.per_byte, self.per_byte) @ self._places
+        numbers = (
+            digits.reshape(len(digits), digits.shape[1] // self.per_byte, self.per_byte)
+            @ self._places
+        )
         return np.asarray((numbers - count**self.per_byte // 2).astype(np.int8))
 
     def levels(self, codes: Int8) -> Int8:

@@ -126,11 +126,8 @@ def _probabilities(
         here = places == place
         found[here] = stored.content.codes[rows[here]]
     asked = np.repeat(codes, k, axis=0)
-    probabilities = model.classifier.probabilities(asked, found.reshape(asked.shape))
-    listed: list[list[float | None]] = (
-        np.asarray(probabilities, np.float64).reshape(queries, k).tolist()
-    )
-    return listed
+    stated = model.classifier.probabilities(asked, found.reshape(asked.shape))
+    return [list(row) for row in np.asarray(stated, np.float64).reshape(queries, k).tolist()]
 
 
 def _candidate(
