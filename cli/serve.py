@@ -1,5 +1,6 @@
 """`placecell serve`: run the service."""
 
+import gc
 import ipaddress
 import os
 import socket
@@ -75,7 +76,12 @@ def serve(
                     f"Placecell {version()} listens on http://{shown}:{number} "
                     f"(model {state.model_id}, {len(state.maps)} maps in {settings.data_dir})"
                 )
-                Server(create_app(settings, state), state).run(sockets=[listening])
+                server = Server(create_app(settings, state), state)
+                # What was imported and loaded stays; to look through it all again and again for
+                # garbage would stop every request for a tenth of a second.
+                gc.collect()
+                gc.freeze()
+                server.run(sockets=[listening])
         except StartError as error:
             raise _refusal(str(error)) from error
 
