@@ -99,13 +99,20 @@ async def run(load: Load) -> Outcome:
 
 async def _ask(load: Load, request: bytes, free: list[Connection]) -> tuple[int, dict[str, str]]:
     """Status and headers of the answer; the body is read and dropped."""
+    # A server closes connections that were idle for long; as clients do, ask again on a new one.
+    if free and (answer := await _ask_on(free.pop(), request, free))[0]:
+        return answer
     try:
-        if free:
-            reader, writer = free.pop()
-        else:
-            reader, writer = await asyncio.open_connection(load.host, load.port, limit=1 << 20)
+        fresh = await asyncio.open_connection(load.host, load.port, limit=1 << 20)
     except OSError:
         return 0, {}
+    return await _ask_on(fresh, request, free)
+
+
+async def _ask_on(
+    connection: Connection, request: bytes, free: list[Connection]
+) -> tuple[int, dict[str, str]]:
+    reader, writer = connection
     try:
         writer.write(request)
         head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").split("\r\n")
