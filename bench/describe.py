@@ -26,6 +26,7 @@ from segments.segments import Segments
 from segments.surroundings import describe_surroundings
 from segments.voxels import voxelise
 from training.evaluation import machine
+from training.figure import figure
 
 PAPER = "paper"
 
@@ -354,32 +355,24 @@ def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int
 
 def draw(report: dict[str, Any], file: Path) -> None:
     """Accuracy against speed of every network, at the largest batch on all threads, as a PNG."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
     most = (max(report["plan"]["batches"]), max(report["plan"]["threads"]))
-    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
-    for row in report["rows"]:
-        if (row["batch"], row["threads"]) != most:
-            continue
-        speed, name = row["segments_per_second"], f"{row['model']} {row['precision']}"
-        if row["top1"] is None:
-            axes.axvline(speed, color="grey", linestyle=":")
-            axes.annotate(f"{name}: accuracy not known", (speed, 0.02), rotation=90, ha="right")
-        else:
-            axes.plot(speed, row["top1"], "o", color="#1b9e77")
-            axes.annotate(name, (speed, row["top1"]), (5, 5), textcoords="offset points")
-    axes.set(
-        xscale="log",
-        ylim=(0, 1),
-        xlabel=f"inference, segments a second (batch {most[0]}, {most[1]} threads)",
-        ylabel="top1 on the model's validation groups",
-        title=report["machine"]["processor"],
-    )
-    axes.margins(x=0.3)
-    axes.grid(alpha=0.3)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=150)
-    plt.close(figure)
+    with figure(file, size=6) as (axes,):
+        for row in report["rows"]:
+            if (row["batch"], row["threads"]) != most:
+                continue
+            speed, name = row["segments_per_second"], f"{row['model']} {row['precision']}"
+            if row["top1"] is None:
+                axes.axvline(speed, color="grey", linestyle=":")
+                axes.annotate(f"{name}: accuracy not known", (speed, 0.02), rotation=90, ha="right")
+            else:
+                axes.plot(speed, row["top1"], "o", color="#1b9e77")
+                axes.annotate(name, (speed, row["top1"]), (5, 5), textcoords="offset points")
+        axes.set(
+            xscale="log",
+            ylim=(0, 1),
+            xlabel=f"inference, segments a second (batch {most[0]}, {most[1]} threads)",
+            ylabel="top1 on the model's validation groups",
+            title=report["machine"]["processor"],
+        )
+        axes.margins(x=0.3)
+        axes.grid(alpha=0.3)

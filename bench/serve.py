@@ -24,9 +24,9 @@ from segments.extractor import load_extractor
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 from segments.segments import Segments
 from segments.types import Int8
+from service.bodies import JSON, MSGPACK
 from training.evaluation import machine
-
-JSON, MSGPACK = "application/json", "application/msgpack"
+from training.figure import figure
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,11 +83,12 @@ def bench(
         Case(MSGPACK, plan.small, batching=False),
     ]
     library = alone(scans)
+    sent = {case.name: requests(case, drawn, plan) for case in cases}
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(cases)), len(cases), "loading the service"):
-            data = Path(folder) / str(number)
-            rows += asyncio.run(_case(cases[number], drawn, plan, data, seed))
+            case, data = cases[number], Path(folder) / str(number)
+            rows += asyncio.run(_case(case, sent[case.name], drawn, plan, data, seed))
     main = [row for row in rows if row["case"] == cases[0].name]
     half = next(row for row in main if row["level"] == 0.5)
     saturation = main[0]["saturation_segments_per_second"]
@@ -104,8 +105,8 @@ def bench(
             "points_mean": float(drawn.counts.mean()),
             "map_segments": plan.map_segments,
             "body_bytes": {
-                case.name: round(float(np.mean([len(one) for one in requests(case, drawn, plan)])))
-                for case in cases
+                name: round(float(np.mean([len(one) for one in bodies])))
+                for name, bodies in sent.items()
             },
         },
         "plan": asdict(plan),
@@ -122,7 +123,7 @@ def alone(scans: Sequence[Segments]) -> float:
 
 
 async def _case(
-    case: Case, drawn: Segments, plan: Plan, data_dir: Path, seed: int
+    case: Case, sent: tuple[bytes, ...], drawn: Segments, plan: Plan, data_dir: Path, seed: int
 ) -> list[dict[str, Any]]:
     environment = {} if case.batching else {"PLACECELL_LIMITS__BATCH": "1"}
     with running_service(data_dir, environment=environment) as address:
@@ -131,8 +132,7 @@ async def _case(
 
         async def load(rate: float, seconds: float) -> tuple[Outcome, float]:
             before = batches(address)
-            asked = Load(host, port, requests(case, drawn, plan), rate, seconds)
-            outcome = await sent_by_process(asked, data_dir)
+            outcome = await sent_by_process(Load(host, port, sent, rate, seconds), data_dir)
             after = batches(address)
             count = after[1] - before[1]
             return outcome, (after[0] - before[0]) / count if count else 0.0
@@ -260,29 +260,22 @@ def batches(address: str) -> tuple[float, float]:
 
 def draw(report: dict[str, Any], file: Path) -> None:
     """Latency and what was answered against what was offered, each case a line, as a PNG."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
-    for name in dict.fromkeys(row["case"] for row in report["rows"]):
-        rows = [row for row in report["rows"] if row["case"] == name]
-        offered = [row["offered"] for row in rows]
-        (line,) = left.plot(offered, [row["milliseconds"]["p99"] for row in rows], "o-", label=name)
-        medians = [row["milliseconds"]["p50"] for row in rows]
-        left.plot(offered, medians, "--", color=line.get_color())
-        right.plot(offered, [row["achieved"] for row in rows], "o-", label=name)
-    left.set(
-        xlabel="offered, segments a second",
-        ylabel="milliseconds, p99 (p50 dashed)",
-        yscale="log",
-        title="latency of /match",
-    )
-    right.set(xlabel="offered, segments a second", ylabel="answered, segments a second")
-    right.legend(fontsize=8)
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=150)
-    plt.close(figure)
+    with figure(file, 2, size=5) as (left, right):
+        for name in dict.fromkeys(row["case"] for row in report["rows"]):
+            rows = [row for row in report["rows"] if row["case"] == name]
+            offered = [row["offered"] for row in rows]
+            worst = [row["milliseconds"]["p99"] for row in rows]
+            (line,) = left.plot(offered, worst, "o-", label=name)
+            medians = [row["milliseconds"]["p50"] for row in rows]
+            left.plot(offered, medians, "--", color=line.get_color())
+            right.plot(offered, [row["achieved"] for row in rows], "o-", label=name)
+        left.set(
+            xlabel="offered, segments a second",
+            ylabel="milliseconds, p99 (p50 dashed)",
+            yscale="log",
+            title="latency of /match",
+        )
+        right.set(xlabel="offered, segments a second", ylabel="answered, segments a second")
+        right.legend(fontsize=8)
+        for axes in (left, right):
+            axes.grid(alpha=0.3)

@@ -18,10 +18,12 @@ import numpy as np
 
 from bench.describe import draw_scans
 from bench.load import Load, Outcome, sent_by_process
-from bench.serve import MSGPACK, Case, Plan, address_of, fill, percentiles, requests
+from bench.serve import Case, Plan, address_of, fill, percentiles, requests
 from bench.server import running_service
 from segments.segments import Segments
+from service.bodies import MSGPACK
 from training.evaluation import machine
+from training.figure import figure
 
 Reader = asyncio.StreamReader
 Writer = asyncio.StreamWriter
@@ -183,18 +185,11 @@ def look(address: str) -> dict[str, float]:
 
 def draw_memory(report: dict[str, Any], file: Path) -> None:
     """Memory and file descriptors over time, as a PNG."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
     seconds = [each["seconds"] for each in report["watched"]]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.5), layout="constrained")
-    left.plot(seconds, [each["resident_mb"] for each in report["watched"]])
-    left.set(xlabel="seconds", ylabel="memory, MB", ylim=(0, None))
-    right.plot(seconds, [each["descriptors"] for each in report["watched"]])
-    right.set(xlabel="seconds", ylabel="open file descriptors", ylim=(0, None))
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-    figure.savefig(file, dpi=150)
-    plt.close(figure)
+    with figure(file, 2) as (left, right):
+        left.plot(seconds, [each["resident_mb"] for each in report["watched"]])
+        left.set(xlabel="seconds", ylabel="memory, MB", ylim=(0, None))
+        right.plot(seconds, [each["descriptors"] for each in report["watched"]])
+        right.set(xlabel="seconds", ylabel="open file descriptors", ylim=(0, None))
+        for axes in (left, right):
+            axes.grid(alpha=0.3)

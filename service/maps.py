@@ -47,8 +47,9 @@ class Maps:
         self._by_name: dict[str, StoredMap] = {}
         for name in store.names():
             data = store.read(name)
+            etag = hashlib.sha256(data).hexdigest()
             try:
-                self._by_name[name] = self._stored(name, data, decode(data))
+                self._by_name[name] = self._stored(name, etag, len(data), decode(data))
             except MapFileError as error:
                 logger.error(
                     "map %r is damaged (%s); set aside as %s", name, error, store.set_aside(name)
@@ -132,7 +133,7 @@ class Maps:
                 f"the model's are by version {manifest.preprocessing['version']}.",
             )
         check(content)
-        stored = self._stored(name, data, content)
+        stored = self._stored(name, etag, len(data), content)
         with self._writing:
             old = self._by_name.get(name)
             is_new = old is None
@@ -168,14 +169,8 @@ class Maps:
             return None
         return data if hashlib.sha256(data).hexdigest() == stored.etag else None
 
-    def _stored(self, name: str, data: bytes, content: CompactMap) -> StoredMap:
-        return StoredMap(
-            name=name,
-            etag=hashlib.sha256(data).hexdigest(),
-            bytes=len(data),
-            content=content,
-            index=self._index(content),
-        )
+    def _stored(self, name: str, etag: str, size: int, content: CompactMap) -> StoredMap:
+        return StoredMap(name, etag, size, content, self._index(content))
 
     def _index(self, content: CompactMap) -> MapIndex | None:
         model = self._models.find(content.model_id)

@@ -25,7 +25,14 @@ from training.evaluation import measure
 from training.group_based import GroupBasedRecipe
 from training.methods import Trained, train_segment
 from training.metric import MetricRecipe
-from training.publishing import Data, collect, export_network, fingerprint, whole
+from training.publishing import (
+    Data,
+    collect,
+    export_network,
+    fingerprint,
+    stored_axes,
+    whole,
+)
 from training.run import Run
 from training.sgd import Sgd
 from training.training_set import Source, TrainingSet, check_apart
@@ -147,7 +154,7 @@ def _measured(
     projection = learn_surroundings(data.training.recorded(), variant.surroundings)
     trained = Trained("context", variant.network, network, projection=projection)
     with whole(output / "models" / f"{variant.part}-{variant.name}") as folder:
-        export_network(folder, trained, data).save(folder)
+        export_network(folder, trained, data, stored_axes(trained, data)).save(folder)
         figures = measure(
             load_extractor(folder), None, test.segments, test.groups, 0, test.surroundings
         )

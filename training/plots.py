@@ -1,16 +1,12 @@
 """The figures of the experiments' report, named after the paper's."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from training.figure import figure
 from training.siamese import SiameseRecipe
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Models = dict[str, dict[str, Any]]
 
@@ -20,22 +16,6 @@ CURVES = {
     "contrastive": ("top1", "validation_top1", "top-1"),
 }
 """Figure 3 (a) to (c): what the history calls training and validation, and the axis."""
-
-
-@contextmanager
-def figure(file: Path, columns: int = 1, size: float = 4.2) -> Iterator[list["Axes"]]:
-    """Axes side by side, saved as PNG at the end."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    drawn, axes = plt.subplots(
-        1, columns, figsize=(size * columns, size), layout="constrained", squeeze=False
-    )
-    yield list(axes[0])
-    drawn.savefig(file, dpi=100)
-    plt.close(drawn)
 
 
 def training_curves(models: Models, network: str, file: Path) -> None:

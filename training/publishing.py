@@ -23,7 +23,7 @@ from training import recognition
 from training.card import write_card
 from training.evaluation import machine, measure
 from training.methods import Trained
-from training.networks import DescriptorNetwork, describe
+from training.networks import describe
 from training.training_set import Source, TrainingSet
 
 VALIDATION_SHARE = 0.1
@@ -33,9 +33,6 @@ SPLIT_SEED = 0
 
 STORED_DIMENSION = 32
 """Of the 64: at 8 bits each, 32 bytes a segment."""
-
-UNFINISHED = ".unfinished"
-"""After the name of a model's folder while it is written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +124,7 @@ def fingerprint(data: Data, *settings: object) -> str:
 @contextmanager
 def whole(folder: Path) -> Iterator[Path]:
     """A folder to write into that takes its place when the block ends well, and not before."""
-    unfinished = folder.with_name(folder.name + UNFINISHED)
+    unfinished = folder.with_name(folder.name + ".unfinished")
     shutil.rmtree(unfinished, ignore_errors=True)
     unfinished.mkdir(parents=True)
     yield unfinished
@@ -143,30 +140,35 @@ def has_pairs(data: TrainingSet) -> bool:
 
 def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
     """Write `model.onnx`, `pair.onnx`, `manifest.json` and the card of a trained network."""
+    axes = stored_axes(trained, data)
+    head = None if trained.match is None else (trained.match, *axes)
     with whole(folder) as unfinished:
-        manifest = export_network(unfinished, trained, data)
-        head = None
-        if trained.match is not None:
-            head = (trained.match, *stored_axes(trained.network, data.training.recorded()))
-        return finish(unfinished, manifest, data, head)
+        manifest = export_network(unfinished, trained, data, axes)
+        return finish(unfinished, replace(manifest, name=folder.name), data, head)
 
 
-def stored_axes(network: DescriptorNetwork, recorded: TrainingSet) -> tuple[Float32, Float32]:
+def stored_axes(trained: Trained, data: Data) -> tuple[Float32, Float32]:
     """Mean and principal axes of the descriptors: what is stored of them."""
     from training.export import principal_axes
 
-    return principal_axes(describe(network, recorded), STORED_DIMENSION)
+    return principal_axes(describe(trained.network, data.training.recorded()), STORED_DIMENSION)
 
 
-def export_network(folder: Path, trained: Trained, data: Data) -> Manifest:
-    """Write `model.onnx` of a trained network, with the manifest that goes with it."""
+def export_network(
+    folder: Path, trained: Trained, data: Data, axes: tuple[Float32, Float32]
+) -> Manifest:
+    """Write `model.onnx` of a trained network, with the manifest that goes with it.
+
+    Args:
+        axes: of `stored_axes`.
+    """
     # Torch's exporter is slow to import: only here.
     from training.context import rotation
     from training.export import Exported, ExportedContext, export_onnx
     from training.quantisation import quantise
 
     recorded = data.training.recorded()
-    segment = Exported(trained.network, *stored_axes(trained.network, recorded))
+    segment = Exported(trained.network, *axes)
     grid = data.training.parameters.grid
     around, dimension, per_byte, files = None, STORED_DIMENSION, 1, [MODEL_FILE]
     if trained.projection is None:
@@ -180,7 +182,7 @@ def export_network(folder: Path, trained: Trained, data: Data) -> Manifest:
         quantise(folder / FULL_FILE, data.training, folder / MODEL_FILE)
         files.append(FULL_FILE)
     manifest = Manifest(
-        name=folder.name.removesuffix(UNFINISHED),
+        name=trained.method,
         method=trained.method,
         network=trained.network_name,
         dimension=dimension,
