@@ -31,7 +31,7 @@ def test_info(start: Any, manifest: Manifest) -> None:
     assert info["limits"]["min_points"] == 10
     assert info["map_file"] == {
         "format": "placecell-map",
-        "version": 0,
+        "version": 1,
         "media_type": "application/vnd.placecell.map",
     }
 
