@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.compact_map import CompactMap, is_ascending
+from placecell_client.compact_map import SEGMENT_COLUMNS, CompactMap, is_ascending
 
 Rows = NDArray[np.bool_] | NDArray[np.integer] | slice
 
@@ -41,7 +41,7 @@ def take(compact_map: CompactMap, rows: Rows) -> CompactMap:
         compact_map: the map.
         rows: a mask (n,), indices (m,), or a slice.
     """
-    columns = ("codes", "centroids", "ids", "robot", "frame_index", *compact_map.optional)
+    columns = (*SEGMENT_COLUMNS, *compact_map.optional)
     return replace(compact_map, **{name: getattr(compact_map, name)[rows] for name in columns})
 
 
