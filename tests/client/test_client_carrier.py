@@ -54,6 +54,9 @@ def content_of(data: bytes) -> Content:
     return Content(inner, safetensors.numpy.load(data))
 
 
+TYPES = {
+    "F64": "<f8", "F32": "<f4", "U32": "<u4", "U16": "<u2", "I16": "<i2", "U8": "u1", "I8": "i1"
+}  # fmt: skip
 NOTHING = carrier.FileFormat("x", "x", 0, frozenset(), frozenset())
 
 
@@ -197,6 +200,35 @@ def test_optional_columns_of_a_wrong_shape_are_refused(name: str) -> None:
     for wrong in (column[:2], column[..., None], column.reshape(-1)[:1]):
         with pytest.raises(MapFileError, match=name):
             decode(carrier.write(Content(content.header, content.columns | {name: wrong})))
+
+
+SHAPES = st.lists(st.integers(0, 4), max_size=3).map(tuple)
+
+
+@each_kind
+@given(
+    changes=st.dictionaries(
+        st.sampled_from(sorted(carrier.DTYPES)),
+        st.tuples(SHAPES, st.binary(min_size=8, max_size=64), st.booleans()),
+        min_size=1,
+        max_size=3,
+    )
+)
+def test_columns_of_any_shape_and_values_are_read_or_refused(
+    kind: Kind, changes: dict[str, tuple[tuple[int, ...], bytes, bool]]
+) -> None:
+    content = content_of(kind.data)
+    columns = dict(content.columns)
+    for name, (shape, values, is_wide) in changes.items():
+        dtype = np.dtype(TYPES[carrier.DTYPES[name][-1 if is_wide else 0]])
+        size = int(np.prod(shape)) * dtype.itemsize
+        columns[name] = np.frombuffer((values * size)[:size], dtype).reshape(shape)
+    data = carrier.write(Content(content.header, columns))
+    try:
+        read = kind.decode(data)
+    except MapFileError:
+        return
+    assert kind.encode(read) == data
 
 
 def test_an_empty_map_does_not_claim_wide_codes() -> None:
