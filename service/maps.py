@@ -9,7 +9,7 @@ from threading import Lock
 
 from placecell_client.map_file import CompactMap, MapFileError, decode
 
-from service.map_index import ExactIndex, MapIndex
+from service.map_index import MapIndex, index_of
 from service.map_store import MapStore
 from service.models import Models
 from service.problems import Problem
@@ -176,7 +176,7 @@ class Maps:
         model = self._models.find(content.model_id)
         if model is None or content.code_bytes != model.manifest.code_bytes:
             return None
-        return ExactIndex(content.codes, model.manifest.quantiser)
+        return index_of(content.codes, model.manifest.quantiser)
 
 
 def unknown(name: str) -> Problem:
