@@ -3,12 +3,13 @@
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import anyio
 import anyio.to_thread
 from fastapi import Request
 from pydantic import BaseModel, ValidationError
+from pydantic_core import to_json
 
 from service import packing
 from service.compression import CODINGS, decompress
@@ -18,6 +19,7 @@ from service.settings import Limits
 
 JSON = "application/json"
 MSGPACK = "application/msgpack"
+OCTETS = "application/octet-stream"
 ENCODINGS = (JSON, MSGPACK)
 """The first one unless the client says otherwise."""
 
@@ -127,11 +129,9 @@ def parse(
         raise invalid(error) from error
 
 
-def render(response: BaseModel, media_type: str) -> bytes:
+def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
     """A response in its encoding."""
-    if media_type == MSGPACK:
-        return packing.pack(response)
-    return response.model_dump_json().encode()
+    return packing.pack(response) if media_type == MSGPACK else to_json(response)
 
 
 def _count(body: bytes, limits: Limits) -> None:

@@ -62,6 +62,7 @@ class Database:
         except StoreError:
             self._connection.close()
             raise
+        self._file = path.stat().st_dev, path.stat().st_ino
 
     def close(self) -> None:
         """Let go of the file; what the log holds goes into it."""
@@ -76,6 +77,8 @@ class Database:
             StoreError: none of them happened.
         """
         with self._writing, _translated(self.path):
+            if not self.is_there():
+                raise StoreError("failing", f"{self.path} was removed or put in place of another")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -94,14 +97,28 @@ class Database:
             connection.execute("BEGIN")
             yield connection
 
+    def is_there(self) -> bool:
+        """Whether the file is the one that was opened: SQLite goes on writing to one removed."""
+        try:
+            status = self.path.stat()
+        except OSError:
+            return False
+        return (status.st_dev, status.st_ino) == self._file
+
     def give_back(self) -> None:
-        """Return freed pages to the disk, so many at a time that writers need not wait long."""
-        free, before = 0, 1
-        while free < before:
+        """Return freed pages to the disk, if they are many; in steps, so that no writer waits long.
+
+        Fewer are left, to be written to again.
+        """
+        before, free = 0, self._free_pages()
+        while free > VACUUM_PAGES and free != before:
             with self._writing, _translated(self.path):
-                (before,) = self._connection.execute("PRAGMA freelist_count").fetchone()
                 self._connection.execute(f"PRAGMA incremental_vacuum({VACUUM_PAGES})").fetchall()
-                (free,) = self._connection.execute("PRAGMA freelist_count").fetchone()
+            before, free = free, self._free_pages()
+
+    def _free_pages(self) -> int:
+        with self._writing, _translated(self.path):
+            return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
 
     def integrity(self) -> list[str]:
         """What SQLite finds wrong with the file, if anything."""

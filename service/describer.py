@@ -22,16 +22,21 @@ from service.timing import Timing
 class Scan:
     """The segments of a request, whichever encoding they came in.
 
+    In float64: a float32 is 0.5 m coarse at map coordinates of 5,000 km.
+
     Attributes:
-        clouds: points of each segment, float64 (n, 3), metres, in the request's frame.
+        points: of the segments, one after the other, float64 (n, 3), metres, in the request's
+            frame.
+        counts: int64 (segments,), points of each; a segment may have none.
         sensors: float64 (segments, 3), metres, the same frame: where the sensor was at capture.
     """
 
-    clouds: tuple[Float64, ...]
+    points: Float64
+    counts: Int64
     sensors: Float64
 
     def __len__(self) -> int:
-        return len(self.clouds)
+        return len(self.counts)
 
     @classmethod
     def of(
@@ -39,10 +44,31 @@ class Scan:
     ) -> Self:
         """From a request's segments, relative to its origin if it has one."""
         shift = np.array(origin or (0.0, 0.0, 0.0))
+        clouds = [np.asarray(each.points).reshape(-1, 3) for each in segments]
         return cls(
-            tuple(np.array(each.points, np.float64).reshape(-1, 3) + shift for each in segments),
+            np.concatenate(clouds, dtype=np.float64) + shift,
+            np.array([len(cloud) for cloud in clouds]),
             np.array([each.sensor for each in segments], np.float64) + shift,
         )
+
+    def reaches(self) -> Float64:
+        """Of each segment, metres from its sensor to its farthest point, float64 (segments,)."""
+        apart = self.points - np.repeat(self.sensors, self.counts, axis=0)
+        squared = np.einsum("ij,ij->i", apart, apart)
+        some = self.counts > 0
+        starts = (np.cumsum(self.counts) - self.counts)[some]
+        found = np.zeros(len(self))
+        found[some] = np.sqrt(np.maximum.reduceat(squared, starts)) if len(starts) else 0.0
+        return found
+
+    def near(self, origin: Float64, chosen: Int64) -> Segments:
+        """Some of the segments, relative to a point that is not far from them."""
+        every = Segments(
+            (self.points - origin).astype(np.float32),
+            np.cumsum(self.counts),
+            (self.sensors - origin).astype(np.float32),
+        )
+        return every if len(chosen) == len(self) else every.take(chosen)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,22 +146,17 @@ class Describer:
             Problem: 413 if there are too many, 422 if none can be used.
         """
         self._check_amount(scan)
-        clouds, sensors = scan.clouds, scan.sensors
         failures = self._failures(scan)
         usable = [index for index in range(len(scan)) if index not in failures]
         if usable:
-            # In float64, before the cast: a float32 is 0.5 m coarse at map coordinates of 5,000 km.
-            origin = np.quantile(sensors[usable], 0.5, axis=0, method="lower")
-            distant = np.linalg.norm(sensors - origin, axis=1) > self._limits.spread
+            origin = np.quantile(scan.sensors[usable], 0.5, axis=0, method="lower")
+            distant = np.linalg.norm(scan.sensors - origin, axis=1) > self._limits.spread
             for index in np.flatnonzero(distant):
                 failures.setdefault(int(index), self._apart())
             usable = [index for index in usable if index not in failures]
         if not usable:
             raise _none_usable(failures)
-        near = Segments.of(
-            [(clouds[index] - origin).astype(np.float32) for index in usable],
-            sensors[usable] - origin,
-        )
+        near = scan.near(origin, np.array(usable))
         timing.lap("decode")
         inputs = self._extractor.prepare(near, lap=timing.lap)
         timing.lap("voxelise")  # what is left of the steps before the network
@@ -147,7 +168,7 @@ class Describer:
         )
 
     def _check_amount(self, scan: Scan) -> None:
-        points = sum(map(len, scan.clouds))
+        points = len(scan.points)
         for kind, amount, limit in (
             ("segments", len(scan), self._limits.segments),
             ("points", points, self._limits.points),
@@ -161,18 +182,18 @@ class Describer:
         """By index, why a segment cannot be used."""
         limits = self._limits
         failures = {}
-        for index, (cloud, sensor) in enumerate(zip(scan.clouds, scan.sensors, strict=True)):
-            if len(cloud) < limits.min_points:
+        measured = zip(scan.counts.tolist(), scan.reaches().tolist(), strict=True)
+        for index, (count, reach) in enumerate(measured):
+            if count < limits.min_points:
                 failures[index] = _failed(
-                    "too-few-points",
-                    f"{len(cloud)} points; a segment has {limits.min_points} or more.",
+                    "too-few-points", f"{count} points; a segment has {limits.min_points} or more."
                 )
-            elif len(cloud) > limits.max_points:
+            elif count > limits.max_points:
                 failures[index] = _failed(
                     "too-many-points",
-                    f"{len(cloud)} points; a segment has {limits.max_points} or fewer.",
+                    f"{count} points; a segment has {limits.max_points} or fewer.",
                 )
-            elif (np.linalg.norm(cloud - sensor, axis=1) > limits.reach).any():
+            elif reach > limits.reach:
                 failures[index] = _failed(
                     "out-of-reach",
                     f"A point is more than {limits.reach:g} m from the sensor: "

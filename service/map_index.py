@@ -1,49 +1,140 @@
-"""Nearest descriptors in one map."""
+"""Nearest descriptors among many: exact, whatever the size of the map.
 
-from typing import Protocol
+Two dimensions of two bits fill a nibble, as does one of four: that is a product quantiser whose
+codebook needs no training. FAISS scans such codes 32 at a time in registers (André et al., *Cache
+locality is not enough*, VLDB 2015). What it rounds on the way has a bound: distances of what it
+finds are computed anew from the codes, and where the bound leaves a doubt it is asked for more.
+"""
+
+from abc import ABC, abstractmethod
 
 import faiss
 import numpy as np
 
-from segments.quantiser import Quantiser
-from segments.types import Float64, Int8, Int64
+from segments.quantiser import LEVELS, Quantiser
+from segments.types import Bool, Float64, Int8, Int64
+
+MARGIN = 32
+"""Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
+
+MOST = 1 << 13
+"""Rows fetched for the sake of ties: of more that are equally near, some are left out."""
 
 
-class MapIndex(Protocol):
-    """Searches the stored descriptors of one map."""
+class MapIndex(ABC):
+    """Searches stored descriptors by Euclidean distance."""
 
-    def search(self, codes: Int8, k: int) -> tuple[Float64, Int64]:
-        """The nearest rows of the map to each query.
+    def __init__(self, codes: Int8) -> None:
+        """Of int8 (n, code bytes)."""
+        self._codes = codes
+
+    def __len__(self) -> int:
+        return len(self._codes)
+
+    def search(
+        self, codes: Int8, k: int, gone: Bool | None = None, margin: int = MARGIN
+    ) -> tuple[Float64, Int64]:
+        """The nearest rows to each query; the same whatever the other queries are.
 
         Args:
             codes: int8 (q, code bytes).
-            k: so many, or all if the map has fewer.
+            k: so many, or all if there are fewer.
+            gone: of each row, whether it is not to be found.
+            margin: rows to fetch beyond k.
 
         Returns:
             Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows,
             int64, of the same shape, ascending among equal distances.
         """
+        k = min(k, len(self) - (0 if gone is None else int(gone.sum())))
+        if not k or not len(codes):
+            return np.zeros((len(codes), k)), np.zeros((len(codes), k), dtype=np.int64)
+        # Requests are searched side by side: a thread each wastes less than all threads for each.
+        faiss.omp_set_num_threads(1)
+        fetch = min(k + margin, len(self))
+        squared, rows, complete = self._nearest(codes, fetch)
+        if gone is not None:
+            squared[gone[rows]] = np.inf
+        order = np.lexsort((rows, squared), axis=1)[:, :k]
+        squared = np.take_along_axis(squared, order, axis=1)
+        distances, found = np.sqrt(squared), np.take_along_axis(rows, order, axis=1)
+        if fetch < len(self):
+            farthest = squared[:, -1]
+            doubt = ~(farthest < complete) if fetch < MOST else np.isinf(farthest)
+            again = np.flatnonzero(doubt)
+            if len(again):
+                distances[again], found[again] = self.search(codes[again], k, gone, 4 * margin)
+        return distances, found
+
+    @abstractmethod
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        """Rows near to each query.
+
+        Returns:
+            Squared distances in steps, float64 (q, fetch), exact; their rows, int64 (q, fetch); and
+            the squared distance below which none is missing, float64 (q,).
+        """
 
 
-class ExactIndex:
-    """Compares with every row.
+class FlatIndex(MapIndex):
+    """Compares with every row, dimension by dimension.
 
     Levels are whole numbers, and squared distances of up to 258 dimensions stay below 2^24: exact
     in float32, so a distance depends neither on the batch nor on the order of summation.
     """
 
     def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+        super().__init__(codes)
         self._quantiser = quantiser
         levels = quantiser.levels(codes)
         self._index = faiss.IndexFlatL2(levels.shape[1])
         self._index.add(levels.astype(np.float32))
 
-    def search(self, codes: Int8, k: int) -> tuple[Float64, Int64]:
-        """The nearest rows of the map to each query."""
-        k = min(k, self._index.ntotal)
-        if not k:
-            return np.zeros((len(codes), 0)), np.zeros((len(codes), 0), dtype=np.int64)
-        squared, rows = self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
-        order = np.lexsort((rows, squared), axis=1)
-        distances = np.sqrt(np.take_along_axis(squared, order, axis=1).astype(np.float64))
-        return distances, np.take_along_axis(rows, order, axis=1)
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        squared, rows = self._index.search(levels, fetch)
+        return squared.astype(np.float64), rows, squared[:, -1].astype(np.float64)
+
+
+class NibbleIndex(MapIndex):
+    """Looks up what each nibble adds to the distance.
+
+    Takes the codes' own bytes a segment in memory, beside the codes.
+    """
+
+    def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+        """Of codes with 2 or 4 dimensions a byte."""
+        super().__init__(codes)
+        self._quantiser = quantiser
+        every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
+        levels = quantiser.levels(every).astype(np.int32)
+        # Squared distance of two bytes, at 256 times the one plus the other.
+        self._apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
+        per_nibble, nibbles = quantiser.per_byte // 2, 2 * codes.shape[1]
+        # A nibble's value: its dimensions' digits, as the quantiser counts them.
+        places = LEVELS[quantiser.per_byte] ** np.arange(per_nibble)
+        digits = (levels + quantiser.highest) // quantiser.spacing
+        low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
+        codebook = np.zeros((16, per_nibble), dtype=np.float32)
+        codebook[low] = levels[:, :per_nibble]
+        plain = faiss.IndexPQ(nibbles * per_nibble, nibbles, 4)
+        faiss.copy_array_to_vector(np.tile(codebook, (nibbles, 1)).ravel(), plain.pq.centroids)
+        plain.is_trained = True
+        plain.add_sa_codes((low | high << 4).astype(np.uint8)[codes.view(np.uint8)])
+        self._index = faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+        # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
+        widest = per_nibble * (2 * quantiser.highest) ** 2
+        self._bound = nibbles * widest / 2 * max(1 / 255, nibbles / 65_535)
+
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        told, rows = self._index.search(levels, fetch)
+        pairs = codes.view(np.uint8).astype(np.int64)[:, None] * 256
+        squared = self._apart[pairs + self._codes.view(np.uint8)[rows]].sum(axis=2)
+        return squared.astype(np.float64), rows, told[:, -1].astype(np.float64) - self._bound
+
+
+def index_of(codes: Int8, quantiser: Quantiser) -> MapIndex:
+    """The index that suits the codes: the quickest by far, where they are made of nibbles."""
+    kind = NibbleIndex if quantiser.per_byte in {2, 4} else FlatIndex
+    return kind(codes, quantiser)

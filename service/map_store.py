@@ -116,11 +116,19 @@ class History(Protocol):
     def commits(self) -> list[Commit]:
         """From the base's own to the newest."""
 
+    def mark(self, sequence: int) -> str:
+        """Of one version; KeyError if it is not kept."""
+
     def base(self) -> bytes:
         """The oldest version's file; StoreError if it is damaged."""
 
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
-        """The commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
+        """The commits from `after`, exclusive, to `until`.
+
+        Raises:
+            KeyError: `after` is not kept.
+            StoreError: a commit is damaged.
+        """
 
 
 class MapStore(Protocol):
@@ -156,6 +164,9 @@ class MapStore(Protocol):
 
     def delete(self, uid: str) -> None:
         """Remove a map with all its versions; KeyError if there is none."""
+
+    def give_back(self) -> None:
+        """Return the room of what was removed to the disk, if it is much."""
 
     def writable(self) -> bool:
         """Whether the store can take a write."""

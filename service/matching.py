@@ -1,15 +1,19 @@
 """From queries to candidates in one map, some, or all."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from segments.types import Int8, Int64
+from segments.types import Float64, Int8, Int64
 from service.keys import Holder
-from service.maps import Maps, StoredMap
+from service.maps import Maps
 from service.models import Model, Models
 from service.problems import Problem
-from service.schemas import CandidateOut
+from service.stored_map import StoredMap
+
+Candidate = dict[str, Any]
+"""As `CandidateOut` says; not made of it, for there are hundreds a request."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +56,7 @@ def scope_of(
     groups: dict[str, list[StoredMap]] = {}
     skipped = []
     for stored in chosen:
-        made_by = stored.content.model_id
+        made_by = stored.model_id
         if stored.index is not None and only in (None, models.find(made_by)):
             groups.setdefault(made_by, []).append(stored)
         elif names is None:
@@ -68,10 +72,59 @@ def scope_of(
     return Scope(tuple(searched), tuple(skipped))
 
 
-def candidates_of(
-    codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int
-) -> list[list[CandidateOut]]:
-    """The k nearest over all maps, nearest first; ties by map, then id.
+@dataclass(frozen=True, slots=True, eq=False)
+class Found:
+    """The nearest segments to each query, nearest first; ties by map, then id.
+
+    Attributes:
+        searched: the maps.
+        places: int64 (q, k), indices into them.
+        rows: int64 (q, k), of each segment in its map's layers.
+        distances: float64 (q, k), in the descriptors' unit.
+        probabilities: of a match, float64 (q, k); None if the model has no classifier.
+    """
+
+    searched: tuple[StoredMap, ...]
+    places: Int64
+    rows: Int64
+    distances: Float64
+    probabilities: Float64 | None
+
+    def candidates(self) -> list[list[Candidate]]:
+        """Of each query, as they are answered (`CandidateOut`)."""
+        ids = np.zeros(self.rows.shape, dtype=np.int64)
+        centroids = np.zeros((*self.rows.shape, 3))
+        robots = np.full(self.rows.shape, "", dtype=object)
+        for place, stored in enumerate(self.searched):
+            here = self.places == place
+            rows, layers = self.rows[here], stored.layers
+            ids[here] = layers.column("ids", rows)
+            centroids[here] = layers.column("centroids", rows)
+            robots[here] = layers.robot_names(rows)
+        names = [(stored.name, stored.frame) for stored in self.searched]
+        stated = (
+            np.full(self.rows.shape, None) if self.probabilities is None else self.probabilities
+        )
+        columns = self.places, ids, robots, self.distances, stated, centroids
+        return [
+            [
+                {
+                    "map": names[place][0],
+                    "id": id_,
+                    "robot": robot,
+                    "distance": distance,
+                    "probability": probability,
+                    "centroid": centroid,
+                    "frame": names[place][1],
+                }
+                for place, id_, robot, distance, probability, centroid in zip(*query, strict=True)
+            ]
+            for query in zip(*(column.tolist() for column in columns), strict=True)
+        ]
+
+
+def found_in(codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int) -> Found:
+    """The k nearest over all maps.
 
     Args:
         codes: int8 (q, code bytes), the queries.
@@ -81,29 +134,21 @@ def candidates_of(
     """
     found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
     for place, stored in enumerate(searched):
-        assert stored.index is not None
-        distances, rows = stored.index.search(codes, k)
+        distances, rows = stored.search(codes, k)
         here = distances, np.full_like(rows, place), rows
         found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
-        # By distance in steps, map, row (rows of a map are sorted by id). Never more than of two
-        # maps at once, however many there are.
-        order = np.lexsort(found[::-1], axis=1)[:, :k]
-        found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
+        if len(searched) > 1:
+            # By distance in steps, then map; those of a map are in the order of their ids, and stay
+            # so. Never more than of two maps at once, however many there are.
+            order = np.lexsort(found[1::-1], axis=1)[:, :k]
+            found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
     probabilities = _probabilities(codes, model, searched, places, rows)
     lengths = distances * model.manifest.quantiser.step
-    return [
-        [
-            _candidate(searched[place], row, length, probability)
-            for place, row, length, probability in zip(*query, strict=True)
-        ]
-        for query in zip(
-            places.tolist(), rows.tolist(), lengths.tolist(), probabilities, strict=True
-        )
-    ]
+    return Found(searched, places, rows, lengths, probabilities)
 
 
-def merged(by_model: list[list[CandidateOut]], k: int) -> list[CandidateOut]:
+def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
     """One query's candidates of several models: the likeliest, for their distances do not compare.
 
     Of models without a probability they come last.
@@ -111,37 +156,19 @@ def merged(by_model: list[list[CandidateOut]], k: int) -> list[CandidateOut]:
     if len(by_model) == 1:
         return by_model[0]
     every = [candidate for candidates in by_model for candidate in candidates]
-    return sorted(every, key=lambda one: -(one.probability or 0.0))[:k]
+    return sorted(every, key=lambda one: -(one["probability"] or 0.0))[:k]
 
 
 def _probabilities(
     codes: Int8, model: Model, searched: tuple[StoredMap, ...], places: Int64, rows: Int64
-) -> list[list[float | None]]:
+) -> Float64 | None:
     """Of each candidate of each query, (q, k); all at once: a call costs more than a row."""
-    queries, k = rows.shape
-    if model.classifier is None or not rows.size:
-        return [[None] * k for _ in range(queries)]
-    found = np.empty((queries, k, codes.shape[1]), dtype=np.int8)
+    if model.classifier is None:
+        return None
+    found = np.empty((*rows.shape, codes.shape[1]), dtype=np.int8)
     for place, stored in enumerate(searched):
         here = places == place
-        found[here] = stored.content.codes[rows[here]]
-    asked = np.repeat(codes, k, axis=0)
+        found[here] = stored.layers.column("codes", rows[here])
+    asked = np.repeat(codes, rows.shape[1], axis=0)
     stated = model.classifier.probabilities(asked, found.reshape(asked.shape))
-    return [list(row) for row in np.asarray(stated, np.float64).reshape(queries, k).tolist()]
-
-
-def _candidate(
-    stored: StoredMap, row: int, distance: float, probability: float | None
-) -> CandidateOut:
-    content = stored.content
-    x, y, z = content.centroids[row].tolist()
-    # Not validated: the values are our own, and there are hundreds a request.
-    return CandidateOut.model_construct(
-        map=stored.name,
-        id=int(content.ids[row]),
-        robot=content.robots[content.robot[row]],
-        distance=distance,
-        probability=probability,
-        centroid=(x, y, z),
-        frame=content.frame,
-    )
+    return stated.reshape(rows.shape)

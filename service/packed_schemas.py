@@ -49,9 +49,10 @@ def _points(blob: object) -> Float32:
         raise ValueError(f"{len(data)} bytes, not a multiple of {POINT_BYTES}: x, y, z as float32")
     points = np.frombuffer(data, "<f4").reshape(-1, 3)
     # Written so that NaN fails too.
-    good = np.abs(points) <= COORDINATE_LIMIT
-    if not good.all():
-        row, axis = (int(place) for place in np.argwhere(~good)[0])
+    if not (
+        points.max(initial=0) <= COORDINATE_LIMIT and points.min(initial=0) >= -COORDINATE_LIMIT
+    ):
+        row, axis = (int(place) for place in np.argwhere(~(np.abs(points) <= COORDINATE_LIMIT))[0])
         raise _out_of_range((row, axis), float(points[row, axis]))
     return points
 

@@ -60,9 +60,10 @@ def unpack(body: bytes, limits: Limits) -> object:
         ) from error
 
 
-def pack(response: BaseModel) -> bytes:
+def pack(response: BaseModel | dict[str, Any]) -> bytes:
     """A response as msgpack; `bytes` become blobs."""
-    return bytes(msgpack.packb(response.model_dump()))
+    content = response.model_dump() if isinstance(response, BaseModel) else response
+    return bytes(msgpack.packb(content))
 
 
 def _too_many(limit: int) -> Problem:

@@ -166,9 +166,7 @@ class SqliteMapStore:
             ).fetchone()
             if first + count > IDS:
                 raise OutOfIdsError(f"{IDS - first} ids are left")
-            connection.execute(
-                "UPDATE maps SET next_id = ? WHERE map = ?", (first + count, row)
-            )
+            connection.execute("UPDATE maps SET next_id = ? WHERE map = ?", (first + count, row))
             return int(first)
 
     def compact(self, uid: str, sequence: int, file: bytes) -> Head:
@@ -206,7 +204,7 @@ class SqliteMapStore:
 
     def writable(self) -> bool:
         """Whether the store can take a write."""
-        return self._database.path.is_file() and os.access(self._database.path, os.W_OK)
+        return self._database.is_there() and os.access(self._database.path, os.W_OK)
 
     def verify(self) -> list[str]:
         """What is wrong with the database, if anything: its structure, and every blob's mark."""
@@ -242,6 +240,17 @@ class SqliteHistory:
         )
         return [_commit(row) for row in rows]
 
+    def mark(self, sequence: int) -> str:
+        """Of one version; KeyError if it is not kept."""
+        found = self._connection.execute(
+            "SELECT mark FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
+        ).fetchone()
+        if found is None:
+            if self._head.oldest <= sequence <= self._head.sequence:
+                raise self._damaged(f"version {sequence}")
+            raise KeyError(sequence)
+        return str(found[0])
+
     def base(self) -> bytes:
         """The oldest version's file; StoreError if it is damaged."""
         parts = []
@@ -257,7 +266,7 @@ class SqliteHistory:
 
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
         """The commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
-        before, sequence = self._mark(after), after
+        before, sequence = self.mark(after), after
         for *columns, blob in self._connection.execute(
             f"{_COMMIT}, delta FROM commits "
             "WHERE map = ? AND sequence > ? AND sequence <= ? ORDER BY sequence",
@@ -273,14 +282,6 @@ class SqliteHistory:
 
     def _damaged(self, part: str) -> StoreError:
         return StoreError("damaged", f"map {self._head.name!r}: its {part} was altered or lost")
-
-    def _mark(self, sequence: int) -> str:
-        found = self._connection.execute(
-            "SELECT mark FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
-        ).fetchone()
-        if found is None:
-            raise KeyError(sequence)
-        return str(found[0])
 
 
 def _row_of(connection: sqlite3.Connection, uid: str) -> int:

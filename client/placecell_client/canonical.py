@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.compact_map import CompactMap, is_ascending
+from placecell_client.compact_map import SEGMENT_COLUMNS, CompactMap, is_ascending
 
 Rows = NDArray[np.bool_] | NDArray[np.integer] | slice
 
@@ -21,7 +21,7 @@ def canonical(compact_map: CompactMap) -> CompactMap:
     if not is_ascending(ordered.ids):
         ordered = take(ordered, np.argsort(ordered.ids, kind="stable"))
     robots, robot_ranks = _sorted_robots(ordered)
-    table, frame_ranks = sorted_frames(ordered)
+    table, frame_ranks = _sorted_frames(ordered)
     return replace(
         ordered,
         centroids=snap(ordered.centroids),
@@ -41,7 +41,7 @@ def take(compact_map: CompactMap, rows: Rows) -> CompactMap:
         compact_map: the map.
         rows: a mask (n,), indices (m,), or a slice.
     """
-    columns = ("codes", "centroids", "ids", "robot", "frame_index", *compact_map.optional)
+    columns = (*SEGMENT_COLUMNS, *compact_map.optional)
     return replace(compact_map, **{name: getattr(compact_map, name)[rows] for name in columns})
 
 
@@ -89,7 +89,7 @@ def distinct_rows(
     return ordered[is_new], ranks
 
 
-def sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     """The frames that segments name, as `distinct_rows`, and each frame's place among them."""
     used = _used(compact_map.frame_index, len(compact_map.frame_times))
     table, places = distinct_rows(frame_rows(compact_map)[used])

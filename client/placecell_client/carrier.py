@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from placecell_client.compact_map import MapFileError
 
 METADATA_KEY = "placecell"
-HEADER_LIMIT = 100_000_000
-"""Bytes; safetensors' own limit for its JSON header."""
+HEADER_LIMIT = 1 << 20
+"""Bytes; 1 kB is common. Parsed JSON takes twenty times its length."""
 
 Columns = dict[str, NDArray[Any]]
 
@@ -74,6 +74,9 @@ def write(content: Content) -> bytes:
 
     Written here, though read with the library, because its bytes must never change: the library's
     writer is free to order and pad anew in a later release.
+
+    Raises:
+        MapFileError: the header is too long.
     """
     parts: list[bytes | memoryview] = [_head(content, _checksum(content))]
     parts += [_contiguous(column).data for column in _in_order(content.columns).values()]
@@ -146,6 +149,8 @@ def _head(content: Content, checksum: str) -> bytes:
         }
     text = json.dumps(outer, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 8)
+    if len(text) > HEADER_LIMIT:
+        raise MapFileError(f"header: {len(text)} bytes, of robots' names; at most {HEADER_LIMIT}")
     return len(text).to_bytes(8, "little") + text
 
 
@@ -154,10 +159,12 @@ def _outer_header(data: bytes, expected: FileFormat) -> dict[str, Any]:
     if len(data) < 8:
         raise MapFileError(f"{len(data)} bytes are too few for a {expected.noun}")
     length = int.from_bytes(data[:8], "little")
-    if length > min(len(data) - 8, HEADER_LIMIT):
+    if length > len(data) - 8:
         raise MapFileError(
             f"not a {expected.noun}, or cut short: its header is longer than the file"
         )
+    if length > HEADER_LIMIT:
+        raise MapFileError(f"header: {length} bytes; at most {HEADER_LIMIT}")
     return _json(data[8 : 8 + length], expected)
 
 

@@ -11,6 +11,13 @@ COORDINATE_LIMIT = 1e8
 TIME_LIMIT = 9e9
 """Seconds, the year 2255; more is a time in another unit."""
 
+CODE_LIMIT = 65_535
+"""Bytes of codes that a segment may have."""
+
+SEGMENT_COLUMNS = ("codes", "centroids", "ids", "robot", "frame_index")
+"""Columns of one row a segment that every map has."""
+FRAME_COLUMNS = ("frame_times", "frame_positions", "frame_orientations")
+"""Columns of the frame table."""
 OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
     "extents": (np.uint8, (3,)),
     "points": (np.uint16, ()),
@@ -120,11 +127,15 @@ def _check_texts(compact_map: CompactMap) -> None:
 
 
 def _check_columns(compact_map: CompactMap) -> None:
+    for name in ("ids", "frame_times"):
+        if getattr(compact_map, name).ndim != 1:
+            raise MapFileError(f"{name}: shape {getattr(compact_map, name).shape}, not (n,)")
     n, f = len(compact_map.ids), len(compact_map.frame_times)
-    if compact_map.codes.ndim != 2 or not compact_map.codes.shape[1]:
-        raise MapFileError(f"codes: shape {compact_map.codes.shape}, not (n, bytes) with bytes > 0")
+    codes = compact_map.codes
+    if codes.ndim != 2 or not 1 <= codes.shape[1] <= CODE_LIMIT:
+        raise MapFileError(f"codes: shape {codes.shape}, not (n, 1 to {CODE_LIMIT})")
     expected = {
-        "codes": (np.int8, (n, compact_map.codes.shape[1])),
+        "codes": (np.int8, (n, codes.shape[1])),
         "centroids": (np.float64, (n, 3)),
         "ids": (np.uint32, (n,)),
         "robot": (np.uint16, (n,)),
@@ -143,8 +154,8 @@ def _check_columns(compact_map: CompactMap) -> None:
 
 def _check_values(compact_map: CompactMap) -> None:
     for name, limit in {
+        "frame_positions": COORDINATE_LIMIT,  # before what a file states relative to them
         "centroids": COORDINATE_LIMIT,
-        "frame_positions": COORDINATE_LIMIT,
         "frame_times": TIME_LIMIT,
         "frame_orientations": 2.0,
     }.items():

@@ -4,7 +4,6 @@ It is carried as the map file is (`MAP_FILE.md`), and is as strict: equal deltas
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,8 +64,10 @@ class Delta:
             raise MapFileError("removed: ids do not ascend")
         if len(np.intersect1d(removed, self.changed.ids, assume_unique=True)):
             raise MapFileError("removed: an id is changed as well")
+        if type(self.since) is not int or type(self.until) is not int:  # a bool is none either
+            raise MapFileError("since, until: not integers")
         if not 0 <= self.since <= self.until < SEQUENCE_LIMIT:
-            raise MapFileError(f"since {self.since}, until {self.until}: not 0 <= since <= until")
+            raise MapFileError("since, until: not 0 <= since <= until < 2^53")
         if self.is_whole and len(removed):
             raise MapFileError("removed: nothing can be removed from nothing (since 0)")
 
@@ -91,8 +92,8 @@ def decode_delta(data: bytes) -> Delta:
     delta = Delta(
         changed=map_of(header, columns),
         removed=columns["removed"].astype(np.uint32, copy=False),
-        since=_sequence(header, "since"),
-        until=_sequence(header, "until"),
+        since=header.get("since", -1),
+        until=header.get("until", -1),
     )
     if not carrier.is_file_of(data, _content(delta), checksum):
         raise MapFileError("the file is not in canonical form: encode the delta again")
@@ -111,10 +112,3 @@ def _content(delta: Delta) -> Content:
     }
     columns = columns_of(ordered) | {"removed": delta.removed.astype("<u4", copy=False)}
     return Content(header | header_of(ordered), columns)
-
-
-def _sequence(header: dict[str, Any], key: str) -> int:
-    value = header.get(key)
-    if not isinstance(value, int) or isinstance(value, bool):
-        raise MapFileError(f"header: {key} is not an integer")
-    return value

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 from placecell_client.canonical import canonical, distinct_rows, frame_rows, take
 from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError
 from placecell_client.map_delta import Delta
+from placecell_client.map_union import check_same_kind, is_same_kind, union, with_optional
 
 __all__ = [
     "apply",
@@ -41,7 +41,7 @@ def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
     if delta.is_whole:
         return canonical(delta.changed)
     gone = _rows_of(compact_map, np.concatenate([delta.removed, delta.changed.ids]))
-    return _merged([compact_map, delta.changed], gone)
+    return union([compact_map, delta.changed], gone)
 
 
 def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np.uint32]]:
@@ -59,7 +59,7 @@ def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np
     lost = set(old.optional) - set(new.optional)
     if lost:
         raise MapFileError(f"{min(lost)}: a difference cannot take a column away")
-    _check_same_kind([old, new])
+    check_same_kind([old, new])
     before, after = canonical(with_optional(old, new.optional)), canonical(new)
     places = np.searchsorted(before.ids, after.ids)
     is_known = _at(before.ids, places, after.ids)
@@ -72,13 +72,23 @@ def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np
 
 
 def delta_between(old: CompactMap, new: CompactMap, since: int, until: int) -> Delta:
-    """The delta from one version of a map to another: `apply(old, delta)` is always `new`.
+    """The delta from one version of a map to another: `apply(old, delta)` is `new`.
 
     Where a difference cannot say it (another model, an optional column lost), it is from nothing.
+
+    Args:
+        old: a valid map.
+        new: a valid map.
+        since: the sequence of `old`; 0: the delta is from nothing.
+        until: the sequence of `new`; 0 with `since` 0: the delta applies to whatever is there.
+
+    Raises:
+        MapFileError: a difference cannot say it, and `until` is 0.
     """
-    if is_same_kind(old, new) and set(old.optional) <= set(new.optional):
-        return Delta(*difference(old, new), since, until)
-    return Delta(canonical(new), np.zeros(0, np.uint32), 0, until)
+    is_told = is_same_kind(old, new) and set(old.optional) <= set(new.optional)
+    if until and not (since and is_told):
+        return Delta(canonical(new), np.zeros(0, np.uint32), 0, until)
+    return Delta(*difference(old, new), since, until)
 
 
 def compose(first: Delta, second: Delta) -> Delta:
@@ -94,7 +104,7 @@ def compose(first: Delta, second: Delta) -> Delta:
     if first.until != second.since:
         raise MapFileError(f"a delta since {second.since} does not follow one until {first.until}")
     gone = _rows_of(first.changed, np.concatenate([second.removed, second.changed.ids]))
-    changed = _merged([first.changed, second.changed], gone)
+    changed = union([first.changed, second.changed], gone)
     removed = np.zeros(0, np.uint32)
     if not first.is_whole:
         both = np.union1d(first.removed, second.removed)
@@ -111,9 +121,11 @@ def join(parts: Sequence[Delta]) -> Delta:
     Raises:
         MapFileError: they are not parts of one delta.
     """
+    for part in parts:
+        part.check()
     if len({(part.since, part.until) for part in parts}) != 1:
         raise MapFileError("since, until: not parts of one delta")
-    changed = _merged([part.changed for part in parts], slice(0, 0))
+    changed = union([part.changed for part in parts])
     removed = np.sort(np.concatenate([part.removed for part in parts]))
     joined = Delta(changed, removed, parts[0].since, parts[0].until)
     joined.check()
@@ -141,77 +153,6 @@ def empty(
     )
 
 
-def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
-    """The map with these optional columns; those that it lacks as `apply` says."""
-    missing = [name for name in names if getattr(compact_map, name) is None]
-    defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}
-    return replace(compact_map, **defaults)
-
-
-def is_same_kind(one: CompactMap, other: CompactMap) -> bool:
-    """Whether segments of both may stand in one map."""
-    return all(_kind(one)[what] == _kind(other)[what] for what in _kind(one))
-
-
-def _kind(compact_map: CompactMap) -> dict[str, str | int]:
-    return {
-        "model_id": compact_map.model_id,
-        "preprocessing": compact_map.preprocessing,
-        "frame": compact_map.frame,
-        "code_bytes": compact_map.code_bytes,
-    }
-
-
-def _check_same_kind(maps: Sequence[CompactMap]) -> None:
-    first = _kind(maps[0])
-    for other in maps[1:]:
-        for what, value in _kind(other).items():
-            if value != first[what]:
-                raise MapFileError(f"{what}: {first[what]!r} and {value!r} do not go together")
-
-
-def _default(compact_map: CompactMap, name: str) -> NDArray[Any]:
-    dtype, shape = OPTIONAL[name]
-    if name == "views":
-        return compact_map.ids
-    if name == "seen":
-        seconds = np.floor(compact_map.frame_times).clip(0, np.iinfo(np.uint32).max)
-        return seconds.astype(np.uint32)[compact_map.frame_index]
-    return np.zeros((len(compact_map), *shape), dtype)
-
-
-def _merged(maps: Sequence[CompactMap], gone: NDArray[np.integer] | slice) -> CompactMap:
-    """All segments of the maps but some rows of the first, in canonical form."""
-    _check_same_kind(maps)
-    optional = [name for name in OPTIONAL if any(name in each.optional for each in maps)]
-    filled = [with_optional(each, optional) for each in maps]
-    names = {name: None for each in maps for name in each.robots}
-    if len(names) > 1 << 16:
-        raise MapFileError(f"robots: {len(names)} names; at most 65,536")
-    places = {name: place for place, name in enumerate(names)}
-    frames_before = np.cumsum([0, *(len(each.frame_times) for each in maps)])
-    columns: dict[str, list[NDArray[Any]]] = {
-        "robot": [
-            np.array([places[name] for name in each.robots], np.uint16)[each.robot] for each in maps
-        ],
-        "frame_index": [
-            each.frame_index + np.uint32(before)
-            for each, before in zip(maps, frames_before, strict=False)
-        ],
-    }
-    for name in ("codes", "centroids", "ids", *optional):
-        columns[name] = [getattr(each, name) for each in filled]
-    kept = np.ones(sum(map(len, maps)), dtype=bool)
-    kept[gone] = False
-    ids = np.concatenate(columns["ids"])
-    rows = np.flatnonzero(kept)
-    rows = rows[np.argsort(ids[rows], kind="stable")]
-    merged: dict[str, Any] = {name: np.concatenate(each)[rows] for name, each in columns.items()}
-    for name in ("frame_times", "frame_positions", "frame_orientations"):
-        merged[name] = np.concatenate([getattr(each, name) for each in maps])
-    return canonical(replace(filled[0], robots=tuple(names), **merged))
-
-
 def _rows_of(compact_map: CompactMap, ids: NDArray[np.uint32]) -> NDArray[np.intp]:
     """The rows of those ids that the map has."""
     order = np.argsort(compact_map.ids, kind="stable")  # as good as free where they are sorted
@@ -236,7 +177,8 @@ def _differs(
     differs = np.zeros(len(rows), dtype=bool)
     for name in ("codes", "centroids", *after.optional):
         one, other = getattr(before, name)[places], getattr(after, name)[rows]
-        differs |= (one != other).reshape(len(rows), -1).any(axis=1)
+        unequal = one != other
+        differs |= unequal.any(axis=1) if unequal.ndim > 1 else unequal
     names = {name: place for place, name in enumerate(after.robots)}
     robots = np.array([names.get(name, -1) for name in before.robots], np.int64)
     differs |= robots[before.robot[places]] != after.robot[rows]

@@ -1,6 +1,7 @@
 """`/match`: queries in, candidates out."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from fastapi import APIRouter, Request, Response
@@ -9,19 +10,12 @@ from segments.types import Int8
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.describer import Prepared, Scan
 from service.keys import Holder
-from service.matching import Scope, candidates_of, merged, scope_of
+from service.matching import Candidate, Scope, found_in, merged, scope_of
 from service.models import Model
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedMatchRequest
 from service.problems import Problem, ProblemError, documented
-from service.schemas import (
-    CandidateOut,
-    CandidatesOut,
-    Failed,
-    MatchRequest,
-    MatchResponse,
-    SkippedOut,
-)
+from service.schemas import Failed, MatchRequest, MatchResponse
 from service.state import HolderOf, State, StateOf, TimingOf
 from service.timing import Timing
 
@@ -55,7 +49,7 @@ class Asked:
     summary="The nearest segments of one map, some, or all",
     response_model=MatchResponse,
     responses=packed_response(MatchResponse)
-    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 504),
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 504),
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
 async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
@@ -106,34 +100,34 @@ def _search(asked: Asked, queries: list[tuple[Int8, Rows]], answer: str, timing:
     found = [
         [candidates[row] if isinstance(row, int) else row for row in rows]
         for (model, searched), (codes, rows) in zip(asked.scope.searched, queries, strict=True)
-        for candidates in [candidates_of(codes, model, searched, asked.k)]
+        for candidates in [found_in(codes, model, searched, asked.k).candidates()]
     ]
     if not found:
         assert asked.codes is not None
         found = [[[] for _ in asked.codes[0]]]
     timing.lap("search")
-    response = MatchResponse(
-        model_id=asked.model_id,
-        queries=[_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
-        searched=[stored.name for stored in asked.scope.maps],
-        skipped=[
-            SkippedOut(map=stored.name, model_id=stored.content.model_id)
-            for stored in asked.scope.skipped
+    # What `MatchResponse` says, without its checks: the values are our own.
+    response = {
+        "model_id": asked.model_id,
+        "queries": [_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
+        "searched": [stored.name for stored in asked.scope.maps],
+        "skipped": [
+            {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped
         ],
-    )
+    }
     content = render(response, answer)
     timing.lap("encode")
     return content
 
 
-def _one(by_model: list[list[CandidateOut] | Failed], k: int) -> CandidatesOut | Failed:
+def _one(by_model: list[list[Candidate] | Failed], k: int) -> dict[str, Any]:
     """One query's result: what any model found, or why none could look."""
     found = [candidates for candidates in by_model if not isinstance(candidates, Failed)]
     if found:
-        return CandidatesOut(candidates=merged(found, k))
+        return {"candidates": merged(found, k)}
     failed = by_model[0]
     assert isinstance(failed, Failed)
-    return failed
+    return failed.model_dump()
 
 
 def _codes(state: State, query: MatchRequest | PackedMatchRequest, model: Model) -> Int8:

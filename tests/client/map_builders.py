@@ -1,11 +1,13 @@
-"""Random maps."""
+"""Maps: random ones, and ones that have much in common."""
 
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from placecell_client import CompactMap
+from hypothesis import strategies as st
+from placecell_client import CompactMap, Delta
+from placecell_client.compact_map import OPTIONAL
 
 
 def random_map(
@@ -40,7 +42,59 @@ def random_map(
     columns: dict[str, Any] = {
         "extents": random.integers(0, 256, (segments, 3)).astype(np.uint8),
         "points": random.integers(0, 1 << 16, segments).astype(np.uint16),
-        "views": given.ids[random.integers(0, segments, segments)] if segments else given.ids,
+        "views": given.ids[random.integers(0, max(segments, 1), segments)],
         "seen": random.integers(0, 1 << 32, segments).astype(np.uint32),
     }
     return replace(given, **{name: columns[name] for name in optional})
+
+
+COLUMN_SETS = st.sets(st.sampled_from(list(OPTIONAL)))
+ORIENTATIONS = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [1, 0, 0, 0], [-0.0, 0, 0, 1]], np.float32)
+
+
+@st.composite
+def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -> CompactMap:
+    """Small maps from so few values that two of them have ids, segments and frames in common."""
+    ids = draw(st.lists(st.integers(0, 12), unique=True, max_size=10))
+    n = len(ids)
+
+    def column(values: st.SearchStrategy[Any], dtype: type, count: int = n, width: int = 0) -> Any:
+        shape = (count, width) if width else (count,)
+        size = int(np.prod(shape))
+        drawn = draw(st.lists(values, min_size=size, max_size=size))
+        return np.array(drawn, dtype).reshape(shape)
+
+    few = st.integers(0, 1)
+    frames = draw(st.integers(1, 3))
+    robots = draw(st.permutations(["ann", "bob", "zoe"]))
+    given = CompactMap(
+        model_id="m",
+        preprocessing="1",
+        frame="yard",
+        codes=column(few, np.int8, width=2),
+        centroids=column(st.sampled_from([0.0, -0.0, 0.004, 1.0, -1.006]), np.float64, width=3),
+        ids=np.array(ids, np.uint32),
+        robots=tuple(robots),
+        robot=column(st.integers(0, 2), np.uint16),
+        frame_index=column(st.integers(0, frames - 1), np.uint32),
+        frame_times=column(st.sampled_from([-1.5, 0.0, 2.5]), np.float64, frames),
+        frame_positions=column(st.sampled_from([0.0, 0.005, 3.0]), np.float64, frames, 3),
+        frame_orientations=ORIENTATIONS[column(st.integers(0, 3), np.intp, frames)],
+    )
+    chosen = draw(optional)
+    widths = {"extents": 3}
+    columns: dict[str, Any] = {
+        name: column(few, OPTIONAL[name][0], width=widths.get(name, 0)) for name in sorted(chosen)
+    }
+    return replace(given, **columns)
+
+
+@st.composite
+def deltas(
+    draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS, since: int = 0
+) -> Delta:
+    """To whatever is there, or from `since` to the sequence after it."""
+    changed = draw(maps(optional))
+    removed = draw(st.sets(st.integers(0, 12))) - set(changed.ids.tolist())
+    until = since + 1 if since else 0
+    return Delta(changed, np.array(sorted(removed), np.uint32), since, until)

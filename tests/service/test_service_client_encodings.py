@@ -83,7 +83,8 @@ def test_the_documents_request_is_what_the_service_reads() -> None:
     body = Body(MSGPACK, example("request"))
     request = parse(DescribeRequest, PackedDescribeRequest, body, Limits())
     scan = Scan.of(request.segments, request.origin)
-    np.testing.assert_array_equal(scan.clouds[0], CLOUD + ORIGIN)
+    np.testing.assert_array_equal(scan.points, CLOUD + ORIGIN)
+    assert scan.counts.tolist() == [len(CLOUD)]
     np.testing.assert_array_equal(scan.sensors, np.add([[0.0, 0.0, 1.5]], ORIGIN))
 
 
