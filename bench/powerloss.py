@@ -122,9 +122,12 @@ def record(folder: Path, plan: Plan, seed: int, options: tuple[str, ...] = ()) -
     data_dir, log = folder / "data", folder / "strace.log"
     draw = random.Random(seed)
     states: list[Outline] = [()]
-    with running_service(data_dir, *options, tracer=tracer(log)) as address:
-        with Client(address) as client:
-            kind = Kind.of(client.info())
+    numbered = _Numbered()
+    with (
+        running_service(data_dir, *options, tracer=tracer(log)) as address,
+        Client(address, transport=numbered) as client,
+    ):
+        kind = Kind.of(client.info())
         writers = [
             Writer(
                 *(f"robot-{number}", kind, Journal(f"map-{number}"), plan.large),
@@ -132,13 +135,11 @@ def record(folder: Path, plan: Plan, seed: int, options: tuple[str, ...] = ()) -
             )
             for number in range(2)
         ]
-        numbered = _Numbered()
-        with Client(address, transport=numbered) as client:
-            for number in range(plan.writes):
-                numbered.number = number + 1
-                writer = draw.choice(writers)
-                writer.do(client, writer.choose())
-                states.append(_outline([each.journal for each in writers]))
+        for number in range(plan.writes):
+            numbered.number = number + 1
+            writer = draw.choice(writers)
+            writer.do(client, writer.choose())
+            states.append(_outline([each.journal for each in writers]))
         time.sleep(TIDYING_SECONDS)
     _wait_for_end(log)
     recording = Recording(data_dir, steps_of(log, data_dir), states)
