@@ -197,7 +197,8 @@ def _writing(
         client.put_map(OTHER, others[number % 2], if_match="*" if number else None)
 
     def regularly(name: str, work: Callable[[int], None], seconds: float) -> None:
-        started, spent = time.perf_counter(), []
+        started = time.perf_counter()
+        spent: list[float] = []
         while not done.is_set():
             due = time.perf_counter()
             work(len(spent))

@@ -14,7 +14,7 @@ import numpy as np
 from segments.quantiser import LEVELS, Quantiser
 from segments.types import Bool, Float64, Int8, Int64
 
-MARGIN = 32
+MARGIN = 12
 """Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
 
 MOST = 1 << 13

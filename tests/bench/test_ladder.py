@@ -36,7 +36,7 @@ def recorded(views: int = 200) -> Recording:
         groups=shapes.groups + 8 * (frames >= views // 2),
         distinct=np.ones(len(frames), dtype=bool),
         scans=views,
-        scan_hashes=[str(scan) for scan in range(views)],
+        scan_hashes=tuple(str(scan) for scan in range(views)),
         path_length=10.0,
     )
 
