@@ -28,6 +28,9 @@ from service.bodies import JSON, MSGPACK
 from training.evaluation import machine
 from training.figure import figure
 
+FRAME_SEGMENTS = 40
+"""Of a scan in the map that is searched."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -219,20 +222,23 @@ def fill(address: str, drawn: Segments, count: int, seed: int) -> None:
         described = client.describe(clouds, some.sensors)
         codes = perturbed(described.codes, count, seed)
         version = client.info().model["preprocessing"]["version"]
+        random = np.random.default_rng(seed)
+        frame_index = (np.arange(count) // FRAME_SEGMENTS).astype(np.uint32)
+        sensors = random.uniform(-500, 500, (1 + count // FRAME_SEGMENTS, 3))
         map_file = encode(
             CompactMap(
                 model_id=described.model_id,
                 preprocessing=version,
                 frame="bench",
                 codes=codes,
-                centroids=np.random.default_rng(seed).uniform(-500, 500, (count, 3)),
+                centroids=sensors[frame_index] + random.uniform(-40, 40, (count, 3)),
                 ids=np.arange(count, dtype=np.uint32),
                 robots=("bench",),
                 robot=np.zeros(count, np.uint16),
-                frame_index=np.zeros(count, np.uint32),
-                frame_times=np.array([0.0]),
-                frame_positions=np.zeros((1, 3)),
-                frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
+                frame_index=frame_index,
+                frame_times=np.arange(len(sensors), dtype=np.float64),
+                frame_positions=sensors,
+                frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (len(sensors), 1)),
             )
         )
         client.put_map("bench", map_file)

@@ -15,7 +15,7 @@ INFO = {
     "version": "1.0",
     "model": {"model_id": "m", "dimension": 2},
     "limits": {"k": 100},
-    "map_file": {"version": 0},
+    "map_file": {"version": 1},
 }
 SUMMARY = {
     "name": "yard", "segments": 20, "bytes": 1, "model_id": "m", "robots": ["ann"],

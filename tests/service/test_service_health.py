@@ -15,7 +15,7 @@ from tests.service.service_builders import assert_problem, cloud, request_of
 def test_health(service: Any, data_dir: Path) -> None:
     assert service.get("/livez").json() == {"status": "alive"}
     assert service.get("/readyz").json() == {"status": "ready"}
-    shutil.rmtree(data_dir / "maps")
+    shutil.rmtree(data_dir)
     assert_problem(service.get("/readyz"), 503, "not-ready")
     assert service.get("/livez").status_code == 200
 
@@ -29,7 +29,7 @@ def test_info(start: Any, manifest: Manifest) -> None:
     assert info["limits"]["min_points"] == 10
     assert info["map_file"] == {
         "format": "placecell-map",
-        "version": 0,
+        "version": 1,
         "media_type": "application/vnd.placecell.map",
     }
 
