@@ -77,7 +77,8 @@ def stored_as(
         if dimension % size == 0:
             product = faiss.ProductQuantizer(dimension, size, 8)
             product.train(np.ascontiguousarray(known))
-            yield f"product, {size} parts", size, product.decode(product.compute_codes(asked))
+            back = product.decode(product.compute_codes(asked))  # type: ignore[call-arg,func-returns-value]
+            yield f"product, {size} parts", size, np.asarray(back)
 
 
 def draw(report: dict[str, Any], file: Path) -> None:

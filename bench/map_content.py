@@ -108,16 +108,14 @@ class Views:
         return self.manifest.quantiser.encode(base[things] + apart)
 
 
-def map_of(
-    codes: Int8, manifest: Manifest, robot: str, first_id: int = 0, seed: int = 0
-) -> CompactMap:
+def map_of(codes: Int8, manifest: Manifest, robot: str, seed: int = 0) -> CompactMap:
     """A map with these descriptors, along a road: some segments about each place of the sensor."""
     random = np.random.default_rng(seed)
     count = len(codes)
     frames = -(-count // SEGMENTS_A_FRAME)
     places = np.zeros((frames, 3))
     # Back and forth in lanes of 2 km.
-    metres = METRES_A_FRAME * (np.arange(frames) + first_id // SEGMENTS_A_FRAME)
+    metres = METRES_A_FRAME * np.arange(frames)
     places[:, 0], places[:, 1] = metres % 2000, 50 * (metres // 2000)
     frame_index = np.arange(count) // SEGMENTS_A_FRAME
     around = random.uniform([-40, -40, -2], [40, 40, 6], (count, 3))
@@ -127,11 +125,11 @@ def map_of(
         frame="bench",
         codes=codes,
         centroids=places[frame_index] + around,
-        ids=np.arange(first_id, first_id + count, dtype=np.uint32),
+        ids=np.arange(count, dtype=np.uint32),
         robots=(robot,),
         robot=np.zeros(count, np.uint16),
         frame_index=frame_index.astype(np.uint32),
-        frame_times=1e9 + 0.1 * np.arange(frames),
+        frame_times=np.arange(1e9, 1e9 + frames),
         frame_positions=places,
         frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (frames, 1)),
     )
