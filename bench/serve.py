@@ -30,9 +30,6 @@ from service.bodies import JSON, MSGPACK
 from training.evaluation import machine
 from training.figure import figure
 
-FRAME_SEGMENTS = 40
-"""Of a scan in the map that is searched."""
-
 
 @dataclass(frozen=True, slots=True)
 class Plan:
