@@ -64,7 +64,12 @@ def test_conditions_and_queries_are_sent_as_asked(make: Callable[..., Any]) -> N
 
 
 def test_ids_that_were_taken_are_told(make: Callable[..., Any]) -> None:
-    problem = {"type": "urn:p", "title": "Id taken", "detail": "2 ids", "ids": [3, 9, "x"]}
+    problem: dict[str, Any] = {
+        "type": "urn:p",
+        "title": "Id taken",
+        "detail": "2 ids",
+        "ids": [3, 9, "x"],
+    }
     with pytest.raises(ServiceError) as raised:
         make(lambda _: httpx.Response(409, json=problem)).edit_map("a", Delta(OLD, NONE))
     assert raised.value.ids == (3, 9)
@@ -138,6 +143,7 @@ def test_what_the_service_no_longer_knows_is_got_anew(make: Callable[..., Any]) 
     service, copy = Sharing(), MapCopy("yard", OLD, "e-1")
     service.fails = [0, 410, 410]
     make(service).pull(copy)
+    assert copy.content is not None
     assert encode(copy.content) == encode(NEW)
     assert service.asked == [
         *("since=e-1", "since=e-1&cursor=e-1.1", "since=e-1"),
@@ -182,8 +188,4 @@ def test_a_copy_of_another_map_of_that_name_is_replaced_whole() -> None:
     copy = MapCopy("yard", OLD, "e-1")
     assert copy.take(ChangesPage(Delta(other, NONE, 0, 4), "f-4", None))
     assert copy.content is not None
-    assert (
-        encode(copy.content)
-        == encode(other)
-        == encode(apply(other, Delta(take(other, slice(0, 0)), NONE)))
-    )
+    assert encode(copy.content) == encode(other)
