@@ -14,22 +14,21 @@ from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client, CompactMap, encode
+from placecell_client import Client
 
 from bench.describe import draw_scans, each, rate
 from bench.load import Load, Outcome, request_of, sent_by_process
+from bench.map_content import map_of
 from bench.server import running_service
 from segments.extraction import Progress, silent
 from segments.extractor import load_extractor
+from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 from segments.segments import Segments
 from segments.types import Int8
 from service.bodies import JSON, MSGPACK
 from training.evaluation import machine
 from training.figure import figure
-
-FRAME_SEGMENTS = 40
-"""Of a scan in the map that is searched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,30 +217,10 @@ def fill(address: str, drawn: Segments, count: int, seed: int) -> None:
     """Store a map: real descriptors, each again and again with some levels changed."""
     with Client(address) as client:
         some = drawn.take(np.arange(min(200, len(drawn))))
-        clouds = [some.cloud(row) for row in range(len(some))]
-        described = client.describe(clouds, some.sensors)
+        described = client.describe([some.cloud(row) for row in range(len(some))], some.sensors)
         codes = perturbed(described.codes, count, seed)
-        version = client.info().model["preprocessing"]["version"]
-        random = np.random.default_rng(seed)
-        frame_index = (np.arange(count) // FRAME_SEGMENTS).astype(np.uint32)
-        sensors = random.uniform(-500, 500, (1 + count // FRAME_SEGMENTS, 3))
-        map_file = encode(
-            CompactMap(
-                model_id=described.model_id,
-                preprocessing=version,
-                frame="bench",
-                codes=codes,
-                centroids=sensors[frame_index] + random.uniform(-40, 40, (count, 3)),
-                ids=np.arange(count, dtype=np.uint32),
-                robots=("bench",),
-                robot=np.zeros(count, np.uint16),
-                frame_index=frame_index,
-                frame_times=np.arange(len(sensors), dtype=np.float64),
-                frame_positions=sensors,
-                frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (len(sensors), 1)),
-            )
-        )
-        client.put_map("bench", map_file)
+        manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+        client.put_map("bench", map_of(codes, manifest, "bench", seed=seed))
 
 
 def perturbed(codes: Int8, count: int, seed: int) -> Int8:

@@ -3,7 +3,7 @@
 import typer
 
 from cli.ablations import ablations
-from cli.bench import bench
+from cli.benches import bench
 from cli.config import config
 from cli.demo import demo
 from cli.evaluate import evaluate

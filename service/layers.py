@@ -33,11 +33,13 @@ class Layers:
         base: in canonical form.
         recent: in canonical form; what was added or replaced since the base was made.
         gone: bool (len(base),), rows of the base that were removed, or are replaced in `recent`.
+        base_robots: how many segments of each robot the base has, those that are gone among them.
     """
 
     base: CompactMap
     recent: CompactMap
     gone: Bool
+    base_robots: Counter[str]
 
     @classmethod
     def of(cls, content: CompactMap) -> "Layers":
@@ -49,7 +51,7 @@ class Layers:
             content.code_bytes,
             content.optional,
         )
-        return cls(content, none, np.zeros(len(content), dtype=bool))
+        return cls(content, none, np.zeros(len(content), dtype=bool), robots_of(content))
 
     def __len__(self) -> int:
         return len(self.base) - self.buried + len(self.recent)
@@ -67,7 +69,8 @@ class Layers:
     @cached_property
     def robots(self) -> Counter[str]:
         """How many segments each robot has."""
-        return _counted(self.base, self.base.robot[~self.gone]) + robots_of(self.recent)
+        buried = self.base.robot[np.flatnonzero(self.gone)]
+        return self.base_robots - _counted(self.base, buried) + robots_of(self.recent)
 
     @cached_property
     def time_span(self) -> tuple[float, float] | None:
@@ -130,7 +133,7 @@ class Layers:
         gone = self.gone.copy()
         gone[_rows_of(self.base, delta.changed.ids)] = True
         gone[_rows_of(self.base, delta.removed)] = True
-        return Layers(self.base, apply(self.recent, delta), gone)
+        return replace(self, recent=apply(self.recent, delta), gone=gone)
 
     def effect_of(self, delta: Delta) -> tuple[CompactMap, Delta]:
         """What a delta does to this map.

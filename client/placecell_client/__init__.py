@@ -3,6 +3,7 @@
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
 from placecell_client.errors import ServiceError
+from placecell_client.map_copy import ChangesPage, MapCopy
 from placecell_client.map_delta import Delta, decode_delta, encode_delta
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
 from placecell_client.results import (
@@ -11,26 +12,32 @@ from placecell_client.results import (
     Info,
     ItemError,
     MapSummary,
+    MapVersion,
     Matches,
     Skipped,
+    Written,
 )
 from placecell_client.retries import Retries
 
 __all__ = [
     "AsyncClient",
     "Candidate",
+    "ChangesPage",
     "Client",
     "CompactMap",
     "Delta",
     "Description",
     "Info",
     "ItemError",
+    "MapCopy",
     "MapFileError",
     "MapSummary",
+    "MapVersion",
     "Matches",
     "Retries",
     "ServiceError",
     "Skipped",
+    "Written",
     "decode",
     "decode_delta",
     "encode",

@@ -13,6 +13,7 @@ from placecell_client import encode
 
 from segments.manifest import Manifest
 from service.housekeeping import Bounds, Housekeeper
+from service.map_cache import MapCache
 from service.state import State
 from tests.service.service_builders import edit_of, map_of, random_codes
 
@@ -20,8 +21,6 @@ EAGER = Bounds(recent=3, share=0.0, commits=1_000)
 
 
 def keeper_of(state: State, data_dir: Path, bounds: Bounds) -> Housekeeper:
-    from service.map_cache import MapCache
-
     return Housekeeper(state.maps, state.changes, MapCache(data_dir), bounds)
 
 
@@ -219,15 +218,16 @@ def test_what_fails_is_told_and_tried_again(
         keeper.look()
 
 
-def test_it_works_by_itself_and_ends(start: Any, manifest: Manifest, data_dir: Path) -> None:
+def test_it_works_by_itself_and_ends(
+    start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with site(start, manifest) as (_, state):
-        keeper = keeper_of(state, data_dir, Bounds(recent=3, share=0.0, seconds=0.01))
+        before = threading.active_count()
         looked = threading.Event()
-        forget = state.changes.forget
-        state.changes.forget = lambda: (forget(), looked.set())[0]  # type: ignore[method-assign]
-        with keeper.working():
+        monkeypatch.setattr(state.changes, "forget", looked.set)
+        bounds = Bounds(recent=3, share=0.0, seconds=0.01)
+        with keeper_of(state, data_dir, bounds).working():
+            assert threading.active_count() == before + 1
             assert looked.wait(60)
+        assert threading.active_count() == before
         assert state.maps.get("site").folded == 6
-        assert "housekeeping" not in {
-            thread.name for thread in threading.enumerate() if not thread.is_alive()
-        }

@@ -3,7 +3,7 @@
 import logging
 import shutil
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -233,11 +233,12 @@ def test_a_disk_that_takes_no_more_leaves_all_as_it_was(folder: Path, kind: str)
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         setting = f"max_page_count = {pages + 2}" if kind == "full" else "query_only = ON"
         connection.execute(f"PRAGMA {setting}")
-        for write in (
+        writes: list[Callable[[], Head]] = [
             lambda: store.create("other", LARGE, NOTE, 0),
             lambda: store.append(head, LARGE, NOTE, 0),
             lambda: store.compact(head.uid, 4, LARGE * 3),
-        ):
+        ]
+        for write in writes:
             with pytest.raises(StoreError) as raised:
                 write()
             assert raised.value.kind == kind
