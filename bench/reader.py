@@ -5,11 +5,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from placecell_client import Client, CompactMap, Description, ServiceError, decode, encode
+from placecell_client import Client, Description, MapCopy, ServiceError, decode, encode
 
 from bench.made_map import Kind
 
 QUERIES = 5
+PAGE = 3_000
+"""Segments in a part of what is pulled."""
 
 
 @dataclass(slots=True)
@@ -29,7 +31,7 @@ class Reader:
     draw: random.Random
     reads: int = 0
     half: list[str] = field(default_factory=list)
-    _known: dict[str, tuple[CompactMap, str]] = field(default_factory=dict)
+    _copies: dict[str, MapCopy] = field(default_factory=dict)
 
     def read(self, client: Client) -> None:
         """Look at one map, in one way.
@@ -42,8 +44,7 @@ class Reader:
         try:
             self.draw.choice([self._download, self._sync, self._match])(client, name)
         except ServiceError as error:
-            self._known.pop(name, None)
-            if error.status not in {404, 410}:  # it was removed just now, or its history was
+            if error.status != 404:  # it was removed just now
                 raise
         self.reads += 1
 
@@ -53,10 +54,10 @@ class Reader:
         self._check(name, file, "downloaded")
 
     def _sync(self, client: Client, name: str) -> None:
-        known, since = self._known.get(name, (None, "0"))
-        content, tag = client.pull(name, known, since)
-        self._known[name] = content, tag
-        self._check(name, encode(content), f"synced from {since} to {tag}")
+        copy = self._copies.setdefault(name, MapCopy(name))
+        client.pull(copy, PAGE)
+        assert copy.content is not None
+        self._check(name, encode(copy.content), f"pulled to {copy.etag}")
 
     def _match(self, client: Client, name: str) -> None:
         random = np.random.default_rng(self.draw.getrandbits(64))

@@ -119,7 +119,7 @@ class Writer:
     def _restore(self, client: Client, known: Past) -> None:
         version = self.draw.choice(known.versions)
         self.journal.begin("restore", known.after(version.file))
-        written = client.restore(self.journal.name, version.sequence)
+        written = client.restore_map(self.journal.name, version.sequence)
         self.journal.acknowledge(written.etag)
 
     def _age(self, client: Client, known: Past) -> None:
@@ -127,12 +127,12 @@ class Writer:
         since = EPOCH + self.draw.randrange(200)
         kept = take(content, np.asarray(with_optional(content, ["seen"]).seen) >= since)
         self.journal.begin("age", known.after(encode(kept)))
-        self.journal.acknowledge(client.age(self.journal.name, since).etag)
+        self.journal.acknowledge(client.age_map(self.journal.name, since).etag)
 
     def _compact(self, client: Client, known: Past) -> None:
         keep = self.draw.randint(1, 4)
         self.journal.begin("compact", known.shortened(keep))
-        client.compact(self.journal.name, keep)
+        client.compact_map(self.journal.name, keep)
         self.journal.acknowledge()
 
     def _delete(self, client: Client) -> None:
