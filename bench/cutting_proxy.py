@@ -1,4 +1,4 @@
-"""A link that breaks: it passes bytes between robots and a service, and cuts connections at random."""
+"""A link that breaks: it passes bytes between robots and a service, and cuts at random."""
 
 import asyncio
 import random
@@ -59,10 +59,10 @@ class CuttingProxy:
         for task in others:
             task.cancel()
         await asyncio.gather(*others, return_exceptions=True)
+        for _ in range(2):  # so that what was aborted is closed
+            await asyncio.sleep(0)
 
-    async def _connected(
-        self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
-    ) -> None:
+    async def _connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         writers = [writer]
         try:
             address = urlsplit(self.service or "")

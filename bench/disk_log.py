@@ -60,11 +60,21 @@ def tracer(log: Path) -> tuple[str, ...]:
     return (program, *options, "-e", f"trace={','.join(TRACED)}", "-o", str(log))
 
 
-def steps_of(log: Path, folder: Path) -> list[Step]:
-    """The steps that concern the folder, and answers of HTTP, in the order in which they began."""
-    reader = _Reader(f"{folder.resolve()}/")
-    with log.open(errors="replace") as lines:
-        found = [step for call in _calls(lines) for step in reader.steps(*call)]
+def steps_of(logs: Iterable[Path], folder: Path) -> list[Step]:
+    """The steps that concern the folder, and answers of HTTP, in the order in which they began.
+
+    Args:
+        logs: of one process each, one after the other.
+        folder: with all that is in it.
+    """
+    found: list[Step] = []
+    first = 0
+    for log in logs:
+        reader = _Reader(f"{folder.resolve()}/")
+        with log.open(errors="replace") as lines:
+            for begun, ended, text in _calls(lines):
+                found += reader.steps(first + begun, first + ended, text)
+        first = max((step.ended + 1 for step in found), default=first)
     return sorted(found, key=lambda step: step.begun)
 
 
@@ -156,5 +166,5 @@ def _data(arguments: str) -> bytes:
 
 
 def _bytes(text: str) -> bytes:
-    """Of `\\x41\\x42`."""
+    r"""Of `\x41\x42`."""
     return bytes.fromhex(text.replace("\\x", ""))

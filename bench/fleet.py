@@ -120,23 +120,33 @@ def fleet(plan: Plan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str,
                 versions = client.versions(SITE, 1)[0].sequence
         finally:
             restarter.end()
+    return _report(plan, seed, robots, file) | {
+        "versions": versions,
+        "connections_cut": proxy.cuts,
+        "kills": restarter.kills,
+        "stops": restarter.stops,
+    }
+
+
+def _report(plan: Plan, seed: int, robots: Sequence[Sharer], file: bytes) -> dict[str, Any]:
     reserved = np.concatenate([ids for robot in robots for ids in robot.reserved])
+    same = sum(_has(robot, file) for robot in robots)
+    is_union = file == encode(union([robot.own for robot in robots]))
+    twice = len(reserved) - len(np.unique(reserved))
+    wrong = [told for robot in robots for told in robot.wrong]
     return {
         "clients": plan.clients,
         "seconds": plan.seconds,
         "edits_acknowledged": sum(robot.edits for robot in robots),
         "pulls": sum(robot.pulls for robot in robots),
         "asked_again": sum(robot.again for robot in robots),
-        "connections_cut": proxy.cuts,
-        "kills": restarter.kills,
-        "stops": restarter.stops,
-        "versions": versions,
         "segments": sum(len(robot.own) for robot in robots),
         "map_bytes": len(file),
-        "robots_with_the_service_s_map": sum(_has(robot, file) for robot in robots),
-        "map_is_the_union": file == encode(union([robot.own for robot in robots])),
-        "ids_reserved_twice": len(reserved) - len(np.unique(reserved)),
-        "wrong": [told for robot in robots for told in robot.wrong],
+        "robots_with_the_service_s_map": same,
+        "map_is_the_union": is_union,
+        "ids_reserved_twice": twice,
+        "wrong": wrong,
+        "good": same == len(robots) and is_union and not twice and not wrong,
         "machine": machine(),
         "seed": seed,
         "plan": asdict(plan),

@@ -78,16 +78,13 @@ class Sharer:
         self._random = np.random.default_rng(self.draw.getrandbits(64))
 
     def run(self, address: str, ended: Event) -> None:
-        """Edit and pull until it is over; then pull once more when `finish` is called."""
+        """Edit and pull until it is over."""
         with Client(address, timeout=20.0, retries=RETRIES) as client:
-            while not ended.wait(self.draw.expovariate(1 / PAUSE)):
-                if self.draw.random() < 0.6:
-                    self._edit(client)
-                elif self.compacts and self.draw.random() < 0.1:
-                    keep = self.draw.randint(1, 20)
-                    self._insist(lambda: client.compact_map(self.site, keep))
-                else:
-                    self.pull(client)
+            try:
+                while not ended.wait(self.draw.expovariate(1 / PAUSE)):
+                    self._do(client)
+            except (ServiceError, httpx.TransportError) as error:
+                self.wrong.append(f"{self.name} gave up: {error}")
 
     def pull(self, client: Client) -> None:
         """Bring the copy up to date; its own segments must be as they were acknowledged."""
@@ -95,6 +92,15 @@ class Sharer:
         self.pulls += 1
         if encode(self._mine()) != encode(self.own):
             self.wrong.append(f"{self.name}: other segments of its own at {self.copy.etag}")
+
+    def _do(self, client: Client) -> None:
+        if self.draw.random() < 0.6:
+            self._edit(client)
+        elif self.compacts and self.draw.random() < 0.1:
+            keep = self.draw.randint(1, 20)
+            self._insist(lambda: client.compact_map(self.site, keep))
+        else:
+            self.pull(client)
 
     def _mine(self) -> CompactMap:
         content = self.copy.content

@@ -2,9 +2,12 @@
 
 import typer
 
+from cli.benches.crash import crash
 from cli.benches.describe import describe
+from cli.benches.fleet import fleet
 from cli.benches.ladder import ladder
 from cli.benches.maps import maps
+from cli.benches.powerloss import powerloss
 from cli.benches.serve import serve
 from cli.benches.soak import soak
 
@@ -14,3 +17,6 @@ bench.command()(serve)
 bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
+bench.command()(crash)
+bench.command()(powerloss)
+bench.command()(fleet)
