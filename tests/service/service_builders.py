@@ -89,8 +89,9 @@ def random_codes(rows: int, seed: int = 0, dimension: int = 7) -> Int8:
 def map_of(
     codes: Int8, model_id: str, first_id: int = 100, robot: str = "ann", frame: str = "town"
 ) -> CompactMap:
-    """A map with these descriptors; ids rise with the rows."""
+    """A map with these descriptors; ids rise with the rows, a hundred of them a frame."""
     n = len(codes)
+    sensors = np.arange(1 + n // 100)[:, None] * np.array([100.0, -100.0, 0.0])
     return CompactMap(
         model_id=model_id,
         preprocessing="1",
@@ -100,10 +101,10 @@ def map_of(
         ids=np.arange(first_id, first_id + n, dtype=np.uint32),
         robots=(robot,),
         robot=np.zeros(n, np.uint16),
-        frame_index=np.zeros(n, np.uint32),
-        frame_times=np.array([1.7e9]),
-        frame_positions=np.zeros((1, 3)),
-        frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
+        frame_index=(np.arange(n) // 100).astype(np.uint32),
+        frame_times=np.full(len(sensors), 1.7e9),
+        frame_positions=sensors,
+        frame_orientations=np.array([[0, 0, 0, 1]] * len(sensors), np.float32),
     )
 
 
