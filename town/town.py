@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from town.block import SceneObject, furnish
-from town.ground import ground_mesh
+from town.ground import Ground
 from town.mesh import Mesh
 from town.plan import Plan
 from town.terrain import Terrain
@@ -49,7 +49,7 @@ class Town:
         objects = [
             thing for frontage in plan.frontages() for thing in furnish(frontage, terrain, rng)
         ]
-        return cls(seed, plan, terrain, ground_mesh(plan, terrain), tuple(objects))
+        return cls(seed, plan, terrain, Ground.of(plan, terrain).mesh(), tuple(objects))
 
     def traffic(self, seed: int) -> tuple[SceneObject, ...]:
         """Parked cars and people of one drive; another seed, another day."""
