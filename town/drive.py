@@ -8,9 +8,9 @@ import numpy as np
 
 from segments.extraction import Progress, silent
 from segments.types import Float64
+from town.city import City
 from town.lidar import HDL_64E, Lidar
 from town.route import Route
-from town.scene import Scene
 from town.town import Town
 
 SENSOR_TO_CAMERA = np.array(
@@ -30,7 +30,7 @@ FILES = ("calib.txt", "poses.txt", "times.txt", "origin.txt")
 
 def write_drive(
     folder: Path,
-    town: Town,
+    town: Town | City,
     route: Route,
     *,
     traffic_seed: int,
@@ -78,10 +78,11 @@ def write_drive(
     # A sweep reaches half a spacing to both sides of its scan's pose.
     distances: Float64 = spacing * (np.arange(scans, dtype=np.float64) + 0.5)
     poses = route.poses(distances, lidar.height)
-    scene = Scene(town.mesh(traffic_seed))
+    scenes = town.scenes(traffic_seed, lidar.max_range)
     for scan in progress(range(scans), scans, f"scans of {folder.name}"):
         rng = np.random.default_rng([noise_seed, scan])
         sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
+        scene = scenes.around(poses[scan, :2, 3])
         points = lidar.scan(scene, sweep, poses[scan], rng)
         (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
     origin = levelled(poses[0])

@@ -40,12 +40,13 @@ class Ground:
     raised: Bool
 
     @classmethod
-    def of(cls, plan: Plan, terrain: Terrain) -> Self:
-        """The ground of a town that has all the streets of its plan."""
+    def of(cls, plan: Plan, terrain: Terrain, raised: Bool | None = None) -> Self:
+        """The ground of a town, with all the streets of its plan unless `raised` says otherwise."""
         spans_x, spans_y = plan.spans()
         x, y = grid_lines(spans_x), grid_lines(spans_y)
-        raised = np.zeros((2 * len(spans_x) + 1, 2 * len(spans_y) + 1), dtype=bool)
-        raised[1::2, 1::2] = True
+        if raised is None:
+            raised = np.zeros((2 * len(spans_x) + 1, 2 * len(spans_y) + 1), dtype=bool)
+            raised[1::2, 1::2] = True
         return cls(terrain, x, y, regions(x, spans_x), regions(y, spans_y), raised)
 
     def mesh(self, columns: slice = slice(None), rows: slice = slice(None)) -> Mesh:
@@ -71,6 +72,16 @@ class Ground:
     def tile(self, column: int, row: int) -> Mesh:
         """Block (column, row) with the streets on its east and north; tiles make up the ground."""
         return self.mesh(tile_lines(self.regions_x, column), tile_lines(self.regions_y, row))
+
+    def boxes(self) -> Float64:
+        """Where the tiles lie: (columns, rows, 2, 2), lowest and highest x and y, town frame."""
+        columns, rows = ((side - 1) // 2 for side in self.raised.shape)
+        boxes = np.empty((columns, rows, 2, 2))
+        for column, row in np.ndindex(columns, rows):
+            x, y = self.x[tile_lines(self.regions_x, column)], self.y[tile_lines(self.regions_y, row)]
+            places = self.terrain.bend(np.stack(np.meshgrid(x, y), axis=-1)).reshape(-1, 2)
+            boxes[column, row] = places.min(axis=0), places.max(axis=0)
+        return boxes
 
 
 def grid_lines(spans: Float64) -> Float64:

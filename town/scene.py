@@ -1,10 +1,12 @@
 """Ray casting with Embree."""
 
+from typing import Protocol
+
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from segments.types import Float32, Int32
+from segments.types import Float32, Float64, Int32
 from town.mesh import Mesh
 
 
@@ -17,7 +19,7 @@ class Scene:
         # The scene borrows the mesh's buffers: both live as long as this object.
         self._mesh = TriangleMesh(self._scene, mesh.triangles.astype(np.float32))
 
-    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
+    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Float64, Int32]:
         """Where rays first hit.
 
         Args:
@@ -32,3 +34,22 @@ class Scene:
         triangles: Int32 = hits["primID"]
         ranges: Float32 = np.where(triangles < 0, np.float32(np.inf), hits["tfar"])
         return ranges, triangles
+
+
+class Scenes(Protocol):
+    """A town on one day, for a sensor that drives through it."""
+
+    def around(self, place: Float64) -> Scene:
+        """A scene that holds all that a sensor at this place (2,) can reach, town frame."""
+        ...
+
+
+class WholeTown:
+    """A town that is small enough for one scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+
+    def around(self, place: Float64) -> Scene:  # noqa: ARG002
+        """The one scene, wherever the sensor is."""
+        return self._scene

@@ -9,6 +9,7 @@ from town.block import SceneObject, furnish
 from town.ground import Ground
 from town.mesh import Mesh
 from town.plan import Plan
+from town.scene import Scene, WholeTown
 from town.terrain import Terrain
 from town.traffic import traffic
 
@@ -59,3 +60,7 @@ class Town:
         """All that a ray can hit on one day, in the town frame."""
         things = self.objects + self.traffic(traffic_seed)
         return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
+
+    def scenes(self, traffic_seed: int, reach: float) -> WholeTown:  # noqa: ARG002
+        """What a sensor can see on one day."""
+        return WholeTown(Scene(self.mesh(traffic_seed)))
