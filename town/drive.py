@@ -10,6 +10,7 @@ from segments.extraction import Progress, silent
 from segments.types import Float64
 from town.city import City
 from town.lidar import HDL_64E, Lidar
+from town.odometry import ODOMETRY_FILE, Odometry
 from town.route import Route
 from town.town import Town
 
@@ -25,7 +26,7 @@ SENSOR_TO_CAMERA = np.array(
 
 SCANS_PER_SECOND = 10.0
 
-FILES = ("calib.txt", "poses.txt", "times.txt", "origin.txt")
+FILES = ("calib.txt", "poses.txt", ODOMETRY_FILE, "times.txt", "origin.txt")
 
 
 def write_drive(
@@ -37,6 +38,7 @@ def write_drive(
     scans: int,
     spacing: float = 1.0,
     noise_seed: int = 0,
+    odometry: Odometry | None = None,
     lidar: Lidar = HDL_64E,
     overwrite: bool = False,
     progress: Progress = silent,
@@ -49,14 +51,17 @@ def write_drive(
     frame. The drive's world frame (that of the poses, as `segments.drives` reads them) has its
     origin at the first scan's sensor and its x axis along the first scan's heading, but is level:
     a robot knows which way is up, so the first pose holds the street's slope at its start. With
-    `origin.txt`, drives of one town can be compared in one true frame.
+    `origin.txt`, drives of one town can be compared in one true frame. With an odometry there is a
+    second file in the form of `poses.txt`, `poses_odometry.txt`: the first pose is the same, the
+    others are where the robot believes to be (`KittiOdometry(folder, ODOMETRY_FILE)` reads them).
 
     Args:
         folder: made if it is missing.
         traffic_seed: which cars are parked where.
         scans: how many.
         spacing: metres between scans along the lane.
-        noise_seed: of the sensor's noise.
+        noise_seed: of the sensor's noise, and of the odometry's.
+        odometry: how it errs, if the robot has one.
         overwrite: replace the drive that the folder holds.
         progress: wraps the loop over the scans.
 
@@ -86,9 +91,11 @@ def write_drive(
         points = lidar.scan(scene, sweep, poses[scan], rng)
         (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
     origin = levelled(poses[0])
-    camera = SENSOR_TO_CAMERA @ np.linalg.inv(origin) @ poses @ np.linalg.inv(SENSOR_TO_CAMERA)
+    (folder / "poses.txt").write_text(matrix_lines(as_camera(poses, origin)))
+    if odometry is not None:
+        believed = odometry.poses(poses, noise_seed)
+        (folder / ODOMETRY_FILE).write_text(matrix_lines(as_camera(believed, origin)))
     times = np.arange(scans) / SCANS_PER_SECOND
-    (folder / "poses.txt").write_text(matrix_lines(camera))
     (folder / "origin.txt").write_text(matrix_lines(origin[None]))
     (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
     (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
@@ -111,6 +118,16 @@ def clear(folder: Path, overwrite: bool) -> None:
     for name in FILES:
         (folder / name).unlink(missing_ok=True)
     (folder / "velodyne").mkdir(parents=True)
+
+
+def as_camera(poses: Float64, origin: Float64) -> Float64:
+    """Poses (n, 4, 4) of the sensor in the town frame, as KITTI's of the left camera.
+
+    Args:
+        origin: (4, 4) the drive's world to the town frame.
+    """
+    to_world = SENSOR_TO_CAMERA @ np.linalg.inv(origin)
+    return np.asarray(to_world @ poses @ np.linalg.inv(SENSOR_TO_CAMERA))
 
 
 def levelled(pose: Float64) -> Float64:
