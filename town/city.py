@@ -6,7 +6,9 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
+from scipy.spatial import cKDTree
 
+from segments.types import Float64, Int64
 from town.block import SceneObject, Site, furnish, garden
 from town.gap import gap_ends
 from town.ground import Ground
@@ -24,8 +26,8 @@ from town.traffic import traffic_along
 class City:
     """What does not change between two drives, in tiles: a block and two of its streets each.
 
-    Each tile follows from the seed and its place alone, so it does not matter from where, or in what
-    order, one comes by. Town frame: metres, x and y level, z up.
+    Each tile follows from the seed and its place alone, whatever was built before it. Town frame:
+    metres, x and y level, z up.
 
     Attributes:
         seed: it follows from.
@@ -94,14 +96,23 @@ class City:
             self.ground.boxes(), lambda column, row: self.tile(column, row, traffic_seed), reach
         )
 
+    def designs_at(self, places: Float64) -> Int64:
+        """Which identical houses stand in the street at each place of the town frame: (n,).
+
+        Args:
+            places: (n, 2), metres.
+        """
+        lines = list(self.network.lines())
+        street = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+        _, nearest = cKDTree(np.concatenate(lines)).query(places)
+        return np.asarray(self.network.designs[street[nearest]])
+
     def _sides(self, column: int, row: int) -> Iterator[Frontage]:
         for frontage in self.network.plan.block(column, row):
             if self.network.joins(*frontage.street):
                 yield frontage
 
-    def _standing(
-        self, column: int, row: int, rng: np.random.Generator
-    ) -> Iterator[SceneObject]:
+    def _standing(self, column: int, row: int, rng: np.random.Generator) -> Iterator[SceneObject]:
         terrain = self.network.terrain
         for frontage in self._sides(column, row):
             design = self.network.design(*frontage.street)
@@ -110,10 +121,10 @@ class City:
             else:
                 yield from self.terraces[design].furnish(frontage, terrain, rng)
         for frontage in gap_ends(self.network, column, row):
-            yield from garden(rng, (0.5, 3.0), (frontage.length - 1.0, 10.0), Site(frontage, terrain))
+            yield from garden(
+                rng, (0.5, 3.0), (frontage.length - 1.0, 10.0), Site(frontage, terrain)
+            )
 
-    def _traffic(
-        self, column: int, row: int, rng: np.random.Generator
-    ) -> Iterator[SceneObject]:
+    def _traffic(self, column: int, row: int, rng: np.random.Generator) -> Iterator[SceneObject]:
         for frontage in self._sides(column, row):
             yield from traffic_along(frontage, self.network.terrain, rng)

@@ -11,7 +11,9 @@ from segments.types import Float64
 from town.city import City
 from town.lidar import HDL_64E, Lidar
 from town.odometry import ODOMETRY_FILE, Odometry
+from town.oncoming import Oncoming
 from town.route import Route
+from town.scene import Layers, Scene, Scenes, Surfaces
 from town.town import Town
 
 SENSOR_TO_CAMERA = np.array(
@@ -39,6 +41,7 @@ def write_drive(
     spacing: float = 1.0,
     noise_seed: int = 0,
     odometry: Odometry | None = None,
+    oncoming: float = 0.0,
     lidar: Lidar = HDL_64E,
     overwrite: bool = False,
     progress: Progress = silent,
@@ -62,6 +65,7 @@ def write_drive(
         spacing: metres between scans along the lane.
         noise_seed: of the sensor's noise, and of the odometry's.
         odometry: how it errs, if the robot has one.
+        oncoming: cars that come the other way, a kilometre of the route.
         overwrite: replace the drive that the folder holds.
         progress: wraps the loop over the scans.
 
@@ -70,16 +74,11 @@ def write_drive(
 
     Raises:
         FileExistsError: the folder is not empty, and `overwrite` is not set.
-        ValueError: the route is too short, or there is to be no scan.
+        ValueError: the route is too short, there is to be no scan, or no such number of cars.
     """
-    if scans < 1:
-        raise ValueError(f"a drive needs one scan or more, not {scans}")
-    if route.length() < scans * spacing:
-        raise ValueError(
-            f"the route is {route.length():.1f} m long: too short for {scans} scans "
-            f"{spacing} m apart"
-        )
-    clear(folder, overwrite)
+    check(folder, route, scans, spacing, overwrite)
+    cars = Oncoming.draw(route, oncoming, traffic_seed)
+    clear(folder)
     # A sweep reaches half a spacing to both sides of its scan's pose.
     distances: Float64 = spacing * (np.arange(scans, dtype=np.float64) + 0.5)
     poses = route.poses(distances, lidar.height)
@@ -87,7 +86,7 @@ def write_drive(
     for scan in progress(range(scans), scans, f"scans of {folder.name}"):
         rng = np.random.default_rng([noise_seed, scan])
         sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
-        scene = scenes.around(poses[scan, :2, 3])
+        scene = seen_from(poses[scan, :2, 3], scenes, cars, scan / SCANS_PER_SECOND)
         points = lidar.scan(scene, sweep, poses[scan], rng)
         (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
     origin = levelled(poses[0])
@@ -102,16 +101,35 @@ def write_drive(
     return folder
 
 
-def clear(folder: Path, overwrite: bool) -> None:
-    """Make the folder ready for a new drive.
+def seen_from(place: Float64, scenes: Scenes, cars: Oncoming, time: float) -> Surfaces:
+    """What rays from a place (2,) are cast at, at a time in seconds."""
+    standing = scenes.around(place)
+    moving = cars.around(place, time)
+    return Layers(standing, Scene(moving)) if len(moving) else standing
+
+
+def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: bool) -> None:
+    """See that a drive can be written.
 
     Raises:
-        FileExistsError: it is not empty, and `overwrite` is not set.
+        FileExistsError: the folder is not empty, and `overwrite` is not set.
+        ValueError: the route is too short, or there is to be no scan.
     """
+    if scans < 1:
+        raise ValueError(f"a drive needs one scan or more, not {scans}")
+    if route.length() < scans * spacing:
+        raise ValueError(
+            f"the route is {route.length():.1f} m long: too short for {scans} scans "
+            f"{spacing} m apart"
+        )
     if folder.is_dir() and any(folder.iterdir()) and not overwrite:
         raise FileExistsError(
             f"{folder} is not empty: give another folder, or overwrite=True to replace its drive"
         )
+
+
+def clear(folder: Path) -> None:
+    """Make the folder ready for a new drive."""
     # Only what a drive consists of is taken away: no scan of a longer drive may stay behind.
     if (folder / "velodyne").is_dir():
         shutil.rmtree(folder / "velodyne")

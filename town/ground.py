@@ -78,7 +78,10 @@ class Ground:
         columns, rows = ((side - 1) // 2 for side in self.raised.shape)
         boxes = np.empty((columns, rows, 2, 2))
         for column, row in np.ndindex(columns, rows):
-            x, y = self.x[tile_lines(self.regions_x, column)], self.y[tile_lines(self.regions_y, row)]
+            x, y = (
+                self.x[tile_lines(self.regions_x, column)],
+                self.y[tile_lines(self.regions_y, row)],
+            )
             places = self.terrain.bend(np.stack(np.meshgrid(x, y), axis=-1)).reshape(-1, 2)
             boxes[column, row] = places.min(axis=0), places.max(axis=0)
         return boxes

@@ -1,4 +1,4 @@
-"""The street network of a large town: an irregular grid of winding streets, some of them missing."""
+"""The street network of a large town: an irregular grid of winding streets with gaps in it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -30,8 +30,10 @@ STEP = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """A graph: crossings, joined by streets. From every crossing two or more go, so none is a dead
-    end, and every street can be driven, either way, without turning on the spot.
+    """A graph: crossings, joined by streets.
+
+    Two streets or more meet at each crossing: none is a dead end, and each can be driven, either
+    way, without turning on the spot.
 
     Attributes:
         plan: the grid of which the streets are a part.
@@ -138,7 +140,7 @@ def grid_streets(plan: Plan) -> Int64:
 
 
 def centre_lines(plan: Plan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
-    """Of each street (streets, 2) the centre line in the town frame, points a step apart: (n, 2)."""
+    """Of each street (streets, 2) the centre line in the town frame: (n, 2), a step apart."""
     for ends in streets:
         start, end = (plan.crossing(*divmod(int(number), len(plan.norths))) for number in ends)
         points = int(np.linalg.norm(end - start) / STEP) + 2
@@ -155,8 +157,8 @@ def thinned(streets: Int64, lengths: Float64, metres: float, rng: np.random.Gene
 
     Each crossing keeps two streets or more, the network hangs together, and it is no mere ring:
     then every street can be reached from every other without turning on the spot, in whichever
-    direction it is to be driven (Kotani and Sunada, Zeta functions of finite graphs, 2000: the graph
-    of directed edges is strongly connected).
+    direction it is to be driven (Kotani and Sunada, Zeta functions of finite graphs, 2000: the
+    graph of directed edges is strongly connected).
 
     Args:
         metres: that are left at least.

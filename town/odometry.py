@@ -17,8 +17,8 @@ class Odometry:
     once a drive. Roll and pitch do not drift: the robot feels which way is down.
 
     Attributes:
-        yaw: standard deviation of the heading after one metre, degrees; it grows with the root of the
-            metres: 0.05 is half a degree after 100 m.
+        yaw: standard deviation of the heading after one metre, degrees; it grows with the root of
+            the metres: 0.05 is half a degree after 100 m.
         scale: standard deviation of the share by which distances are off: 0.01 is one per cent.
     """
 

@@ -1,11 +1,13 @@
 """Ways through a street network: every street, strolls, loops, shortest paths.
 
-A way is a list of crossings, each joined to the next by a street. No way turns on the spot: it never
-goes back along the street it came by. So paths are sought over *arcs*, streets with a direction.
+A way is a list of crossings, each joined to the next by a street. No way turns on the spot: it
+never goes back along the street it came by. So paths are sought over *arcs*, streets with a
+direction.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self
 
 import numpy as np
@@ -75,7 +77,7 @@ class Planner:
         return self._way(walk)
 
     def loop(self, length: float, rng: np.random.Generator, laps: int = 1) -> Way:
-        """A random way round of at least this many metres, that ends with the street it begins with.
+        """A random way round of at least this many metres; it ends with its first street again.
 
         Args:
             length: of one lap, metres.
@@ -99,7 +101,7 @@ class Planner:
         """Along the streets of a way.
 
         Raises:
-            ValueError: no street joins two of its crossings.
+            ValueError: it is none.
         """
         return float(sum(self.lengths[arc] for arc in self.arcs_of(way)))
 
@@ -107,16 +109,18 @@ class Planner:
         """The arcs that a way takes.
 
         Raises:
-            ValueError: fewer than two crossings, or some that no street joins.
+            ValueError: fewer than two crossings, some that no street joins, or a turn on the spot.
         """
         if len(way) < 2:
             raise ValueError("a way needs two crossings or more")
         found = []
-        for one, other in zip(way[:-1], way[1:], strict=True):
+        for one, other in pairwise(way):
             if not self.network.joins(one, other):
                 raise ValueError(f"no street joins the crossings {one} and {other} directly")
             ends = [self.network.number(one), self.network.number(other)]
             found.append(int(np.flatnonzero((self.arcs == ends).all(axis=1))[0]))
+            if len(found) > 1 and abs(found[-1] - found[-2]) == len(self.network.streets):
+                raise ValueError(f"the way turns on the spot at {one}")
         return found
 
     def _any_onward(self, arc: int, rng: np.random.Generator) -> int:

@@ -76,7 +76,9 @@ def transitions(edges: Int64, streets: Int64) -> list[int]:
         ends = ends[np.argsort(streets[ends // 2], kind="stable")]
         half = len(ends) // 2
         # Both ends of a street taken twice stand side by side; half a round of four on is another.
-        pairs = [(int(one), int(other)) for one, other in zip(ends[:half], ends[half:], strict=True)]
+        pairs = [
+            (int(one), int(other)) for one, other in zip(ends[:half], ends[half:], strict=True)
+        ]
         at_crossing.append(pairs)
         for one, other in pairs:
             partner[one], partner[other] = other, one
@@ -86,11 +88,12 @@ def transitions(edges: Int64, streets: Int64) -> list[int]:
             trails.merge(one // 2, other // 2)
     for pairs in at_crossing:
         a, b = pairs[0]
-        for c, d in pairs[1:]:
-            if not trails.merge(a // 2, c // 2):
+        for one, other in pairs[1:]:
+            if not trails.merge(a // 2, one // 2):
                 continue
+            c, d = one, other
             if streets[a // 2] == streets[c // 2] or streets[b // 2] == streets[d // 2]:
-                c, d = d, c
+                c, d = other, one
             partner[a], partner[c], partner[b], partner[d] = c, a, d, b
             b = c
     return partner

@@ -14,12 +14,12 @@ class Scene:
     """A mesh, indexed for ray casting."""
 
     def __init__(self, mesh: Mesh) -> None:
-        self.reflectance = mesh.reflectance
+        self.reflectance: Float32 = mesh.reflectance
         self._scene = EmbreeScene()
         # The scene borrows the mesh's buffers: both live as long as this object.
         self._mesh = TriangleMesh(self._scene, mesh.triangles.astype(np.float32))
 
-    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Float64, Int32]:
+    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
         """Where rays first hit.
 
         Args:
@@ -34,6 +34,36 @@ class Scene:
         triangles: Int32 = hits["primID"]
         ranges: Float32 = np.where(triangles < 0, np.float32(np.inf), hits["tfar"])
         return ranges, triangles
+
+
+class Surfaces(Protocol):
+    """What rays are cast at."""
+
+    @property
+    def reflectance(self) -> Float32:
+        """Of each triangle."""
+        ...
+
+    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
+        """Where rays first hit, as `Scene.cast`."""
+        ...
+
+
+class Layers:
+    """Two scenes in one place: one that stays, and one that is made anew for each scan."""
+
+    def __init__(self, standing: Scene, moving: Scene) -> None:
+        self.reflectance = np.concatenate([standing.reflectance, moving.reflectance])
+        self._standing = standing
+        self._moving = moving
+
+    def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
+        """Where rays first hit either, as `Scene.cast`; the second's triangles are counted on."""
+        ranges, triangles = self._standing.cast(origins, directions)
+        nearer, moving = self._moving.cast(origins, directions)
+        hidden = nearer < ranges
+        on = moving + np.int32(len(self._standing.reflectance))
+        return np.where(hidden, nearer, ranges), np.where(hidden, on, triangles)
 
 
 class Scenes(Protocol):

@@ -48,8 +48,8 @@ class Terrace:
     ) -> Iterator[SceneObject]:
         """The row along one side of a block.
 
-        The houses are the same, exactly and in equal steps; their hedges and fences, and what stands
-        at the kerb, are not.
+        The houses are the same, exactly and in equal steps; their hedges and fences, and what
+        stands at the kerb, are not.
         """
         site = Site(frontage, terrain)
         x = self.pavement + 1.0

@@ -56,8 +56,8 @@ class Terrain:
     def winding(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
         """A random terrain for a large town, whose streets wind by tens of metres.
 
-        Each wave shifts across its own direction, or nearly so: a street that it bends grows longer,
-        never shorter, so what stands along it has its room.
+        Each wave shifts across its own direction. Streets run nearly along the waves, or across
+        them: what is bent grows longer, hardly ever shorter, so what stands there has its room.
 
         Args:
             slope: the steepest that the ground can get, as rise over run.
