@@ -13,7 +13,7 @@ import typer
 from cli.sources import clear_errors, show
 
 if TYPE_CHECKING:
-    from town import City
+    from town import City, Route
     from town.planner import Way
 
 SCANS = 120
@@ -161,6 +161,8 @@ def town(
 
         city = City.build(seed, metres, look_alikes)
         way = city.route(planned(city, route), lane)
+        # Before anything is driven, for there may be none.
+        drawn = pairs_of(city, way, scans, spacing, pairs, pair_metres) if pairs else None
         started = time.perf_counter()
         drives = several_robots(
             output,
@@ -183,8 +185,8 @@ def town(
             "scans": {drive.name: len(list((drive / "velodyne").iterdir())) for drive in drives},
             "seconds": round(time.perf_counter() - started, 1),
         }
-        if pairs:
-            write_json(pairs_of(city, drives, pairs, pair_metres), output / "pairs.json")
+        if drawn:
+            write_json(drawn, output / "pairs.json")
         if picture:
             from town.picture import draw_plan
 
@@ -248,17 +250,19 @@ def planned(city: "City", text: str) -> "Way":
     )
 
 
-def pairs_of(city: "City", drives: list[Path], count: int, metres: float) -> dict[str, Any]:
-    """Pairs of stretches of the first two drives."""
-    from town import Traversal, draw_pairs
+def pairs_of(
+    city: "City", route: "Route", scans: int | None, spacing: float, count: int, metres: float
+) -> dict[str, Any]:
+    """Pairs of stretches of the first two robots' drives along a route."""
+    from town import Traversal, draw_pairs, way_of
 
-    a, b = (Traversal.read(drive) for drive in drives[:2])
+    a, b = (Traversal.of(*way_of(number, route, scans, spacing), spacing) for number in (0, 1))
     overlapping, apart = draw_pairs(city, a, b, count, metres, city.seed)
     return {
         "seed": city.seed,
         "street_metres": round(city.network.metres(), 1),
         "metres": metres,
-        "drives": [drive.name for drive in drives[:2]],
+        "drives": ["robot_a", "robot_b"],
         "overlapping": [pair.as_dict() for pair in overlapping],
         "apart": [pair.as_dict() for pair in apart],
     }

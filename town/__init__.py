@@ -29,7 +29,7 @@ from town.mesh import Mesh
 from town.odometry import ODOMETRY_FILE, Odometry
 from town.pairs import Pair, Traversal, draw_pairs
 from town.planner import Planner
-from town.robots import several_robots, two_robots
+from town.robots import several_robots, two_robots, way_of
 from town.route import Route
 from town.scene import Scene
 from town.town import Town
@@ -52,5 +52,6 @@ __all__ = [
     "read_origin",
     "several_robots",
     "two_robots",
+    "way_of",
     "write_drive",
 ]

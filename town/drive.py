@@ -79,8 +79,7 @@ def write_drive(
     check(folder, route, scans, spacing, overwrite)
     cars = Oncoming.draw(route, oncoming, traffic_seed)
     clear(folder)
-    # A sweep reaches half a spacing to both sides of its scan's pose.
-    distances: Float64 = spacing * (np.arange(scans, dtype=np.float64) + 0.5)
+    distances = scan_distances(scans, spacing)
     poses = route.poses(distances, lidar.height)
     scenes = town.scenes(traffic_seed, lidar.max_range)
     for scan in progress(range(scans), scans, f"scans of {folder.name}"):
@@ -106,6 +105,14 @@ def seen_from(place: Float64, scenes: Scenes, cars: Oncoming, time: float) -> Su
     standing = scenes.around(place)
     moving = cars.around(place, time)
     return Layers(standing, Scene(moving)) if len(moving) else standing
+
+
+def scan_distances(scans: int, spacing: float) -> Float64:
+    """Metres along the lane at which scans are taken: (scans,).
+
+    A sweep reaches half a spacing to both sides of its scan's pose.
+    """
+    return np.asarray(spacing * (np.arange(scans, dtype=np.float64) + 0.5))
 
 
 def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: bool) -> None:

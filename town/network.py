@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import count
 from typing import Self
 
 import numpy as np
@@ -65,7 +66,7 @@ class Network:
         if not 0 < metres <= LONGEST:
             raise ValueError(f"a town has up to {LONGEST:.0f} m of streets, not {metres} m")
         terrain = Terrain.winding(np.random.default_rng([seed, 3]))
-        for size in range(5, 1000):
+        for size in count(5):
             rng = np.random.default_rng([seed, 4, size])
             plan = Plan.draw(rng, (size // 2, size - size // 2))
             streets = grid_streets(plan)

@@ -5,17 +5,17 @@ wanted, and their segments are cut out but once.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Self
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from segments.drives import open_drive
 from segments.types import Bool, Float64, Int64
 from town.city import City
-from town.drive import read_origin
+from town.drive import levelled, scan_distances
+from town.lidar import HDL_64E
 from town.network import OWN
+from town.route import Route
 
 SAME_STREET = 7.0
 """Scans of two drives nearer to one another than this are in the same street, metres."""
@@ -24,7 +24,7 @@ APART = 100.0
 """Maps that share nothing were seen from so far apart, metres: each reaches 40 m."""
 
 TOLERANCE = 0.02
-"""An overlap is that which was wanted, give or take."""
+"""An overlap is that which was wanted, give or take, or half a scan."""
 
 TRIES = 100
 """Stretches of the first drive that are looked at for one pair, at most."""
@@ -49,15 +49,10 @@ class Traversal:
     origin: Float64
 
     @classmethod
-    def read(cls, folder: Path) -> Self:
-        """Of a drive's folder.
-
-        Raises:
-            DriveError: it holds no drive that can be read.
-            FileNotFoundError: it is no drive of a town.
-        """
-        origin = read_origin(folder)
-        return cls(np.asarray(origin @ open_drive(folder).poses), origin)
+    def of(cls, route: Route, scans: int, spacing: float, height: float = HDL_64E.height) -> Self:
+        """Of the drive that `write_drive` writes, driven or not."""
+        poses = route.poses(scan_distances(scans, spacing), height)
+        return cls(poses, levelled(poses[0]))
 
     @property
     def places(self) -> Float64:
@@ -168,7 +163,7 @@ class Drawer:
         for _ in range(TRIES):
             first_a, distance = self._stretch_of_a()
             shared = means(distance <= SAME_STREET, self.scans_b)
-            fitting = np.flatnonzero(np.abs(shared - share) <= TOLERANCE)
+            fitting = np.flatnonzero(np.abs(shared - share) <= max(TOLERANCE, 0.51 / self.scans_b))
             if len(fitting):
                 first_b = int(self.rng.choice(fitting))
                 return self._pair(first_a, first_b, float(shared[first_b]))

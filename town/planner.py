@@ -89,9 +89,10 @@ class Planner:
         if laps < 1:
             raise ValueError(f"a loop has one lap or more, not {laps}")
         first = int(rng.integers(len(self.arcs)))
+        # From the end of each arc back to the end of the first.
         home, towards = dijkstra(self.onward.T, indices=first, return_predecessors=True)
         walk = [first]
-        while len(walk) < 2 or self.lengths[walk].sum() + home[walk[-1]] < length:
+        while len(walk) < 2 or self.lengths[walk[1:]].sum() + home[walk[-1]] < length:
             walk.append(self._any_onward(walk[-1], rng))
         back = traced(towards, first, walk[-1])[::-1]
         lap = walk + back[1:-1]

@@ -102,12 +102,11 @@ def several_robots(
     if not 1 <= robots <= len(ascii_lowercase):
         raise ValueError(f"there can be 1 to {len(ascii_lowercase)} robots, not {robots}")
     drives = [folder / f"robot_{ascii_lowercase[number]}" for number in range(robots)]
-    ways = [route.reversed() if number % 2 else route for number in range(robots)]
-    counts = [int(way.length() / spacing) if scans is None else scans for way in ways]
-    for drive, way, count in zip(drives, ways, counts, strict=True):
+    ways = [way_of(number, route, scans, spacing) for number in range(robots)]
+    for drive, (way, count) in zip(drives, ways, strict=True):
         # Before the first of them is driven, which may take hours.
         check(drive, way, count, spacing, overwrite)
-    for number, (drive, way, count) in enumerate(zip(drives, ways, counts, strict=True)):
+    for number, (drive, (way, count)) in enumerate(zip(drives, ways, strict=True)):
         write_drive(
             drive,
             city,
@@ -123,3 +122,9 @@ def several_robots(
             progress=progress,
         )
     return drives
+
+
+def way_of(number: int, route: Route, scans: int | None, spacing: float) -> tuple[Route, int]:
+    """The way that a robot takes, every second one backwards, and how many scans it takes there."""
+    way = route.reversed() if number % 2 else route
+    return way, int(way.length() / spacing) if scans is None else scans
