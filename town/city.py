@@ -44,7 +44,8 @@ class City:
         """The large town of this seed.
 
         Args:
-            metres: of streets in all; there are at most a street's length more.
+            metres: of streets in all; there are up to a street's length more, and half a kilometre
+                at least.
             look_alikes: the share of the streets that identical houses line.
 
         Raises:

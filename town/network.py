@@ -57,12 +57,15 @@ class Network:
         """The network of this seed.
 
         Args:
-            metres: of streets in all; there are at most a street's length more.
+            metres: of streets in all; there are up to a street's length more, and half a kilometre
+                at least.
             look_alikes: the share of the streets that identical houses line.
 
         Raises:
-            ValueError: no number of metres that a town can have.
+            ValueError: no number of metres that a town can have, or no share.
         """
+        if not 0 <= look_alikes <= 1:
+            raise ValueError(f"the share of look-alikes is 0 to 1, not {look_alikes}")
         if not 0 < metres <= LONGEST:
             raise ValueError(f"a town has up to {LONGEST:.0f} m of streets, not {metres} m")
         terrain = Terrain.winding(np.random.default_rng([seed, 3]))

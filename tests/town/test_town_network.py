@@ -117,5 +117,7 @@ def test_the_share_of_look_alikes_is_as_asked() -> None:
     assert np.mean(large.designs != OWN) == pytest.approx(0.4, abs=0.1)
     assert set(large.designs.tolist()) == {OWN, 0, 1, 2, 3}
     assert (Network.draw(seed=2, metres=2000.0, look_alikes=0.0).designs == OWN).all()
+    with pytest.raises(ValueError, match="0 to 1"):
+        Network.draw(seed=2, metres=2000.0, look_alikes=1.5)
     one, other = (large.crossing(number) for number in large.streets[3])
     assert large.design(other, one) == large.designs[3]
