@@ -9,6 +9,7 @@ from cli.demo import demo
 from cli.evaluate import evaluate
 from cli.experiments import experiments
 from cli.keys import keys
+from cli.maps import maps
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -34,3 +35,4 @@ app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)
 app.command()(keys)
+app.add_typer(maps, name="maps")
