@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.map_edit import take
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from bench.map_content import map_of
 from bench.server import running_service
