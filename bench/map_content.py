@@ -2,8 +2,8 @@
 
 A thing's descriptor is that of a real segment; of more things than there are, the mean of two real
 segments' times the root of two, which keeps their spread (descriptors lie about 0). Each view of a
-thing, in the map or asked for, adds the difference between two real segments of one group, drawn at
-random: what really separates views of one thing.
+thing, in the map or asked for, adds the difference between two real segments of one group that were
+seen from 5 m apart or more, drawn at random: what really separates views of one thing.
 """
 
 from dataclasses import dataclass
@@ -21,6 +21,9 @@ VIEWS = 4
 
 SEGMENTS_A_FRAME = 40
 METRES_A_FRAME = 1.0
+
+APART = 5.0
+"""Metres between the places that two views are from: nearer ones are too easy to find."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,7 +64,7 @@ class Views:
         """From a recording.
 
         Raises:
-            ValueError: it has no groups of two or more.
+            ValueError: no group was seen from places far enough apart.
         """
         around = extractor.manifest.surroundings
         chosen = np.flatnonzero(recording.distinct)
@@ -71,9 +74,11 @@ class Views:
         # In random order within their groups: each with the next of its group.
         shuffled = np.random.default_rng(seed).permutation(len(groups))
         order = shuffled[np.argsort(groups[shuffled], kind="stable")]
+        sensors = recording.segments.sensors[chosen][order]
         same = groups[order[1:]] == groups[order[:-1]]
+        same &= np.linalg.norm(np.diff(sensors, axis=0), axis=1) >= APART
         if not same.any():
-            raise ValueError(f"{recording.name}: no two segments are of one group")
+            raise ValueError(f"{recording.name}: no group was seen from {APART:g} m apart")
         _, first = np.unique(groups[order], return_index=True)
         apart = found[order[1:][same]] - found[order[:-1][same]]
         return cls(extractor.manifest, found[order[first]], apart)
@@ -108,16 +113,14 @@ class Views:
         return self.manifest.quantiser.encode(base[things] + apart)
 
 
-def map_of(
-    codes: Int8, manifest: Manifest, robot: str, first_id: int = 0, seed: int = 0
-) -> CompactMap:
+def map_of(codes: Int8, manifest: Manifest, robot: str, seed: int = 0) -> CompactMap:
     """A map with these descriptors, along a road: some segments about each place of the sensor."""
     random = np.random.default_rng(seed)
     count = len(codes)
     frames = -(-count // SEGMENTS_A_FRAME)
     places = np.zeros((frames, 3))
     # Back and forth in lanes of 2 km.
-    metres = METRES_A_FRAME * (np.arange(frames) + first_id // SEGMENTS_A_FRAME)
+    metres = METRES_A_FRAME * np.arange(frames)
     places[:, 0], places[:, 1] = metres % 2000, 50 * (metres // 2000)
     frame_index = np.arange(count) // SEGMENTS_A_FRAME
     around = random.uniform([-40, -40, -2], [40, 40, 6], (count, 3))
@@ -127,11 +130,11 @@ def map_of(
         frame="bench",
         codes=codes,
         centroids=places[frame_index] + around,
-        ids=np.arange(first_id, first_id + count, dtype=np.uint32),
+        ids=np.arange(count, dtype=np.uint32),
         robots=(robot,),
         robot=np.zeros(count, np.uint16),
         frame_index=frame_index.astype(np.uint32),
-        frame_times=1e9 + 0.1 * np.arange(frames),
+        frame_times=np.arange(1e9, 1e9 + frames),
         frame_positions=places,
         frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (frames, 1)),
     )

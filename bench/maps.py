@@ -116,9 +116,9 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
 
 
 def _recognised(client: Client, content: Content) -> dict[str, float]:
-    """Shares of the queries that have a view of the same thing among the 25 nearest."""
+    """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
     model = client.info().model
-    exact = _mates_by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
+    exact = _by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
     found = []
     for start in range(0, len(content.asked), 500):
         codes = content.asked[start : start + 500]
@@ -127,16 +127,18 @@ def _recognised(client: Client, content: Content) -> dict[str, float]:
         for candidates in client.match(asked, maps=[MAP], k=25).queries:
             assert isinstance(candidates, tuple)
             found.append(content.things[[candidate.id for candidate in candidates]])
-    ours = _shares(np.array(found), content)
+    ours = np.array(found)
+    recall, best = _shares(ours, content), _shares(exact, content)
     return {
-        "recall_at_25": ours,
-        "exact_recall_at_25": exact,
-        "recall_at_25_of_exact": round(ours / exact, 4),
+        "top1": _shares(ours[:, :1], content),
+        "recall_at_25": recall,
+        "exact_recall_at_25": best,
+        "recall_at_25_of_exact": round(recall / best, 4),
     }
 
 
-def _mates_by_comparing_all(content: Content, quantiser: Quantiser) -> float:
-    """The same share, every query compared with every segment, as floats."""
+def _by_comparing_all(content: Content, quantiser: Quantiser) -> Int64:
+    """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
     nearest = faiss.ResultHeap(len(content.asked), 25)
     asked = quantiser.levels(content.asked).astype(np.float32)
     for start in range(0, len(content.codes), 100_000):
@@ -144,7 +146,7 @@ def _mates_by_comparing_all(content: Content, quantiser: Quantiser) -> float:
         distances, rows = faiss.knn(asked, some, 25)
         nearest.add_result(distances, rows + start)
     nearest.finalize()
-    return _shares(content.things[nearest.I], content)
+    return np.asarray(content.things[nearest.I])
 
 
 def _shares(things: Int64, content: Content) -> float:
@@ -197,7 +199,8 @@ def _writing(
         client.put_map(OTHER, others[number % 2], if_match="*" if number else None)
 
     def regularly(name: str, work: Callable[[int], None], seconds: float) -> None:
-        started, spent = time.perf_counter(), []
+        started = time.perf_counter()
+        spent: list[float] = []
         while not done.is_set():
             due = time.perf_counter()
             work(len(spent))
