@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Generic, Literal, Self, TypeVar
 
 from placecell_client.compact_map import COORDINATE_LIMIT
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from service.settings import Limits
 
@@ -73,7 +73,7 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         return self
 
 
-EXAMPLE = {
+EXAMPLE: dict[str, JsonValue] = {
     "points": [[8.0, 2.0 + step / 8, step / 4] for step in range(12)],
     "sensor": [0.0, 0.0, 1.8],
 }

@@ -200,6 +200,16 @@ def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float)
         kind.decode(carrier.write(Content(content.header, content.columns | {name: column})))
 
 
+@each_kind
+@pytest.mark.parametrize("name", ["ids", "frame_times", "frame_orientations"])
+def test_whole_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
+    content = content_of(kind.data)
+    column = content.columns[name]
+    other = -column if name == "frame_orientations" else column[::-1]
+    with pytest.raises(MapFileError, match="canonical"):
+        kind.decode(carrier.write(Content(content.header, content.columns | {name: other})))
+
+
 @pytest.mark.parametrize("name", OPTIONAL)
 def test_optional_columns_of_a_wrong_shape_are_refused(name: str) -> None:
     content = content_of(KINDS["map-all-columns"].data)
