@@ -16,11 +16,14 @@ from segments.localisation.evidence import Evidence
 from segments.manifest import Manifest
 from segments.types import Float64, Int8
 from service.describer import Scan
+from service.keys import ANYONE
 from service.locating import localise_in
 from service.models import Model
+from service.preconditions import Preconditions
 from service.settings import Settings
 from service.state import State, open_state
 from service.timing import Timing
+from service.writer import Writer
 
 
 class Local:
@@ -83,7 +86,8 @@ class Local:
     def put_map(self, name: str, compact_map: CompactMap) -> int:
         """As `PUT /maps/{map}`; the bytes of its file."""
         data = encode(compact_map)
-        self._state.maps.put(name, data)
+        state = self._state
+        Writer(state.maps, state.models, ANYONE, Preconditions()).put(name, data)
         return len(data)
 
     def localise(
@@ -97,7 +101,6 @@ class Local:
     ) -> tuple[Localisation, float]:
         """As `/localize` from codes in one map; and the milliseconds that it took."""
         started = perf_counter()
-        found = localise_in(
-            codes, centroids, self.model, self._state.maps.get(name), k, parameters, evidence
-        )
+        stored = self._state.maps.get(name)
+        found = localise_in(codes, centroids, self.model, stored, k, parameters, Timing(), evidence)
         return found, 1e3 * (perf_counter() - started)

@@ -3,9 +3,10 @@
 from segments.localisation import Candidates, Localisation, LocalisationParameters, localise
 from segments.localisation.evidence import Evidence
 from segments.types import Float64, Int8
-from service.maps import StoredMap
 from service.matching import found_in
 from service.models import Model
+from service.stored_map import StoredMap
+from service.timing import Timing
 
 
 def localise_in(
@@ -15,6 +16,7 @@ def localise_in(
     stored: StoredMap,
     k: int,
     parameters: LocalisationParameters,
+    timing: Timing,
     evidence: Evidence | None = None,
 ) -> Localisation:
     """Where in a map the robot is.
@@ -28,11 +30,14 @@ def localise_in(
         evidence: of the robot's earlier requests.
     """
     found = found_in(codes, model, (stored,), k)
+    timing.lap("search")
     candidates = Candidates(
         centroids,
         found.rows,
-        stored.content.centroids[found.rows],
+        stored.layers.column("centroids", found.rows),
         found.distances,
         found.probabilities,
     )
-    return localise(candidates, parameters, evidence=evidence)
+    localisation = localise(candidates, parameters, evidence=evidence)
+    timing.lap("verify")
+    return localisation
