@@ -170,7 +170,7 @@ def localisation_of(item: dict[str, Any]) -> Localisation:
 
 def _pose(item: dict[str, Any]) -> Pose:
     return Pose(
-        np.array(item["translation"], dtype=np.float64),
-        np.array(item["rotation"], dtype=np.float64),
+        np.array(item["translation"], dtype=np.float64).reshape(3),
+        np.array(item["rotation"], dtype=np.float64).reshape(4),
         item["yaw"],
     )
