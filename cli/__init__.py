@@ -7,7 +7,9 @@ from cli.benches import bench
 from cli.config import config
 from cli.demo import demo
 from cli.evaluate import evaluate
+from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
+from cli.fit_confidence import fit_confidence
 from cli.keys import keys
 from cli.maps import maps
 from cli.prepare import prepare
@@ -28,6 +30,8 @@ app.command()(town)
 app.command()(prepare)
 app.command()(train)
 app.command()(evaluate)
+app.command()(evaluate_poses)
+app.command()(fit_confidence)
 app.command()(experiments)
 app.command()(study)
 app.command()(ablations)

@@ -7,6 +7,7 @@ from cli.benches.ladder import ladder
 from cli.benches.maps import maps
 from cli.benches.serve import serve
 from cli.benches.soak import soak
+from cli.benches.town import town
 from cli.benches.views import views
 
 bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
@@ -15,4 +16,5 @@ bench.command()(serve)
 bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
+bench.command()(town)
 bench.command()(views)

@@ -1,24 +1,16 @@
-"""`placecell maps`: the maps of a service, and map files."""
+"""`placecell maps`: the maps of a running service, and map files."""
 
 import typer
 
-from cli.maps.copies import pull, push
-from cli.maps.differences import diff
-from cli.maps.history import age, compact, restore, versions
-from cli.maps.listing import show, show_all
-from cli.maps.verification import verify
+from cli.maps.copies import diff, pull, push
+from cli.maps.keep import age, compact, delete, restore
+from cli.maps.look import list_maps, show, verify
 
 maps = typer.Typer(
-    help="Look at, share, take back and check maps, of a service or in files.",
+    help="List, show, push, pull and take back maps. PLACECELL_URL and PLACECELL_KEY say where "
+    "and as whom.",
     no_args_is_help=True,
 )
-maps.command("list")(show_all)
-maps.command()(show)
-maps.command()(push)
-maps.command()(pull)
-maps.command()(diff)
-maps.command()(versions)
-maps.command()(restore)
-maps.command()(age)
-maps.command()(compact)
-maps.command()(verify)
+maps.command("list")(list_maps)
+for command in (show, push, pull, diff, restore, verify, compact, age, delete):
+    maps.command()(command)

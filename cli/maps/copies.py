@@ -1,106 +1,85 @@
-"""`placecell maps push` and `pull`: between a service and files."""
+"""`placecell maps push`, `pull` and `diff`: maps between files and a service."""
 
-import os
-import tempfile
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from cli.maps.options import HERE, PATIENCE, IfMatch, Key, Name, Timeout, Url, service
+from cli.maps.connection import LOCAL, Name, Url, map_from, service
 
-VERSION_SUFFIX = ".version"
-"""Of the file beside a pulled map that says which version it is."""
+_ETAG = ".etag"
 
 
 def push(
-    name: Name,
-    file: Annotated[Path, typer.Argument(help="A map file, or a delta file to edit the map by.")],
-    if_match: IfMatch = None,
-    new: Annotated[bool, typer.Option("--new", help="Replace no map.")] = False,
-    deduplicate: Annotated[
-        bool,
-        typer.Option("--deduplicate", help="Of a delta: store nothing again that is seen again."),
+    file: Annotated[Path, typer.Argument(help="A map file.")],
+    name: Annotated[str, typer.Argument(help="Of the map; the file's unless said.")] = "",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="In place of what is there, whoever wrote it.")
     ] = False,
-    timeout: Timeout = PATIENCE,
-    url: Url = HERE,
-    key: Key = None,
+    url: Url = LOCAL,
 ) -> None:
-    """Store a map file whole, or edit a map by a delta file.
+    """Store a map file; ends when it is safely on the service's disk.
 
-    A map that is there with other content is replaced only with --if-match.
+    Other content of that name is replaced only if its last version is the one that 'pull' wrote
+    beside the file, or with --replace.
     """
-    from placecell_client import MapFileError, decode, decode_delta
-
-    with service(url, key, timeout) as client:
-        data = file.read_bytes()
-        try:
-            decode(data)
-        except MapFileError as not_a_map:
-            try:
-                delta = decode_delta(data)
-            except MapFileError as not_a_delta:
-                raise ValueError(f"{file}: {not_a_map}; {not_a_delta}") from not_a_delta
-            done = client.edit_map(
-                name, delta, create=new, deduplicate=deduplicate, if_match=if_match
-            )
-            typer.echo(
-                f"{name}: {done.changed} segments changed, {done.removed} removed, "
-                f"{done.repeats} seen again; version {done.sequence}, {done.etag}"
-            )
-        else:
-            stored = client.put_map(name, data, if_match=if_match, create_only=new)
-            typer.echo(
-                f"{name}: {stored.segments:,} segments; version {stored.sequence}, {stored.etag}"
-            )
+    with service(url) as client:
+        beside = _etag_of(file)
+        seen = beside.read_text().strip() if beside.is_file() else None
+        stored = client.put_map(
+            name or file.stem, file.read_bytes(), if_match="*" if replace else seen
+        )
+        if seen is not None:
+            beside.write_text(f"{stored.etag}\n")
+        typer.echo(f"{stored.name}: {stored.segments:,} segments, version {stored.sequence}")
 
 
 def pull(
     name: Name,
-    file: Annotated[Path, typer.Argument(help="Where the map is kept.")],
-    version: Annotated[
-        int | None, typer.Option(min=1, help="An old version, instead of the newest.")
-    ] = None,
-    timeout: Timeout = PATIENCE,
-    url: Url = HERE,
-    key: Key = None,
+    file: Annotated[Path | None, typer.Argument(help="Where to; MAP.map unless said.")] = None,
+    url: Url = LOCAL,
 ) -> None:
-    """Bring a map file up to date, or get it.
+    """Bring a map's file up to date; what it has already does not travel again.
 
-    Only what has changed since the last pull is sent; FILE.version says which version that was.
+    The version is kept beside it (FILE.etag).
     """
-    from placecell_client import MapCopy, MapFileError, decode, encode
+    from placecell_client import MapCopy, decode, encode
 
-    mark = file.with_name(file.name + VERSION_SUFFIX)
-    with service(url, key, timeout) as client:
-        if version is not None:
-            mark.unlink(missing_ok=True)
-            _write(file, client.get_map_file(name, version))
-            typer.echo(f"{file}: version {version} of {name}")
-            return
-        copy = MapCopy(name)
-        if file.exists() and mark.exists():
-            try:
-                copy = MapCopy(name, decode(file.read_bytes()), mark.read_text().strip())
-            except MapFileError:
-                typer.echo(f"{file}: damaged; the map is got anew", err=True)
+    with service(url) as client:
+        target = file or Path(f"{name}.map")
+        beside, copy = _etag_of(target), MapCopy(name)
+        if target.is_file() and beside.is_file():
+            copy = MapCopy(name, decode(target.read_bytes()), beside.read_text().strip())
         before = copy.sequence
-        client.pull(copy)
+        copy = client.pull(copy)
         assert copy.content is not None
-        # Should this end in between, the mark is that of no file, and all is got anew.
-        mark.unlink(missing_ok=True)
-        _write(file, encode(copy.content))
-        _write(mark, f"{copy.etag}\n".encode())
-        since = f" (was {before})" if before else ""
+        unfinished = target.with_name(target.name + ".unfinished")
+        unfinished.write_bytes(encode(copy.content))
+        # The version first is taken away: it must never be that of another file.
+        beside.unlink(missing_ok=True)
+        unfinished.replace(target)
+        beside.write_text(f"{copy.etag}\n")
+        typer.echo(f"{target}: {len(copy.content):,} segments, version {before} to {copy.sequence}")
+
+
+def diff(
+    old: Annotated[str, typer.Argument(help="A map file, a map, or a version: MAP@VERSION.")],
+    new: Annotated[str, typer.Argument(help="The same.")],
+    url: Url = LOCAL,
+) -> None:
+    """Tell what was added, changed and removed from one map to the other."""
+    import numpy as np
+    from placecell_client.map_edit import difference
+
+    with service(url) as client:
+        before, after = map_from(client, old), map_from(client, new)
+        changed, removed = difference(before, after)
+        replaced = int(np.isin(changed.ids, before.ids).sum())
         typer.echo(
-            f"{file}: {len(copy.content):,} segments; version {copy.sequence}{since}, {copy.etag}"
+            f"{len(changed) - replaced:,} added, {replaced:,} changed, {len(removed):,} removed, "
+            f"{len(before) - replaced - len(removed):,} the same"
         )
 
 
-def _write(file: Path, data: bytes) -> None:
-    """All of it, or nothing."""
-    descriptor, unfinished = tempfile.mkstemp(".unfinished", ".", file.parent)
-    with os.fdopen(descriptor, "wb") as written:
-        written.write(data)
-    Path(unfinished).chmod(0o644)
-    Path(unfinished).replace(file)
+def _etag_of(file: Path) -> Path:
+    return file.with_name(file.name + _ETAG)
