@@ -9,6 +9,7 @@ from cli.demo import demo
 from cli.evaluate import evaluate
 from cli.experiments import experiments
 from cli.keys import keys
+from cli.peers import peers
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -30,6 +31,7 @@ app.command()(evaluate)
 app.command()(experiments)
 app.command()(study)
 app.command()(ablations)
+bench.command()(peers)
 app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)
