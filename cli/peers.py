@@ -102,7 +102,9 @@ def print_rows(report: dict[str, Any]) -> None:
         f"{report['map_frames']} frames of {report['map_drive']}, {report['accumulated_scans']} "
         f"scans each, within {report['local_map_radius']:.0f} m"
     )
-    table = Table("peer", "right", "wrong but sure", "not localised", "m", "deg", "p50 ms", "p99 ms")
+    table = Table(
+        "peer", "right", "wrong but sure", "not localised", "m", "deg", "p50 ms", "p99 ms"
+    )
     for row in report["rows"]:
         table.add_row(
             row["name"],

@@ -72,8 +72,8 @@ def ask(name: str, folder: Path, python: Path, *, refine: bool) -> None:
     Raises:
         ValueError: it failed.
     """
-    command = [python, "-m", "bench.peers.runner", name, folder, folder / "answers"]
-    command.append("--refine" if refine else "--no-refine")
+    words = [name, folder, folder / "answers", "--refine" if refine else "--no-refine"]
+    command = [str(word) for word in (python, "-m", "bench.peers.runner", *words)]
     # Of ours it sees the code alone, none of the packages.
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
     done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=False)

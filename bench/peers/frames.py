@@ -37,7 +37,9 @@ class Stretch:
         return self.scans[:: self.parameters.frame_step]
 
 
-def stretches_of_one(drive: Drive, radius: float | None = None) -> tuple[list[Stretch], list[Stretch]]:
+def stretches_of_one(
+    drive: Drive, radius: float | None = None
+) -> tuple[list[Stretch], list[Stretch]]:
     """A drive as map and query: its odd blocks and its even ones.
 
     Args:
@@ -82,9 +84,7 @@ def within(radius: float | None) -> Parameters:
     return replace(PROTOCOL_V1, protocol="v1, wider", local_map_radius=radius, max_range=reach)
 
 
-def write_map(
-    folder: Path, stretches: Sequence[Stretch], progress: Progress = silent
-) -> Float64:
+def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> Float64:
     """The map as peers read it; poses of its frames, float64 (frames, 4, 4)."""
     poses = write_frames(folder / MAP, stretches, progress)
     np.save(folder / MAP / POSES, poses)
@@ -136,7 +136,8 @@ def write_frames(
             accumulator = Accumulator(stretch.drive, stretch.parameters, stretch.scans.start)
         turn = turning.uniform(-np.pi, np.pi) if turning else 0.0
         pose = upright(stretch.drive.poses[scan], turn)
-        cloud = transform(np.linalg.inv(pose), accumulator.local_map(scan))
+        to_frame = np.asarray(np.linalg.inv(pose), dtype=np.float64)
+        cloud = transform(to_frame, accumulator.local_map(scan))
         np.save(cloud_file(folder, index), cloud)
         poses.append(stretch.to_map @ pose)
     return np.stack(poses)

@@ -1,9 +1,9 @@
-"""KISS-Matcher as a peer: Lim et al. 2025, *KISS-Matcher: Fast and Robust Point Cloud Registration
-Revisited*; the package `kiss-matcher`.
+"""KISS-Matcher as a peer, the package `kiss-matcher`.
 
-It registers two clouds and retrieves nothing. So it is given the frames of the map that Scan
-Context finds most alike, and the answer with most inliers counts; or it is given the whole map as
-one cloud. Its Python interface computes the features of both clouds anew for each pair.
+Lim et al. 2025, *KISS-Matcher: Fast and Robust Point Cloud Registration Revisited*. It registers
+two clouds and retrieves nothing. So it is given the frames of the map that Scan Context finds most
+alike, and the answer with most inliers counts; or it is given the whole map as one cloud. Its
+Python interface computes the features of both clouds anew for each pair.
 """
 
 from collections.abc import Sequence

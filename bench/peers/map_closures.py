@@ -1,10 +1,9 @@
-"""MapClosures as a peer: Gupta et al. 2024, *Effectively Detecting Loop Closures using Point Cloud
-Density Maps*; the package `map-closures`.
+"""MapClosures as a peer, the package `map-closures`.
 
-It draws a local map's density from above, finds ORB features in it, looks them up in a binary
-search tree over all of the map's features, and aligns the images by RANSAC. Gravity is found by
-fitting a plane to the ground. Its RANSAC takes its seed from the machine: answers differ a little
-from run to run.
+Gupta et al. 2024, *Effectively Detecting Loop Closures using Point Cloud Density Maps*. It draws a
+local map's density from above, finds ORB features in it, looks them up in a binary search tree over
+all of the map's features, and aligns the images by RANSAC. Gravity is found by fitting a plane to
+the ground. Its RANSAC takes its seed from the machine: answers differ a little from run to run.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What the peers' own systems do after them: fine registration by generalised ICP (`small-gicp`)."""
+"""What the peers' own systems do after them: generalised ICP, the package `small-gicp`."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,6 @@
-"""Let one peer answer all queries; runs in the peers' environment.
+"""One peer answers all queries; runs in the peers' environment.
+
+How to run it by hand:
 
     python -m bench.peers.runner kiss-matcher FOLDER ANSWERS
 """

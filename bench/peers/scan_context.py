@@ -1,7 +1,7 @@
-"""Scan Context: Kim and Kim 2018, *Scan Context: Egocentric Spatial Descriptor for Place
-Recognition within 3D Point Cloud Map*; the plain baseline, written after the paper.
+"""Scan Context, the plain baseline, written after the paper.
 
-Constants are the paper's, and those of the authors' program where the paper has none.
+Kim and Kim 2018, *Scan Context: Egocentric Spatial Descriptor for Place Recognition within 3D Point
+Cloud Map*. Constants are the paper's, and those of the authors' program where the paper has none.
 """
 
 from collections.abc import Sequence
@@ -59,12 +59,13 @@ def ring_key(context: Context) -> Context:
 def distances(query: Context, candidate: Context) -> Context:
     """Distance at each angle of whole sectors: (sectors,).
 
-    The angle is the query's heading in the candidate's frame. One minus the cosine between columns, averaged (equations 5 and 6); columns that are empty in
-    either say nothing and are left out, as in the authors' program.
+    The angle is the query's heading in the candidate's frame. A distance is one minus the cosine
+    between columns, averaged (equations 5 and 6); columns that are empty in either say nothing and
+    are left out, as in the authors' program.
     """
     query, candidate = columns(query), columns(candidate)
     cosines = query.T @ candidate
-    both = query.any(axis=0)[:, None] & candidate.any(axis=0)
+    both = np.outer(query.any(axis=0), candidate.any(axis=0))
     sectors = np.arange(query.shape[1])
     # What the query sees in a sector, the candidate sees in the sector further on by the angle.
     further = (sectors + sectors[:, None]) % len(sectors)

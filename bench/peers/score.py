@@ -26,7 +26,7 @@ def score(peer: Peer, answers: Sequence[Answer], truth: Float64) -> dict[str, An
     """
     metres, degrees = errors(answers, truth)
     sure = np.array([answer.estimate.sure for answer in answers])
-    scores = np.array([answer.estimate.score for answer in answers])
+    scores = np.array([answer.estimate.score for answer in answers], dtype=np.float64)
     right = (metres <= RIGHT_METRES) & (degrees <= RIGHT_DEGREES)
     wrong = np.isfinite(metres) & ((metres > WRONG_METRES) | (degrees > WRONG_DEGREES))
     highest_wrong = scores[wrong].max(initial=-np.inf)
