@@ -190,14 +190,14 @@ def scans_of(recording: Recording) -> list[Segments]:
     ]
 
 
-def town_scans(
+def town_recording(
     folder: Path, seed: int, progress: Progress = silent, scans: int = 20
-) -> list[Segments]:
+) -> Recording:
     """Of a short drive through the synthetic town; the drive is left in the folder."""
     from town import two_robots
 
     path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
-    return scans_of(record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress))
+    return record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress)
 
 
 def files(folder: Path) -> Iterator[Network]:

@@ -2,6 +2,7 @@
 
     python -m bench.fuzz msgpack -atheris_runs=1000000 [CORPUS]
     python -m bench.fuzz map -atheris_runs=1000000 [CORPUS]
+    python -m bench.fuzz delta -atheris_runs=1000000 [CORPUS]
 
 An input that ends in anything but a clear refusal, or that takes more memory than the limit, stops
 it and is written to a file; such findings are kept as tests.
@@ -15,7 +16,17 @@ import atheris
 with atheris.instrument_imports(include=["placecell_client", "service.packing", "service.packed"]):
     import msgpack  # type: ignore[import-untyped]
     import numpy as np
-    from placecell_client import CompactMap, MapFileError, decode, encode, map_file
+    from placecell_client import (
+        CompactMap,
+        Delta,
+        MapFileError,
+        carrier,
+        decode,
+        decode_delta,
+        encode,
+        encode_delta,
+    )
+    from placecell_client.map_edit import apply, with_optional
     from pydantic import ValidationError
 
     from service import packing
@@ -49,6 +60,17 @@ def read_map(data: bytes) -> None:
     assert encode(decode(encode(content))) == encode(content)
 
 
+def read_delta(data: bytes) -> None:
+    """A delta file; one that is read must write itself again, and apply the same twice as once."""
+    try:
+        delta = decode_delta(data)
+    except MapFileError:
+        return
+    assert encode_delta(decode_delta(encode_delta(delta))) == encode_delta(delta)
+    once = apply(delta.changed, delta)
+    assert encode(apply(once, delta)) == encode(once)
+
+
 def seeds() -> dict[str, list[bytes]]:
     """Good inputs to begin with."""
     points = np.arange(30, dtype="<f4").tobytes()
@@ -72,14 +94,20 @@ def seeds() -> dict[str, list[bytes]]:
         frame_positions=np.zeros((2, 3)),
         frame_orientations=np.array([[0, 0, 0, 1]] * 2, np.float32),
     )
-    return {"msgpack": [msgpack.packb(body) for body in bodies], "map": [encode(small)]}
+    full = with_optional(small, ("extents", "points", "views", "seen"))
+    gone = np.array([2, 3], np.uint32)
+    return {
+        "msgpack": [msgpack.packb(body) for body in bodies],
+        "map": [encode(small), encode(full)],
+        "delta": [encode_delta(Delta(small, gone, 3, 4)), encode_delta(Delta(full, gone))],
+    }
 
 
 def main() -> None:
     """Fuzz one of the readers; further arguments are libFuzzer's."""
     # No fuzzer guesses a SHA-256: without it, what stands behind it is reached too.
-    map_file._checksum = lambda *_: "unsealed"
-    reader = {"msgpack": read_msgpack, "map": read_map}[sys.argv[1]]
+    carrier._checksum = lambda *_: "unsealed"
+    reader = {"msgpack": read_msgpack, "map": read_map, "delta": read_delta}[sys.argv[1]]
     corpus = Path("out/fuzz") / sys.argv[1]
     corpus.mkdir(parents=True, exist_ok=True)
     for number, seed in enumerate(seeds()[sys.argv[1]]):

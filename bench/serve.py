@@ -14,13 +14,15 @@ from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client, CompactMap, encode
+from placecell_client import Client
 
 from bench.describe import draw_scans, each, rate
 from bench.load import Load, Outcome, request_of, sent_by_process
+from bench.map_content import map_of
 from bench.server import running_service
 from segments.extraction import Progress, silent
 from segments.extractor import load_extractor
+from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 from segments.segments import Segments
 from segments.types import Int8
@@ -215,27 +217,10 @@ def fill(address: str, drawn: Segments, count: int, seed: int) -> None:
     """Store a map: real descriptors, each again and again with some levels changed."""
     with Client(address) as client:
         some = drawn.take(np.arange(min(200, len(drawn))))
-        clouds = [some.cloud(row) for row in range(len(some))]
-        described = client.describe(clouds, some.sensors)
+        described = client.describe([some.cloud(row) for row in range(len(some))], some.sensors)
         codes = perturbed(described.codes, count, seed)
-        version = client.info().model["preprocessing"]["version"]
-        map_file = encode(
-            CompactMap(
-                model_id=described.model_id,
-                preprocessing=version,
-                frame="bench",
-                codes=codes,
-                centroids=np.random.default_rng(seed).uniform(-500, 500, (count, 3)),
-                ids=np.arange(count, dtype=np.uint32),
-                robots=("bench",),
-                robot=np.zeros(count, np.uint16),
-                frame_index=np.zeros(count, np.uint32),
-                frame_times=np.array([0.0]),
-                frame_positions=np.zeros((1, 3)),
-                frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
-            )
-        )
-        client.put_map("bench", map_file)
+        manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+        client.put_map("bench", map_of(codes, manifest, "bench", seed=seed))
 
 
 def perturbed(codes: Int8, count: int, seed: int) -> Int8:

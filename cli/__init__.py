@@ -3,13 +3,12 @@
 import typer
 
 from cli.ablations import ablations
-from cli.bench import bench
+from cli.benches import bench
 from cli.config import config
 from cli.demo import demo
 from cli.evaluate import evaluate
 from cli.experiments import experiments
 from cli.keys import keys
-from cli.peers import peers
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -31,7 +30,6 @@ app.command()(evaluate)
 app.command()(experiments)
 app.command()(study)
 app.command()(ablations)
-bench.command()(peers)
 app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)

@@ -131,8 +131,8 @@ class OnnxExtractor(Extractor):
     def infer(self, inputs: Inputs) -> Float32:
         """Descriptors, float32 (rows, dimension); the same whatever the number of threads."""
 
-        def some(first: int) -> Float32:
-            return self._run({name: rows[first : first + BATCH] for name, rows in inputs.items()})
+        def some(first: int, end: int) -> Float32:
+            return self._run({name: rows[first:end] for name, rows in inputs.items()})
 
         return self._in_batches(some, len(inputs["extents"]))
 
@@ -142,17 +142,20 @@ class OnnxExtractor(Extractor):
         if looks is not None and surroundings is None:
             surroundings = describe_surroundings(segments, None, looks)
 
-        def some(first: int) -> Float32:
-            rows = np.arange(first, min(first + BATCH, len(segments)))
+        def some(first: int, end: int) -> Float32:
+            rows = np.arange(first, end)
             around = None if surroundings is None else surroundings[rows]
             return self._run(self.prepare(segments.take(rows), around))
 
         return self._in_batches(some, len(segments))
 
-    def _in_batches(self, some: Callable[[int], Float32], count: int) -> Float32:
-        starts = range(0, count, BATCH)
+    def _in_batches(self, some: Callable[[int, int], Float32], count: int) -> Float32:
+        """What some rows become, from the first to the end, for all rows."""
+        # Of one size, so that no core waits for another's last batch.
+        bounds = np.linspace(0, count, -(-count // BATCH) + 1).astype(int).tolist()
+        batches = bounds[:-1], bounds[1:]
         # A single batch is not worth the way to another thread.
-        parts = self._pool.map(some, starts) if len(starts) > 1 else map(some, starts)
+        parts = self._pool.map(some, *batches) if len(bounds) > 2 else map(some, *batches)
         return np.concatenate([np.zeros((0, self.manifest.dimension), np.float32), *parts])
 
     def _run(self, inputs: Inputs) -> Float32:

@@ -14,7 +14,6 @@ from service.problems import Problem, unexpected
 from service.timing import Timing
 
 logger = logging.getLogger("placecell.requests")
-audit = logging.getLogger("placecell.audit")
 
 METHODS = {"GET", "HEAD", "OPTIONS", "PUT", "POST", "DELETE", "PATCH"}
 """Told by name; others are made up by clients, without end."""

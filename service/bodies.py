@@ -19,6 +19,7 @@ from service.settings import Limits
 
 JSON = "application/json"
 MSGPACK = "application/msgpack"
+OCTETS = "application/octet-stream"
 ENCODINGS = (JSON, MSGPACK)
 """The first one unless the client says otherwise."""
 

@@ -15,11 +15,11 @@ import hmac
 import logging
 import secrets
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from placecell_client import CompactMap
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from service.problems import Problem
@@ -64,16 +64,25 @@ class Holder:
         if not self.key.write:
             raise Problem(403, "forbidden", "This key reads, but does not write.")
 
-    def check_content(self, content: CompactMap) -> None:
+    def check_robots(self, robots: Iterable[str]) -> None:
         """See that the key may store, replace or remove these robots' segments; 403 if not."""
-        own = self.key.robot
-        if own is not None and set(content.robots) - {own}:
-            raise Problem(403, "forbidden", f"This key writes segments of {own!r:.80} alone.")
+        if self.key.robot is not None and {*robots} - {self.key.robot}:
+            raise self._own_alone()
+
+    def check_all(self) -> None:
+        """See that the key may store, replace or remove all robots' segments; 403 if not."""
+        if self.key.robot is not None:
+            raise self._own_alone()
 
     def check_admin(self) -> None:
         """See that the key may change what the service runs; 403 if not."""
         if not self.key.admin:
             raise Problem(403, "forbidden", "This key does not reload models.")
+
+    def _own_alone(self) -> Problem:
+        return Problem(
+            403, "forbidden", f"This key writes segments of {self.key.robot!r:.80} alone."
+        )
 
 
 ANYONE = Holder("anyone", Key(sha256="0" * 64, write=True, admin=True))

@@ -14,7 +14,7 @@ import numpy as np
 from segments.quantiser import LEVELS, Quantiser
 from segments.types import Bool, Float64, Int8, Int64
 
-MARGIN = 32
+MARGIN = 12
 """Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
 
 MOST = 1 << 13
@@ -46,7 +46,7 @@ class MapIndex(ABC):
             Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows,
             int64, of the same shape, ascending among equal distances.
         """
-        k = min(k, len(self) - (0 if gone is None else int(gone.sum())))
+        k = min(k, len(self) - (0 if gone is None else int(np.count_nonzero(gone))))
         if not k or not len(codes):
             return np.zeros((len(codes), k)), np.zeros((len(codes), k), dtype=np.int64)
         # Requests are searched side by side: a thread each wastes less than all threads for each.

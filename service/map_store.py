@@ -1,137 +1,183 @@
-"""Where maps are kept: what was written is there after a crash."""
+"""Where maps are kept: what was written is there after a crash.
+
+The store knows nothing of segments. To it a map is a log: the file of its oldest version that is
+still kept, and after it the commits, each a blob (a delta) that leads from one version to the next.
+"""
 
 import hashlib
-import logging
-import os
-import re
-import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
-from typing import Protocol
-
-import filelock
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import Literal, Protocol
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
-_SUFFIX = ".safetensors"
-_UNFINISHED = ".unfinished"
 
-logger = logging.getLogger("placecell")
+IDS = 1 << 32
+"""Of segments: 0 to this, exclusive."""
+
+Trouble = Literal["full", "read-only", "failing", "busy", "damaged"]
 
 
-class MapStore(Protocol):
-    """Map files by name. A write or a removal that has returned survives SIGKILL and power loss."""
+class StoreError(Exception):
+    """The store could not do what it was asked; nothing was changed.
 
-    def names(self) -> list[str]:
-        """Of the maps, sorted."""
+    Attributes:
+        kind: what is in the way: a full disk, one that takes no writes, one that fails, another
+            process that holds the database, or bytes that are not those once written.
+    """
 
-    def read(self, name: str) -> bytes:
-        """The map's file; KeyError if there is none."""
-
-    def write(self, name: str, data: bytes) -> None:
-        """Put a map's file, in place of the one before: all of it, or nothing."""
-
-    def delete(self, name: str) -> None:
-        """Remove a map's file; KeyError if there is none."""
-
-    def set_aside(self, name: str) -> str:
-        """Take a damaged file out of the maps, without destroying it; where it is now."""
-
-    def writable(self) -> bool:
-        """Whether the store can take a map."""
+    def __init__(self, kind: Trouble, message: str) -> None:
+        super().__init__(message)
+        self.kind = kind
 
 
 class StoreLockedError(Exception):
     """Another service owns the data directory."""
 
 
-class FolderMapStore:
-    """A file a map, in `DATA_DIR/maps`."""
+class OutOfIdsError(Exception):
+    """A map has not so many ids left."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
 
-    @classmethod
-    @contextmanager
-    def open(cls, data_dir: Path) -> "Iterator[FolderMapStore]":
-        """The store of a data directory, owned until the context ends.
+@dataclass(frozen=True, slots=True)
+class Note:
+    """What a commit did.
+
+    Attributes:
+        time: of the service's clock, Unix seconds; told, never relied on.
+        author: name of the key.
+        operation: such as `put`, `edit`, `restore`, `age`.
+        changed: segments added or replaced.
+        removed: segments removed.
+    """
+
+    time: float
+    author: str
+    operation: str
+    changed: int
+    removed: int
+
+
+@dataclass(frozen=True, slots=True)
+class Commit:
+    """A write to a map, as kept.
+
+    Attributes:
+        sequence: of the version that it led to; they grow by one.
+        note: what it did.
+        bytes: of its blob; 0 if the version was folded into the base.
+        mark: names the version together with all that led to it, 64 hex digits.
+    """
+
+    sequence: int
+    note: Note
+    bytes: int
+    mark: str
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """Where a map stands.
+
+    Attributes:
+        name: of the map.
+        uid: of the map under this name; another one when the name is deleted and taken again.
+        sequence: of its newest version.
+        mark: of that version.
+        oldest: sequence of the oldest version that is kept: the base.
+        next_id: the least id that no segment ever had, and nobody has reserved.
+        base_bytes: of the base.
+        log_bytes: of the commits after it.
+        commits: after the base.
+    """
+
+    name: str
+    uid: str
+    sequence: int
+    mark: str
+    oldest: int
+    next_id: int
+    base_bytes: int
+    log_bytes: int
+
+    @property
+    def commits(self) -> int:
+        """How many there are after the base."""
+        return self.sequence - self.oldest
+
+
+class History(Protocol):
+    """One map's log as it stood at one moment, whatever is written meanwhile."""
+
+    @property
+    def head(self) -> Head:
+        """Where the map stood."""
+
+    def commits(self) -> list[Commit]:
+        """From the base's own to the newest."""
+
+    def mark(self, sequence: int) -> str:
+        """Of one version; KeyError if it is not kept."""
+
+    def base(self) -> bytes:
+        """The oldest version's file; StoreError if it is damaged."""
+
+    def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
+        """The commits from `after`, exclusive, to `until`.
 
         Raises:
-            StoreLockedError: another process owns it.
-            OSError: it cannot be made or written.
+            KeyError: `after` is not kept.
+            StoreError: a commit is damaged.
         """
-        folder = data_dir / "maps"
-        folder.mkdir(parents=True, exist_ok=True)
-        try:
-            lock = filelock.FileLock(data_dir / "lock").acquire(timeout=0)
-        except filelock.Timeout as error:
-            raise StoreLockedError(f"{data_dir} is in use by another service") from error
-        with lock:
-            _sync_folder(data_dir)
-            for unfinished in folder.glob(f".*{_UNFINISHED}"):
-                unfinished.unlink()
-            yield cls(folder)
 
-    def names(self) -> list[str]:
-        """Of the maps, sorted."""
-        found = (path.name.removesuffix(_SUFFIX) for path in self._folder.glob(f"*{_SUFFIX}"))
-        return sorted(name for name in found if re.fullmatch(NAME_PATTERN, name))
 
-    def read(self, name: str) -> bytes:
-        """The map's file; KeyError if there is none."""
-        try:
-            return self._path(name).read_bytes()
-        except FileNotFoundError as error:
-            raise KeyError(name) from error
+class MapStore(Protocol):
+    """The logs of all maps. A write that has returned survives SIGKILL and power loss.
 
-    def write(self, name: str, data: bytes) -> None:
-        """Put a map's file, in place of the one before: all of it, or nothing."""
-        path = self._path(name)
-        descriptor, unfinished = tempfile.mkstemp(_UNFINISHED, ".", self._folder)
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            Path(unfinished).replace(path)
-        except BaseException:
-            Path(unfinished).unlink(missing_ok=True)
-            raise
-        _sync_folder(self._folder)
+    Each call is one transaction. Any may raise a StoreError; then nothing has changed.
+    """
 
-    def delete(self, name: str) -> None:
-        """Remove a map's file; KeyError if there is none."""
-        try:
-            self._path(name).unlink()
-        except FileNotFoundError as error:
-            raise KeyError(name) from error
-        _sync_folder(self._folder)
+    def heads(self) -> list[Head]:
+        """Of the maps, by name."""
 
-    def set_aside(self, name: str) -> str:
-        """Take a damaged file out of the maps, without destroying it; where it is now."""
-        path = self._path(name)
-        # The hash keeps apart two damaged files of one name.
-        mark = hashlib.sha256(path.read_bytes()).hexdigest()[:8]
-        aside = path.with_name(f"{path.name}.{mark}.broken")
-        path.replace(aside)
-        _sync_folder(self._folder)
-        return str(aside)
+    def read(self, uid: str) -> AbstractContextManager[History]:
+        """A map's log; KeyError if there is none."""
+
+    def create(self, name: str, file: bytes, note: Note, next_id: int) -> Head:
+        """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
+
+    def append(self, head: Head, blob: bytes, note: Note, next_id: int) -> Head:
+        """Add a commit.
+
+        Args:
+            head: that it follows; KeyError if the map stands elsewhere.
+            blob: a delta.
+            note: what it does.
+            next_id: raises the map's to at least this.
+        """
+
+    def reserve(self, uid: str, count: int) -> int:
+        """The first of so many ids that nobody has had; OutOfIdsError, or KeyError for the map."""
+
+    def compact(self, uid: str, sequence: int, file: bytes) -> Head:
+        """Let go of the versions before one, whose file is given; KeyError if it is not there."""
+
+    def delete(self, uid: str) -> None:
+        """Remove a map with all its versions; KeyError if there is none."""
+
+    def give_back(self) -> None:
+        """Return the room of what was removed to the disk, if it is much."""
 
     def writable(self) -> bool:
-        """Whether the store can take a map."""
-        return self._folder.is_dir() and os.access(self._folder, os.W_OK)
-
-    def _path(self, name: str) -> Path:
-        # Routes have checked the name; this is the last line before the disk.
-        if not re.fullmatch(NAME_PATTERN, name):
-            raise ValueError(f"{name!r} is no map's name")
-        return self._folder / f"{name}{_SUFFIX}"
+        """Whether the store can take a write."""
 
 
-def _sync_folder(folder: Path) -> None:
-    """Make renames and removals in a folder last."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+def mark_of(before: str, sequence: int, blob: bytes) -> str:
+    """The mark of a commit: a chain of SHA-256, so that one names all that led to it.
+
+    Two maps of one name, or a database and its backup after both were written to, count the same
+    sequences, but never come to the same mark.
+    """
+    digest = hashlib.sha256(f"{before} {sequence}\n".encode())
+    digest.update(blob)
+    return digest.hexdigest()

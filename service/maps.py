@@ -1,182 +1,214 @@
 """The maps that the service knows: stored, and searchable if the model that made them is loaded."""
 
-import hashlib
 import logging
-from collections.abc import Callable
-from contextlib import suppress
-from dataclasses import dataclass, replace
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from threading import Lock
+from weakref import WeakValueDictionary
 
-from placecell_client.map_file import CompactMap, MapFileError, decode
+from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
 
-from service.map_index import MapIndex, index_of
-from service.map_store import MapStore
+from service.layers import Layers
+from service.map_cache import MapCache
+from service.map_index import MapIndex
+from service.map_store import Head, MapStore, Note, StoreError
 from service.models import Models
 from service.problems import Problem
+from service.quotas import Quotas
+from service.replay import newest
+from service.stored_map import LayeredIndex, StoredMap
 
 logger = logging.getLogger("placecell")
 
 
-@dataclass(frozen=True, slots=True)
-class StoredMap:
-    """A map in memory.
+class Maps:
+    """All maps, by name. For use from many threads.
 
-    Attributes:
-        name: of the map.
-        etag: SHA-256 of its file, in hex.
-        bytes: of its file.
-        content: its columns, sorted by id.
-        index: over its descriptors; None if the model that made them is not loaded.
+    Readers take a `StoredMap` and see it whole, old or new; they wait for nobody. Who writes holds
+    `writing` of that name from reading the map to `commit`.
     """
 
-    name: str
-    etag: str
-    bytes: int
-    content: CompactMap
-    index: MapIndex | None
-
-
-class Maps:
-    """All maps, by name. Safe to use from many threads: readers see a map whole, old or new."""
-
-    def __init__(self, store: MapStore, models: Models) -> None:
-        """Load what is stored; a damaged file is set aside with a line in the log."""
-        self._store = store
+    def __init__(
+        self,
+        store: MapStore,
+        models: Models,
+        quotas: Quotas,
+        cache: MapCache,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
+        """Load what is stored. A damaged map is left out, with a line in the log."""
+        self.store = store
         self._models = models
-        self._writing = Lock()
+        self._quotas = quotas
+        self._clock = clock
+        self._guard = Lock()
+        self._locks: WeakValueDictionary[str, Lock] = WeakValueDictionary()
+        self._committing = Lock()
+        self._damaged: dict[str, Head] = {}
         self._by_name: dict[str, StoredMap] = {}
-        for name in store.names():
-            data = store.read(name)
-            etag = hashlib.sha256(data).hexdigest()
+        for head in store.heads():
             try:
-                self._by_name[name] = self._stored(name, etag, len(data), decode(data))
-            except MapFileError as error:
-                logger.error(
-                    "map %r is damaged (%s); set aside as %s", name, error, store.set_aside(name)
-                )
+                layers, folded = newest(store, head, cache)
+            except (StoreError, MapFileError) as error:
+                logger.error("map %r is damaged and not served: %s", head.name, error)
+                self._damaged[head.name] = head
+            else:
+                self._swap(StoredMap(head, layers, folded, None))
         self.index_all()
 
     def index_all(self) -> None:
         """Make those maps searchable whose models can be had by now."""
-        with self._writing:
-            self._models.want({stored.content.model_id for stored in self.all()})
-            self._by_name = {
-                name: replace(stored, index=stored.index or self._index(stored.content))
-                for name, stored in self._by_name.items()
-            }
+        self._models.want({stored.model_id for stored in self.all()})
+        for name in self._by_name:
+            with self.writing(name):
+                stored = self._by_name.get(name)
+                if stored is not None and stored.index is None:
+                    index = self._index(stored.layers)
+                    with self._committing:
+                        self._swap(replace(stored, index=index))
 
     def __len__(self) -> int:
         return len(self._by_name)
 
     def writable(self) -> bool:
         """Whether a map can be stored."""
-        return self._store.writable()
+        return self.store.writable()
 
     def all(self) -> list[StoredMap]:
         """Sorted by name."""
         return sorted(self._by_name.values(), key=lambda stored: stored.name)
 
+    def damaged(self) -> list[str]:
+        """Names of the maps that are stored, but cannot be read."""
+        return sorted(self._damaged)
+
+    def find(self, name: str) -> StoredMap | None:
+        """One map, if there is one.
+
+        Raises:
+            Problem: 500 if it is damaged.
+        """
+        if name in self._damaged:
+            raise Problem(
+                500,
+                "map-damaged",
+                f"Map {name!r} is damaged on disk; the log says how. Bring the data directory back "
+                "from a backup, or delete the map and put it again.",
+            )
+        return self._by_name.get(name)
+
     def get(self, name: str) -> StoredMap:
         """One map; 404 if there is none."""
-        stored = self._by_name.get(name)
+        stored = self.find(name)
         if stored is None:
             raise unknown(name)
         return stored
 
-    def file(self, name: str) -> tuple[StoredMap, bytes]:
-        """A map and its file, byte by byte; 404 if there is none."""
-        with self._writing:
-            stored = self.get(name)
-            data = self._intact(stored)
-        if data is None:
-            logger.error("map %r was altered on disk", name)
-            raise Problem(500, "map-damaged", f"The file of map {name!r} was altered on disk.")
-        return stored, data
+    @contextmanager
+    def writing(self, name: str) -> Iterator[None]:
+        """While nobody else writes to the map of this name."""
+        with self._guard:
+            lock = self._locks.setdefault(name, Lock())
+        with lock:
+            yield
 
-    def put(
-        self, name: str, data: bytes, check: Callable[[CompactMap], None] = lambda _: None
-    ) -> tuple[StoredMap, bool]:
-        """Store a map; on return it is safely on disk. The same file again changes nothing.
+    def create(self, name: str, content: CompactMap, author: str, operation: str) -> StoredMap:
+        """Store a map under a new name; on return it is safely on disk.
+
+        Raises:
+            Problem: 507 if it is more than a quota allows.
+            StoreError: nothing was changed.
+        """
+        layers, file = Layers.of(content), encode(content)
+        robots, index = layers.robots, self._index(layers)
+        note = Note(self._clock(), author, operation, len(content), 0)
+        with self._committing:
+            self._quotas.check(self.all(), None, robots)
+            head = self.store.create(name, file, note, _next_id(content))
+            return self._swap(StoredMap(head, layers, 1, index))
+
+    def commit(self, stored: StoredMap, delta: Delta, author: str, operation: str) -> StoredMap:
+        """The map's next version; on return it is safely on disk. Errors as of `create`.
 
         Args:
-            check: raises if whoever sends the map may not store such a one, or replace what is
-                there.
-
-        Returns:
-            The map, and whether the name is new.
+            stored: the map as it is.
+            delta: as `Layers.effect_of` gives it.
+            author: name of the key.
+            operation: for the history.
         """
-        known = self._by_name.get(name)
-        etag = hashlib.sha256(data).hexdigest()
-        if known is not None and known.etag == etag and self._intact(known) is not None:
-            check(known.content)
-            return known, False
-        try:
-            content = decode(data)
-        except MapFileError as error:
-            raise Problem(422, "invalid-map-file", f"Not a whole map file: {error}.") from error
-        model = self._models.find(content.model_id)
-        if model is None:
-            raise self._models.unknown(content.model_id)
-        manifest = model.manifest
-        if content.code_bytes != manifest.code_bytes:
-            raise Problem(
-                422,
-                "invalid-map-file",
-                f"The map's codes have {content.code_bytes} bytes a segment; "
-                f"the model's have {manifest.code_bytes}.",
-            )
-        if content.preprocessing != manifest.preprocessing["version"]:
-            raise Problem(
-                422,
-                "invalid-map-file",
-                f"The map's segments were prepared by version {content.preprocessing}; "
-                f"the model's are by version {manifest.preprocessing['version']}.",
-            )
-        check(content)
-        stored = self._stored(name, etag, len(data), content)
-        with self._writing:
-            old = self._by_name.get(name)
-            is_new = old is None
-            if old is not None:
-                check(old.content)
-            self._store.write(name, data)
-            # A new dictionary, so that a reader in the midst of the old one is not disturbed.
-            self._by_name = self._by_name | {name: stored}
-        return stored, is_new
+        since, until = stored.head.sequence, stored.head.sequence + 1
+        blob = encode_delta(replace(delta, since=0 if delta.is_whole else since, until=until))
+        layers = stored.layers.after(delta)
+        kept = stored.index if layers.base is stored.layers.base else None
+        robots, index = layers.robots, self._index(layers, kept.base if kept is not None else None)
+        folded = until if delta.is_whole else stored.folded
+        note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
+        with self._committing:
+            self._quotas.check(self.all(), stored, robots)
+            head = self.store.append(stored.head, blob, note, _next_id(delta.changed))
+            return self._swap(StoredMap(head, layers, folded, index))
 
-    def delete(self, name: str, check: Callable[[CompactMap], None] = lambda _: None) -> int:
-        """Remove a map; on return it is gone from the disk. 404 if there is none.
-
-        Args:
-            check: raises if whoever asks may not remove such a map.
-
-        Returns:
-            How many segments it had.
-        """
-        with self._writing:
-            old = self.get(name)
-            check(old.content)
-            with suppress(KeyError):  # someone removed the file by hand; so it is gone
-                self._store.delete(name)
+    def delete(self, name: str) -> None:
+        """Remove a map, damaged or not; on return it is gone from the disk."""
+        with self._committing:
+            head = self._damaged.get(name) or self.get(name).head
+            self.store.delete(head.uid)
+            self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
-        return len(old.content)
 
-    def _intact(self, stored: StoredMap) -> bytes | None:
-        """The map's file, or None if the disk no longer holds what was put."""
-        try:
-            data = self._store.read(stored.name)
-        except KeyError:
+    def compact(self, head: Head, sequence: int, file: bytes) -> StoredMap:
+        """Let go of the versions before one.
+
+        Args:
+            head: of the map at some time; 404 if it was removed since.
+            sequence: of the version.
+            file: of the version.
+        """
+        with self.writing(head.name):
+            stored = self.get(head.name)
+            if stored.head.uid != head.uid:
+                raise unknown(head.name)
+            if stored.head.oldest >= sequence:
+                return stored
+            with self._committing:
+                kept = self.store.compact(head.uid, sequence, file)
+                return self._swap(replace(stored, head=kept))
+
+    def fold(self, stored: StoredMap) -> CompactMap | None:
+        """Make one layer of a map's two. Nobody waits for it, and what is written meanwhile stays.
+
+        Returns:
+            All segments of that version; None if the map has become another meanwhile.
+        """
+        content = stored.layers.content()
+        index = self._index(Layers.of(content))
+        with self.writing(stored.name):
+            now = self._by_name.get(stored.name)
+            if now is None or now.layers.base is not stored.layers.base:
+                return None
+            layers = now.layers.upon(content, stored.layers)
+            both = self._index(layers, index.base if index is not None else None)
+            with self._committing:
+                self._swap(StoredMap(now.head, layers, stored.head.sequence, both))
+        return content
+
+    def _swap(self, stored: StoredMap) -> StoredMap:
+        """Show a map. A new dictionary, so that a reader in the midst of the old one is well."""
+        self._by_name = self._by_name | {stored.name: stored}
+        return stored
+
+    def _index(self, layers: Layers, base: MapIndex | None = None) -> LayeredIndex | None:
+        made_by = layers.base.model_id
+        model = self._models.find(made_by)
+        if model is None or layers.base.code_bytes != model.manifest.code_bytes:
             return None
-        return data if hashlib.sha256(data).hexdigest() == stored.etag else None
+        return LayeredIndex.of(layers, model.manifest.quantiser, base)
 
-    def _stored(self, name: str, etag: str, size: int, content: CompactMap) -> StoredMap:
-        return StoredMap(name, etag, size, content, self._index(content))
 
-    def _index(self, content: CompactMap) -> MapIndex | None:
-        model = self._models.find(content.model_id)
-        if model is None or content.code_bytes != model.manifest.code_bytes:
-            return None
-        return index_of(content.codes, model.manifest.quantiser)
+def _next_id(content: CompactMap) -> int:
+    return int(content.ids[-1]) + 1 if len(content) else 0
 
 
 def unknown(name: str) -> Problem:

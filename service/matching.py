@@ -7,9 +7,10 @@ import numpy as np
 
 from segments.types import Float64, Int8, Int64
 from service.keys import Holder
-from service.maps import Maps, StoredMap
+from service.maps import Maps
 from service.models import Model, Models
 from service.problems import Problem
+from service.stored_map import StoredMap
 
 Candidate = dict[str, Any]
 """As `CandidateOut` says; not made of it, for there are hundreds a request."""
@@ -55,7 +56,7 @@ def scope_of(
     groups: dict[str, list[StoredMap]] = {}
     skipped = []
     for stored in chosen:
-        made_by = stored.content.model_id
+        made_by = stored.model_id
         if stored.index is not None and only in (None, models.find(made_by)):
             groups.setdefault(made_by, []).append(stored)
         elif names is None:
@@ -78,7 +79,7 @@ class Found:
     Attributes:
         searched: the maps.
         places: int64 (q, k), indices into them.
-        rows: int64 (q, k), of each segment in its map.
+        rows: int64 (q, k), of each segment in its map's layers.
         distances: float64 (q, k), in the descriptors' unit.
         probabilities: of a match, float64 (q, k); None if the model has no classifier.
     """
@@ -96,10 +97,11 @@ class Found:
         robots = np.full(self.rows.shape, "", dtype=object)
         for place, stored in enumerate(self.searched):
             here = self.places == place
-            rows, content = self.rows[here], stored.content
-            ids[here], centroids[here] = content.ids[rows], content.centroids[rows]
-            robots[here] = np.array(content.robots, dtype=object)[content.robot[rows]]
-        names = [(stored.name, stored.content.frame) for stored in self.searched]
+            rows, layers = self.rows[here], stored.layers
+            ids[here] = layers.column("ids", rows)
+            centroids[here] = layers.column("centroids", rows)
+            robots[here] = layers.robot_names(rows)
+        names = [(stored.name, stored.frame) for stored in self.searched]
         stated = (
             np.full(self.rows.shape, None) if self.probabilities is None else self.probabilities
         )
@@ -132,14 +134,13 @@ def found_in(codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int)
     """
     found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
     for place, stored in enumerate(searched):
-        assert stored.index is not None
-        distances, rows = stored.index.search(codes, k)
+        distances, rows = stored.search(codes, k)
         here = distances, np.full_like(rows, place), rows
         found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
         if len(searched) > 1:
-            # By distance in steps, map, row (rows of a map are sorted by id). Never more than of
-            # two maps at once, however many there are.
-            order = np.lexsort(found[::-1], axis=1)[:, :k]
+            # By distance in steps, then map; those of a map are in the order of their ids, and stay
+            # so. Never more than of two maps at once, however many there are.
+            order = np.lexsort(found[1::-1], axis=1)[:, :k]
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
     probabilities = _probabilities(codes, model, searched, places, rows)
@@ -167,7 +168,7 @@ def _probabilities(
     found = np.empty((*rows.shape, codes.shape[1]), dtype=np.int8)
     for place, stored in enumerate(searched):
         here = places == place
-        found[here] = stored.content.codes[rows[here]]
+        found[here] = stored.layers.column("codes", rows[here])
     asked = np.repeat(codes, rows.shape[1], axis=0)
     stated = model.classifier.probabilities(asked, found.reshape(asked.shape))
     return stated.reshape(rows.shape)

@@ -12,9 +12,12 @@ from pydantic import BaseModel, Field, ValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
+from service.map_store import StoreError
+
 MEDIA_TYPE = "application/problem+json"
 SHOWN_ERRORS = 20
 """Of the values that are wrong in one request."""
+SHOWN_IDS = 10_000
 
 logger = logging.getLogger("placecell")
 
@@ -36,6 +39,7 @@ class ProblemBody(BaseModel):
     status: int = Field(description="The HTTP status.", examples=[404])
     detail: str = Field(description="What is wrong here.", examples=["No map is named 'yard'."])
     errors: list[ProblemError] | None = Field(None, description="The values that are wrong.")
+    ids: list[int] | None = Field(None, description="Of the segments in question.")
 
 
 class Problem(Exception):  # noqa: N818 -- RFC 9457's own word
@@ -47,6 +51,7 @@ class Problem(Exception):  # noqa: N818 -- RFC 9457's own word
         detail: what is wrong, and what would be right.
         errors: the values that are wrong.
         headers: of the response.
+        ids: of the segments in question.
     """
 
     def __init__(
@@ -56,6 +61,7 @@ class Problem(Exception):  # noqa: N818 -- RFC 9457's own word
         detail: str,
         errors: list[ProblemError] | None = None,
         headers: dict[str, str] | None = None,
+        ids: list[int] | None = None,
     ) -> None:
         super().__init__(detail)
         self.status = status
@@ -63,6 +69,7 @@ class Problem(Exception):  # noqa: N818 -- RFC 9457's own word
         self.detail = detail
         self.errors = errors
         self.headers = headers
+        self.ids = ids
 
     @property
     def response(self) -> JSONResponse:
@@ -73,6 +80,7 @@ class Problem(Exception):  # noqa: N818 -- RFC 9457's own word
             status=self.status,
             detail=self.detail,
             errors=self.errors[:SHOWN_ERRORS] if self.errors else None,
+            ids=self.ids[:SHOWN_IDS] if self.ids else None,
         )
         return JSONResponse(
             body.model_dump(exclude_none=True),
@@ -144,17 +152,43 @@ def install(app: FastAPI) -> None:
     async def _(_: Request, __: ClientDisconnect) -> JSONResponse:
         return Problem(400, "incomplete-body", "The body ended too early.").response
 
+    @app.exception_handler(StoreError)
+    async def _(request: Request, error: StoreError) -> JSONResponse:
+        logger.error("the store failed: %s", error)
+        problem = _of_store(error)
+        request.app.state.placecell.metrics.rejected.labels(problem.kind).inc()
+        return problem.response
+
     @app.exception_handler(OSError)
     async def _(_: Request, error: OSError) -> JSONResponse:
         logger.error("failed on disk", exc_info=error)
         if error.errno in {errno.ENOSPC, errno.EDQUOT}:
-            return Problem(507, "disk-full", "The disk is full; nothing was changed.").response
+            return _disk_full().response
         return unexpected().response
 
 
 def unexpected() -> Problem:
     """A fault of the service itself: the log has its trace, the client gets none of it."""
     return Problem(500, "internal-error", "The service failed; its log says why.")
+
+
+def _of_store(error: StoreError) -> Problem:
+    if error.kind == "full":
+        return _disk_full()
+    if error.kind == "damaged":
+        return Problem(
+            500, "map-damaged", "What is stored was damaged; the service's log says where."
+        )
+    detail = {
+        "busy": "Another process holds the maps' database; nothing was changed.",
+        "read-only": "The disk takes no writes; nothing was changed.",
+        "failing": "The disk fails; nothing was changed.",
+    }[error.kind]
+    return Problem(503, "store-unavailable", detail, headers={"Retry-After": "5"})
+
+
+def _disk_full() -> Problem:
+    return Problem(507, "disk-full", "The disk is full; nothing was changed.")
 
 
 def _explain(request: Request, error: HTTPException) -> str:

@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Generic, Literal, Self, TypeVar
 
 from placecell_client.compact_map import COORDINATE_LIMIT
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from service.settings import Limits
 
@@ -73,28 +73,23 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         return self
 
 
+EXAMPLE: dict[str, JsonValue] = {
+    "points": [[8.0, 2.0 + step / 8, step / 4] for step in range(12)],
+    "sensor": [0.0, 0.0, 1.8],
+}
+"""A segment that can be described: the smallest, for the eye."""
+
+
 class DescribeRequest(ScanRequest[SegmentIn]):
     """The segments of one scan."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"segments": [{"points": [[4.1, 2.0, 0.4], [4.2, 2.0, 0.5]], "sensor": [0, 0, 1]}]}
-            ]
-        }
-    )
+    model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
 class MatchRequest(QueryRequest[SegmentIn, Codes]):
     """Queries, as segments or as descriptors, and where to look for them."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"model_id": "group-0123456789abcdef", "codes": [[3, -7]], "maps": ["yard"], "k": 5}
-            ]
-        }
-    )
+    model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE], "k": 5}]})
 
 
 class ItemErrorOut(BaseModel):
@@ -170,12 +165,14 @@ class MapOut(BaseModel):
 
     name: str
     segments: int
-    bytes: int
+    sequence: int = Field(description="Of its newest version; each write makes one.")
+    etag: str = Field(description="Names this version, of all versions of all maps.")
+    bytes: int = Field(description="That it takes in the service's store, with its old versions.")
     model_id: str
-    robots: list[str]
+    frame: str = Field(description="Name of its coordinate frame.")
+    robots: dict[str, int] = Field(description="How many segments each has in it.")
     time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
-    etag: str = Field(description="SHA-256 of the file, in hex.")
-    frame: str
+    optional: list[str] = Field(description="Names of the optional columns that it has.")
 
 
 class MapsResponse(BaseModel):
@@ -183,6 +180,53 @@ class MapsResponse(BaseModel):
 
     model_id: str
     maps: list[MapOut]
+    damaged: list[str] = Field(description="Maps that are stored but cannot be read.")
+
+
+class WrittenOut(BaseModel):
+    """What a write did."""
+
+    map: str
+    sequence: int = Field(description="Of the map's version after it.")
+    etag: str = Field(description="Of that version.")
+    segments: int = Field(description="In the map after it.")
+    changed: int = Field(description="Segments added or replaced.")
+    removed: int = Field(description="Segments removed.")
+
+
+class IdsOut(BaseModel):
+    """Ids for new segments: `first` and those after it."""
+
+    first: int
+    count: int
+
+
+class VersionOut(BaseModel):
+    """A version of a map."""
+
+    sequence: int
+    etag: str
+    time: float = Field(description="When it was written, Unix seconds of the service's clock.")
+    author: str = Field(description="Name of the key.")
+    operation: str = Field(examples=["put", "edit", "restore", "age"])
+    changed: int = Field(description="Segments added or replaced.")
+    removed: int = Field(description="Segments removed.")
+
+
+class VersionsResponse(BaseModel):
+    """The versions of a map, newest first."""
+
+    map: str
+    oldest: int = Field(description="Sequence of the oldest that is kept.")
+    versions: list[VersionOut]
+
+
+class CompactOut(BaseModel):
+    """What a map keeps now."""
+
+    oldest: int = Field(description="Sequence of the oldest version.")
+    sequence: int = Field(description="Of the newest.")
+    bytes: int = Field(description="That it takes in the service's store.")
 
 
 class ModelOut(BaseModel):

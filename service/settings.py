@@ -75,6 +75,13 @@ class Limits(BaseModel):
     uploads: int = Field(
         default=4, ge=1, description="Maps that are uploaded at once; the others get a 429."
     )
+    edits: int = Field(
+        default=16, ge=1, description="Edits of maps taken at once; the others get a 429."
+    )
+    robot_segments: int = Field(
+        default=2_000_000, ge=1, description="Segments of one robot over all maps, at most."
+    )
+    map_segments: int = Field(default=4_000_000, ge=1, description="Segments of a map, at most.")
     upload_seconds: float = Field(
         default=120.0,
         gt=0,

@@ -7,17 +7,24 @@ from typing import Annotated, ParamSpec, TypeVar
 
 import anyio
 import anyio.to_thread
-from fastapi import Depends, Request
+from fastapi import Depends, Header, Request
 
 from segments.manifest import ModelError
+from service.changes import Changes
 from service.desk import Desk
+from service.housekeeping import Housekeeper
 from service.keys import Holder, Keys
-from service.map_store import FolderMapStore, StoreLockedError
+from service.map_cache import MapCache
+from service.map_store import StoreError, StoreLockedError
 from service.maps import Maps
 from service.metrics import Metrics
 from service.models import Models
+from service.preconditions import Preconditions
+from service.quotas import Quotas
 from service.settings import Settings
+from service.sqlite_store import SqliteMapStore
 from service.timing import Timing
+from service.writer import Writer
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -36,10 +43,13 @@ class State:
         metrics: what is counted and timed.
         models: loaded.
         maps: stored and searchable.
+        changes: of maps, for robots that keep a copy.
         keys: who may do what.
         desk: takes in requests for recognition.
         uploads: takes in maps.
+        edits: takes in edits of maps.
         turns: limits how many requests are computed at once.
+        hands: limits how many work on stored maps at once.
         draining: the service is about to stop; it is no longer ready.
     """
 
@@ -47,10 +57,13 @@ class State:
     metrics: Metrics
     models: Models
     maps: Maps
+    changes: Changes
     keys: Keys
     desk: Desk
     uploads: Desk
+    edits: Desk
     turns: anyio.CapacityLimiter
+    hands: anyio.CapacityLimiter
     draining: bool = False
 
     @property
@@ -64,8 +77,17 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do blocking work (NumPy, FAISS, disk) off the event loop, in turn."""
+        """Do blocking work of recognition (NumPy, FAISS) off the event loop, in turn."""
         return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.turns)
+
+    async def store(
+        self,
+        work: Callable[Parameters, Result],
+        *args: Parameters.args,
+        **kwargs: Parameters.kwargs,
+    ) -> Result:
+        """Do blocking work on stored maps off the event loop; recognition does not wait for it."""
+        return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.hands)
 
 
 @contextmanager
@@ -85,28 +107,34 @@ def open_state(settings: Settings) -> Iterator[State]:
         raise StartError(f"keys: {error}") from error
     with ExitStack() as stack:
         try:
-            store = stack.enter_context(FolderMapStore.open(settings.data_dir))
-            maps = Maps(store, models)
-        except StoreLockedError as error:
-            raise StartError(f"data directory {error}") from error
+            store = stack.enter_context(SqliteMapStore.owned(settings.data_dir))
+            cache = MapCache(settings.data_dir)
+            limits, gauge = settings.limits, metrics.queue_requests
+            quotas = Quotas(limits.robot_segments, limits.map_segments)
+            maps = Maps(store, models, quotas, cache)
+        except (StoreLockedError, StoreError) as error:
+            raise StartError(f"data directory: {error}") from error
         except OSError as error:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
-        limits, gauge = settings.limits, metrics.queue_requests
+        changes = Changes(store)
+        stack.enter_context(Housekeeper(maps, changes, cache).working())
         metrics.maps.set_function(lambda: len(maps))
-        metrics.map_segments.set_function(lambda: sum(len(each.content) for each in maps.all()))
+        metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
+        seconds = limits.upload_seconds
         yield State(
             settings=settings,
             metrics=metrics,
             models=models,
             maps=maps,
+            changes=changes,
             keys=keys,
             desk=Desk(
                 limits.requests, limits.deadline, limits.body_seconds, limits.body_bytes, gauge
             ),
-            uploads=Desk(
-                limits.uploads, limits.upload_seconds, limits.upload_seconds, limits.map_bytes
-            ),
+            uploads=Desk(limits.uploads, seconds, seconds, limits.map_bytes),
+            edits=Desk(limits.edits, seconds, seconds, limits.body_bytes),
             turns=anyio.CapacityLimiter(settings.workers),
+            hands=anyio.CapacityLimiter(limits.uploads),
         )
 
 
@@ -125,6 +153,21 @@ async def holder_of(request: Request) -> Holder:
     return holder
 
 
+async def writer_of(
+    request: Request,
+    if_match: Annotated[
+        str | None, Header(description="ETags of the versions that this is meant for, or *.")
+    ] = None,
+    if_none_match: Annotated[
+        str | None, Header(description="ETags of the versions that this is not for, or *.")
+    ] = None,
+) -> Writer:
+    """Whoever sent the request, as one who writes to maps."""
+    state = await state_of(request)
+    conditions = Preconditions(if_match, if_none_match)
+    return Writer(state.maps, state.models, await holder_of(request), conditions)
+
+
 async def timing_of(request: Request) -> Timing:
     """The request's stopwatch."""
     timing = request.scope["state"]["timing"]
@@ -135,3 +178,4 @@ async def timing_of(request: Request) -> Timing:
 StateOf = Annotated[State, Depends(state_of)]
 HolderOf = Annotated[Holder, Depends(holder_of)]
 TimingOf = Annotated[Timing, Depends(timing_of)]
+WriterOf = Annotated[Writer, Depends(writer_of)]

@@ -82,10 +82,10 @@ def cloud_file(folder: Path, index: int) -> Path:
 
 
 def read_map(folder: Path) -> list[MapFrame]:
-    """The map's frames."""
-    poses = np.load(folder / MAP / POSES)
+    """The map's frames; their clouds stay on the disk until they are looked at."""
     return [
-        MapFrame(pose, np.load(cloud_file(folder / MAP, index))) for index, pose in enumerate(poses)
+        MapFrame(pose, np.load(cloud_file(folder / MAP, index), mmap_mode="r"))
+        for index, pose in enumerate(np.load(folder / MAP / POSES))
     ]
 
 

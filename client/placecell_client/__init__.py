@@ -1,8 +1,10 @@
-"""What a robot needs to talk to a Placecell service: HTTP clients and the compact map file."""
+"""What a robot needs to talk to a Placecell service: HTTP clients, compact map and delta files."""
 
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
 from placecell_client.errors import ServiceError
+from placecell_client.map_copy import ChangesPage, MapCopy
+from placecell_client.map_delta import Delta, decode_delta, encode_delta
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
 from placecell_client.results import (
     Candidate,
@@ -10,25 +12,34 @@ from placecell_client.results import (
     Info,
     ItemError,
     MapSummary,
+    MapVersion,
     Matches,
     Skipped,
+    Written,
 )
 from placecell_client.retries import Retries
 
 __all__ = [
     "AsyncClient",
     "Candidate",
+    "ChangesPage",
     "Client",
     "CompactMap",
+    "Delta",
     "Description",
     "Info",
     "ItemError",
+    "MapCopy",
     "MapFileError",
     "MapSummary",
+    "MapVersion",
     "Matches",
     "Retries",
     "ServiceError",
     "Skipped",
+    "Written",
     "decode",
+    "decode_delta",
     "encode",
+    "encode_delta",
 ]

@@ -8,15 +8,25 @@ from types import TracebackType
 from typing import Self, TypeVar
 
 import httpx
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
 from placecell_client.calls import Call
 from placecell_client.errors import ServiceError
+from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
+from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
-from placecell_client.results import Description, Info, MapSummary, Matches
+from placecell_client.results import (
+    Description,
+    Info,
+    MapSummary,
+    MapVersion,
+    Matches,
+    Written,
+)
 from placecell_client.retries import USUAL, Retries
 from placecell_client.wire import Encoding
 
@@ -88,21 +98,83 @@ class AsyncClient(Caller):
         """`Client.maps`."""
         return await self._send(self._calls.maps())
 
-    async def put_map(self, name: str, compact_map: CompactMap | bytes) -> MapSummary:
+    async def put_map(
+        self,
+        name: str,
+        compact_map: CompactMap | bytes,
+        *,
+        if_match: str | None = None,
+        create_only: bool = False,
+    ) -> MapSummary:
         """`Client.put_map`."""
-        return await self._send(self._calls.put_map(name, compact_map))
+        return await self._send(self._calls.put_map(name, compact_map, if_match, create_only))
 
-    async def get_map(self, name: str) -> CompactMap:
+    async def edit_map(
+        self,
+        name: str,
+        delta: Delta | bytes,
+        *,
+        robot: str | None = None,
+        create: bool = False,
+        if_match: str | None = None,
+    ) -> Written:
+        """`Client.edit_map`."""
+        return await self._send(self._calls.edit_map(name, delta, robot, create, if_match))
+
+    async def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
+        """`Client.reserve_ids`."""
+        return await self._send(self._calls.reserve_ids(name, count))
+
+    async def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
+        """`Client.pull`."""
+        if isinstance(copy, str):
+            copy = MapCopy(copy)
+        while True:
+            since, cursor = copy.request
+            try:
+                if copy.take(await self.changes(copy.name, since, cursor, limit)):
+                    return copy
+            except ServiceError as error:
+                if error.status != GONE or not copy.lose_way():
+                    raise
+
+    async def changes(
+        self,
+        name: str,
+        since: int | str = 0,
+        cursor: str | None = None,
+        limit: int = PAGE_SEGMENTS,
+    ) -> ChangesPage:
+        """`Client.changes`."""
+        return await self._send(self._calls.changes(name, since, cursor, limit))
+
+    async def get_map(self, name: str, version: int | None = None) -> CompactMap:
         """`Client.get_map`."""
-        return await self._send(self._calls.get_map(name))
+        return await self._send(self._calls.get_map(name, version))
 
-    async def get_map_file(self, name: str) -> bytes:
+    async def get_map_file(self, name: str, version: int | None = None) -> bytes:
         """`Client.get_map_file`."""
-        return await self._send(self._calls.get_map_file(name))
+        return await self._send(self._calls.get_map_file(name, version))
 
-    async def delete_map(self, name: str) -> None:
+    async def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
+        """`Client.versions`."""
+        return await self._send(self._calls.versions(name, limit))
+
+    async def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
+        """`Client.restore_map`."""
+        return await self._send(self._calls.restore_map(name, version, if_match))
+
+    async def age_map(self, name: str, unseen_since: float, dry_run: bool = False) -> Written:
+        """`Client.age_map`."""
+        return await self._send(self._calls.age_map(name, unseen_since, dry_run))
+
+    async def compact_map(self, name: str, keep: int = 1) -> int:
+        """`Client.compact_map`."""
+        return await self._send(self._calls.compact_map(name, keep))
+
+    async def delete_map(self, name: str, if_match: str | None = None) -> None:
         """`Client.delete_map`."""
-        await self._send(self._calls.delete_map(name))
+        await self._send(self._calls.delete_map(name, if_match))
 
     async def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)

@@ -4,20 +4,30 @@ import gzip
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
-from urllib.parse import quote
+from urllib.parse import quote, urlencode
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from placecell_client import reading
+from placecell_client import map_delta, map_file, reading
 from placecell_client.answer import Answer
-from placecell_client.map_file import MEDIA_TYPE, CompactMap, decode, encode
-from placecell_client.results import Description, Info, MapSummary, Matches
+from placecell_client.map_copy import ChangesPage
+from placecell_client.map_delta import Delta, encode_delta
+from placecell_client.map_file import CompactMap, decode, encode
+from placecell_client.results import (
+    Description,
+    Info,
+    MapSummary,
+    MapVersion,
+    Matches,
+    Written,
+)
 from placecell_client.wire import MEDIA_TYPES, Encoding, codes_of, dumps, segments_of
 
 T = TypeVar("T")
 
 COMPRESSED_BYTES = 1024
-"""Maps of less are sent as they are."""
+"""Files of less are sent as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +56,7 @@ class Calls:
 
     Attributes:
         encoding: of points and descriptors.
-        compress: whether maps travel as gzip.
+        compress: whether maps and deltas travel as gzip.
     """
 
     encoding: Encoding
@@ -91,27 +101,90 @@ class Calls:
         """`GET /maps`."""
         return Call("GET", "/maps", reading.summaries)
 
-    def put_map(self, name: str, compact_map: CompactMap | bytes) -> Call[MapSummary]:
+    def put_map(
+        self,
+        name: str,
+        compact_map: CompactMap | bytes,
+        if_match: str | None,
+        create_only: bool,
+    ) -> Call[MapSummary]:
         """`PUT /maps/{map}`."""
         data = encode(compact_map) if isinstance(compact_map, CompactMap) else compact_map
-        headers = {"Content-Type": MEDIA_TYPE}
+        headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
+        return self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, reading.summary, headers)
+
+    def edit_map(
+        self,
+        name: str,
+        delta: Delta | bytes,
+        robot: str | None,
+        create: bool,
+        if_match: str | None,
+    ) -> Call[Written]:
+        """`POST /maps/{map}/segments`."""
+        data = encode_delta(delta) if isinstance(delta, Delta) else delta
+        path = _path(name, "/segments", robot=robot, create="true" if create else None)
+        headers = _conditions(if_match)
+        return self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
+
+    def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
+        """`GET /maps/{map}`, decoded."""
+        path = _path(name, version=version)
+        return Call("GET", path, lambda answer: decode(reading.file(answer)))
+
+    def get_map_file(self, name: str, version: int | None) -> Call[bytes]:
+        """`GET /maps/{map}`."""
+        return Call("GET", _path(name, version=version), reading.file)
+
+    def changes(
+        self, name: str, since: int | str, cursor: str | None, limit: int
+    ) -> Call[ChangesPage]:
+        """`GET /maps/{map}/changes`."""
+        path = _path(name, "/changes", since=since, cursor=cursor, limit=limit)
+        return Call("GET", path, reading.page)
+
+    def reserve_ids(self, name: str, count: int) -> Call[NDArray[np.uint32]]:
+        """`POST /maps/{map}/ids`."""
+        return Call("POST", _path(name, "/ids", count=count), reading.ids)
+
+    def versions(self, name: str, limit: int) -> Call[tuple[MapVersion, ...]]:
+        """`GET /maps/{map}/versions`."""
+        return Call("GET", _path(name, "/versions", limit=limit), reading.versions)
+
+    def restore_map(self, name: str, version: int, if_match: str | None) -> Call[Written]:
+        """`POST /maps/{map}/versions/{version}/restore`."""
+        path = _path(name, f"/versions/{int(version)}/restore")
+        return Call("POST", path, reading.written, _conditions(if_match))
+
+    def age_map(self, name: str, unseen_since: float, dry_run: bool) -> Call[Written]:
+        """`POST /maps/{map}/age`."""
+        dry = "true" if dry_run else None
+        path = _path(name, "/age", unseen_since=repr(float(unseen_since)), dry_run=dry)
+        return Call("POST", path, reading.written)
+
+    def compact_map(self, name: str, keep: int) -> Call[int]:
+        """`POST /maps/{map}/compact`."""
+        return Call("POST", _path(name, "/compact", keep=keep), reading.oldest)
+
+    def delete_map(self, name: str, if_match: str | None) -> Call[None]:
+        """`DELETE /maps/{map}`."""
+        return Call("DELETE", _path(name), reading.gone, _conditions(if_match))
+
+    def _upload(
+        self,
+        method: str,
+        path: str,
+        data: bytes,
+        media_type: str,
+        read: Callable[[Answer], T],
+        headers: dict[str, str],
+    ) -> Call[T]:
+        headers = headers | {"Content-Type": media_type}
         if self.compress and len(data) > COMPRESSED_BYTES:
             # No time in its header: equal maps are equal uploads.
             data = gzip.compress(data, mtime=0)
             headers["Content-Encoding"] = "gzip"
-        return Call("PUT", _map_path(name), reading.summary, headers, data)
-
-    def get_map(self, name: str) -> Call[CompactMap]:
-        """`GET /maps/{map}`, decoded."""
-        return Call("GET", _map_path(name), lambda answer: decode(reading.file(answer)))
-
-    def get_map_file(self, name: str) -> Call[bytes]:
-        """`GET /maps/{map}`."""
-        return Call("GET", _map_path(name), reading.file)
-
-    def delete_map(self, name: str) -> Call[None]:
-        """`DELETE /maps/{map}`."""
-        return Call("DELETE", _map_path(name), reading.gone)
+        return Call(method, path, read, headers, data)
 
     def _post(self, path: str, body: dict[str, Any], read: Callable[[Answer], T]) -> Call[T]:
         media_type = MEDIA_TYPES[self.encoding]
@@ -119,7 +192,18 @@ class Calls:
         return Call("POST", path, read, headers, dumps(body, self.encoding))
 
 
-def _map_path(name: str) -> str:
+def _path(name: str, way: str = "", **query: object) -> str:
+    """Of a map, and what of it; values that are None are left out of the query."""
     # Quoted whole, so that a name with a slash is refused by the service, not taken for a path.
     # Dots too: `..` would be resolved on the way.
-    return "/maps/" + quote(name, safe="").replace(".", "%2E")
+    path = "/maps/" + quote(name, safe="").replace(".", "%2E") + way
+    given = {key: value for key, value in query.items() if value is not None}
+    return f"{path}?{urlencode(given)}" if given else path
+
+
+def _conditions(if_match: str | None) -> dict[str, str]:
+    """Headers that tie a write to a version, by its ETag, or to `*`."""
+    if if_match is None:
+        return {}
+    # An ETag is given as results tell it, without quotes.
+    return {"If-Match": if_match if if_match == "*" else f'"{if_match}"'}

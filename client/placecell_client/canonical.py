@@ -5,64 +5,112 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.compact_map import CompactMap
+from placecell_client.compact_map import SEGMENT_COLUMNS, CompactMap, is_ascending
 
-STEPS = 65_534
-"""Between the lowest and highest of an int16 coordinate, -32767 to 32767."""
+Rows = NDArray[np.bool_] | NDArray[np.integer] | slice
 
 
 def canonical(compact_map: CompactMap) -> CompactMap:
-    """Rows sorted by id, tables sorted, merged, only of what is used; centroids rounded."""
-    rows = np.argsort(compact_map.ids)
-    used_robots, robot = np.unique(compact_map.robot[rows], return_inverse=True)
-    names = [compact_map.robots[index] for index in used_robots]
-    order = sorted(range(len(names)), key=lambda index: names[index])
-    ranks = np.argsort(order)
+    """Rows sorted by id, tables sorted, merged, only of what is used; centroids rounded.
 
-    used_frames, frame_index = np.unique(compact_map.frame_index[rows], return_inverse=True)
-    table = np.column_stack(
-        [
-            compact_map.frame_times[used_frames],
-            compact_map.frame_positions[used_frames],
-            _one_sign(compact_map.frame_orientations[used_frames]),
-        ]
-    )
-    # Adding zero makes -0.0 and 0.0 the same bytes.
-    merged, places = np.unique(table + 0.0, axis=0, return_inverse=True)
+    Args:
+        compact_map: a valid one (`CompactMap.check`). Columns that are in order already are shared
+            with the result.
+    """
+    ordered = compact_map
+    if not is_ascending(ordered.ids):
+        ordered = take(ordered, np.argsort(ordered.ids, kind="stable"))
+    robots, robot_ranks = _sorted_robots(ordered)
+    table, frame_ranks = _sorted_frames(ordered)
     return replace(
-        compact_map,
-        codes=np.ascontiguousarray(compact_map.codes[rows]),
-        centroids=snap(compact_map.centroids[rows]),
-        ids=compact_map.ids[rows],
-        robots=tuple(names[index] for index in order),
-        robot=ranks[robot].astype(np.uint16),
-        frame_index=places.reshape(-1)[frame_index].astype(np.uint32),
-        frame_times=merged[:, 0],
-        frame_positions=merged[:, 1:4],
-        frame_orientations=merged[:, 4:].astype(np.float32),
+        ordered,
+        centroids=snap(ordered.centroids),
+        robots=robots,
+        robot=robot_ranks[ordered.robot],
+        frame_index=frame_ranks[ordered.frame_index],
+        frame_times=table[:, 0].copy(),
+        frame_positions=table[:, 1:4].copy(),
+        frame_orientations=table[:, 4:].astype(np.float32),
     )
 
 
-def choose_scale(centroids: NDArray[np.float64]) -> int:
-    """Centimetres a step, the least power of two with which the map's extent fits an int16."""
-    scale_cm = 1
-    while len(centroids):
-        steps = np.rint(centroids * 100 / scale_cm)
-        if np.ptp(steps, axis=0).max() <= STEPS:
-            break
-        scale_cm *= 2
-    return scale_cm
+def take(compact_map: CompactMap, rows: Rows) -> CompactMap:
+    """Some of a map's segments, in the order of `rows`; the tables stay as they are.
+
+    Args:
+        compact_map: the map.
+        rows: a mask (n,), indices (m,), or a slice.
+    """
+    columns = (*SEGMENT_COLUMNS, *compact_map.optional)
+    return replace(compact_map, **{name: getattr(compact_map, name)[rows] for name in columns})
 
 
 def snap(centroids: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rounded to whole multiples of their scale from the frame's own origin, metres.
+    """Rounded to whole centimetres from the coordinate frame's own origin, metres.
 
-    Multiples from the frame's origin, not from the map's corner: a map that loses or gains
-    segments is not rounded a second time. At the limit of a scale, rounding can shrink the extent
-    until the next finer scale fits too; the rounded values are multiples of that as well.
+    From the frame's origin, not from the map's corner: a map that loses or gains segments is not
+    rounded a second time.
     """
-    scale_cm = choose_scale(centroids)
-    return np.asarray(np.rint(centroids * 100 / scale_cm) * scale_cm / 100 + 0.0)
+    snapped = centimetres(centroids)
+    snapped /= 100
+    snapped += 0.0  # makes -0.0 and 0.0 the same
+    return snapped
+
+
+def centimetres(metres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Whole centimetres, halves to even."""
+    whole = metres * 100
+    return np.rint(whole, out=whole)
+
+
+def frame_rows(compact_map: CompactMap) -> NDArray[np.float64]:
+    """The frame table, float64 (f, 8): time, position, orientation; equal frames are equal rows."""
+    table = np.column_stack(
+        [
+            compact_map.frame_times,
+            compact_map.frame_positions,
+            _one_sign(compact_map.frame_orientations),
+        ]
+    )
+    table += 0.0  # makes -0.0 and 0.0 the same
+    return table
+
+
+def distinct_rows(
+    table: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """A table's different rows in ascending order, and for each given row its place there."""
+    order = np.lexsort(table.T[::-1])
+    ordered = table[order]
+    is_new = np.ones(len(table), dtype=bool)
+    is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    ranks = np.empty(len(table), dtype=np.uint32)
+    ranks[order] = np.cumsum(is_new) - 1
+    return ordered[is_new], ranks
+
+
+def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """The frames that segments name, as `distinct_rows`, and each frame's place among them."""
+    used = _used(compact_map.frame_index, len(compact_map.frame_times))
+    table, places = distinct_rows(frame_rows(compact_map)[used])
+    ranks = np.zeros(len(used), dtype=np.uint32)
+    ranks[used] = places
+    return table, ranks
+
+
+def _sorted_robots(compact_map: CompactMap) -> tuple[tuple[str, ...], NDArray[np.uint16]]:
+    names = compact_map.robots
+    used = np.flatnonzero(_used(compact_map.robot, len(names)))
+    order = sorted(used.tolist(), key=lambda index: names[index])
+    ranks = np.zeros(len(names), dtype=np.uint16)
+    ranks[order] = np.arange(len(order))
+    return tuple(names[index] for index in order), ranks
+
+
+def _used(indices: NDArray[np.integer], size: int) -> NDArray[np.bool_]:
+    used = np.zeros(size, dtype=bool)
+    used[indices] = True
+    return used
 
 
 def _one_sign(orientations: NDArray[np.float32]) -> NDArray[np.float32]:

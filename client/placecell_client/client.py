@@ -7,15 +7,25 @@ from types import TracebackType
 from typing import Self, TypeVar
 
 import httpx
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
 from placecell_client.calls import Call
 from placecell_client.errors import ServiceError
+from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
+from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
-from placecell_client.results import Description, Info, MapSummary, Matches
+from placecell_client.results import (
+    Description,
+    Info,
+    MapSummary,
+    MapVersion,
+    Matches,
+    Written,
+)
 from placecell_client.retries import USUAL, Retries
 from placecell_client.wire import Encoding
 
@@ -36,7 +46,7 @@ class Client(Caller):
         encoding: of points and descriptors on the wire; `json` is larger and slower, and readable.
         key: that the service asks for, sent as `Authorization: Bearer`.
         retries: how often, and after which waits.
-        compress: send maps as gzip.
+        compress: send maps and deltas as gzip.
         jitter: draws evenly from 0 to 1, for the waits.
         sleep: waits these seconds.
         clock: gives seconds that only grow.
@@ -118,29 +128,138 @@ class Client(Caller):
         """The stored maps, by name."""
         return self._send(self._calls.maps())
 
-    def put_map(self, name: str, compact_map: CompactMap | bytes) -> MapSummary:
-        """Store a map, in place of one of that name; returns when it is safely on disk.
+    def put_map(
+        self,
+        name: str,
+        compact_map: CompactMap | bytes,
+        *,
+        if_match: str | None = None,
+        create_only: bool = False,
+    ) -> MapSummary:
+        """Store a map whole; returns when it is safely on disk.
+
+        Other content of that name is replaced only if you say which version of it you have seen: a
+        ServiceError with status 428 else, or 412 if it is no longer at that version.
+
+        Args:
+            name: of the map.
+            compact_map: the map, or its file.
+            if_match: ETag of the version to replace, or `*` for any.
+            create_only: replace none.
 
         Raises:
             MapFileError: the map is not valid.
         """
-        return self._send(self._calls.put_map(name, compact_map))
+        return self._send(self._calls.put_map(name, compact_map, if_match, create_only))
 
-    def get_map(self, name: str) -> CompactMap:
-        """A stored map.
+    def edit_map(
+        self,
+        name: str,
+        delta: Delta | bytes,
+        *,
+        robot: str | None = None,
+        create: bool = False,
+        if_match: str | None = None,
+    ) -> Written:
+        """Add, replace and remove segments, all or none; returns when it is safely on disk.
+
+        Segments of other robots are neither replaced nor removed: a ServiceError with status 409,
+        whose `ids` tell which they are; with `if_match` they are.
+
+        Args:
+            name: of the map.
+            delta: what to do, its `since` and `until` 0; or its file.
+            robot: whose segments may be removed, beside those of the changed segments' robots.
+            create: make the map if there is none.
+            if_match: ETag of the version that the delta is for, or `*` for any.
 
         Raises:
-            MapFileError: the map is of another version than this client reads.
+            MapFileError: the delta is not valid.
         """
-        return self._send(self._calls.get_map(name))
+        return self._send(self._calls.edit_map(name, delta, robot, create, if_match))
 
-    def get_map_file(self, name: str) -> bytes:
-        """A stored map's file, byte by byte as it was put."""
-        return self._send(self._calls.get_map_file(name))
+    def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
+        """Ids for new segments of a map, that nobody else is given: uint32 (count,), ascending."""
+        return self._send(self._calls.reserve_ids(name, count))
 
-    def delete_map(self, name: str) -> None:
-        """Remove a map."""
-        self._send(self._calls.delete_map(name))
+    def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
+        """Bring a copy of a map up to date, by what has changed since.
+
+        Each part is a call of its own, with its own `timeout`. Should one fail, the copy is as it
+        was, and the next pull of it goes on with that part.
+
+        Args:
+            copy: made by an earlier pull; or the name of a map to begin with.
+            limit: segments in a part, at most.
+
+        Returns:
+            The copy, of the version that was the newest when the pull began.
+        """
+        if isinstance(copy, str):
+            copy = MapCopy(copy)
+        while True:
+            since, cursor = copy.request
+            try:
+                if copy.take(self.changes(copy.name, since, cursor, limit)):
+                    return copy
+            except ServiceError as error:
+                if error.status != GONE or not copy.lose_way():
+                    raise
+
+    def changes(
+        self,
+        name: str,
+        since: int | str = 0,
+        cursor: str | None = None,
+        limit: int = PAGE_SEGMENTS,
+    ) -> ChangesPage:
+        """A part of what changed in a map; `pull` puts the parts together.
+
+        Args:
+            name: of the map.
+            since: ETag of the version that is known, or its sequence; 0: none.
+            cursor: of the part, from the page before it.
+            limit: segments in a part, at most.
+        """
+        return self._send(self._calls.changes(name, since, cursor, limit))
+
+    def get_map(self, name: str, version: int | None = None) -> CompactMap:
+        """A stored map, or an earlier version of it.
+
+        Raises:
+            MapFileError: the file is of another version than this client reads.
+        """
+        return self._send(self._calls.get_map(name, version))
+
+    def get_map_file(self, name: str, version: int | None = None) -> bytes:
+        """A stored map's file, or that of an earlier version."""
+        return self._send(self._calls.get_map_file(name, version))
+
+    def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
+        """The versions of a map that are kept, newest first, so many at most."""
+        return self._send(self._calls.versions(name, limit))
+
+    def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
+        """Make a map again what it was: a new version with the content of an old one."""
+        return self._send(self._calls.restore_map(name, version, if_match))
+
+    def age_map(self, name: str, unseen_since: float, dry_run: bool = False) -> Written:
+        """Remove segments that were last seen before a time.
+
+        Args:
+            name: of the map.
+            unseen_since: the time, seconds of the clock of the frames.
+            dry_run: only tell how many they are.
+        """
+        return self._send(self._calls.age_map(name, unseen_since, dry_run))
+
+    def compact_map(self, name: str, keep: int = 1) -> int:
+        """Let go of all but the newest versions; the sequence of the oldest that is kept."""
+        return self._send(self._calls.compact_map(name, keep))
+
+    def delete_map(self, name: str, if_match: str | None = None) -> None:
+        """Remove a map with all its versions."""
+        self._send(self._calls.delete_map(name, if_match))
 
     def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)

@@ -1,6 +1,7 @@
 """A compact map: what a robot keeps of the segments that it has seen."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,21 @@ COORDINATE_LIMIT = 1e8
 """Metres; no frame on Earth needs more, and a frame's origin may be anywhere."""
 TIME_LIMIT = 9e9
 """Seconds, the year 2255; more is a time in another unit."""
+
+CODE_LIMIT = 65_535
+"""Bytes of codes that a segment may have."""
+
+SEGMENT_COLUMNS = ("codes", "centroids", "ids", "robot", "frame_index")
+"""Columns of one row a segment that every map has."""
+FRAME_COLUMNS = ("frame_times", "frame_positions", "frame_orientations")
+"""Columns of the frame table."""
+OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
+    "extents": (np.uint8, (3,)),
+    "points": (np.uint16, ()),
+    "views": (np.uint32, ()),
+    "seen": (np.uint32, ()),
+}
+"""Columns that a map may have or lack: type, and shape of one segment's value."""
 
 
 class MapFileError(ValueError):
@@ -27,7 +43,8 @@ class CompactMap:
         preprocessing: version of the steps from points to the model's input.
         frame: name of the coordinate frame, z up.
         codes: int8 (n, code bytes), stored descriptors.
-        centroids: float64 (n, 3), metres in the coordinate frame.
+        centroids: float64 (n, 3), metres in the coordinate frame; a file keeps whole centimetres,
+            at most 327.67 m along each axis from the sensor's position.
         ids: uint32 (n,), each once.
         robots: names of the robots.
         robot: uint16 (n,), indices into `robots`.
@@ -35,6 +52,12 @@ class CompactMap:
         frame_times: float64 (f,), seconds.
         frame_positions: float64 (f, 3), the sensor's position, metres in the coordinate frame.
         frame_orientations: float32 (f, 4), unit quaternions x, y, z, w from sensor to frame.
+        extents: uint8 (n, 3), decimetres of the axis-aligned box, rounded up, at most 255; three
+            zeros: unknown.
+        points: uint16 (n,), points of the segment, at most 65,535; 0: unknown.
+        views: uint32 (n,), the id of the first view of the same thing, which need not be in the map
+            any more; its own id where there is but one. Views of one thing share it.
+        seen: uint32 (n,), whole seconds of the clock of `frame_times`, when it was last seen.
     """
 
     model_id: str
@@ -49,6 +72,10 @@ class CompactMap:
     frame_times: NDArray[np.float64]
     frame_positions: NDArray[np.float64]
     frame_orientations: NDArray[np.float32]
+    extents: NDArray[np.uint8] | None = None
+    points: NDArray[np.uint16] | None = None
+    views: NDArray[np.uint32] | None = None
+    seen: NDArray[np.uint32] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -57,6 +84,11 @@ class CompactMap:
     def code_bytes(self) -> int:
         """Bytes of a segment's codes."""
         return int(self.codes.shape[1])
+
+    @property
+    def optional(self) -> tuple[str, ...]:
+        """Names of the optional columns that the map has."""
+        return tuple(name for name in OPTIONAL if getattr(self, name) is not None)
 
     @property
     def time_span(self) -> tuple[float, float] | None:
@@ -76,6 +108,11 @@ class CompactMap:
         _check_values(self)
 
 
+def is_ascending(ids: NDArray[np.uint32]) -> bool:
+    """Whether each is greater than the one before."""
+    return bool((ids[1:] > ids[:-1]).all())
+
+
 def _check_texts(compact_map: CompactMap) -> None:
     texts = {
         "model_id": compact_map.model_id,
@@ -90,11 +127,15 @@ def _check_texts(compact_map: CompactMap) -> None:
 
 
 def _check_columns(compact_map: CompactMap) -> None:
+    for name in ("ids", "frame_times"):
+        if getattr(compact_map, name).ndim != 1:
+            raise MapFileError(f"{name}: shape {getattr(compact_map, name).shape}, not (n,)")
     n, f = len(compact_map.ids), len(compact_map.frame_times)
-    if compact_map.codes.ndim != 2 or not compact_map.codes.shape[1]:
-        raise MapFileError(f"codes: shape {compact_map.codes.shape}, not (n, bytes) with bytes > 0")
+    codes = compact_map.codes
+    if codes.ndim != 2 or not 1 <= codes.shape[1] <= CODE_LIMIT:
+        raise MapFileError(f"codes: shape {codes.shape}, not (n, 1 to {CODE_LIMIT})")
     expected = {
-        "codes": (np.int8, (n, compact_map.codes.shape[1])),
+        "codes": (np.int8, (n, codes.shape[1])),
         "centroids": (np.float64, (n, 3)),
         "ids": (np.uint32, (n,)),
         "robot": (np.uint16, (n,)),
@@ -102,7 +143,7 @@ def _check_columns(compact_map: CompactMap) -> None:
         "frame_times": (np.float64, (f,)),
         "frame_positions": (np.float64, (f, 3)),
         "frame_orientations": (np.float32, (f, 4)),
-    }
+    } | {name: (OPTIONAL[name][0], (n, *OPTIONAL[name][1])) for name in compact_map.optional}
     for name, (dtype, shape) in expected.items():
         column: NDArray[np.generic] = getattr(compact_map, name)
         if column.dtype != dtype or column.shape != shape:
@@ -113,18 +154,20 @@ def _check_columns(compact_map: CompactMap) -> None:
 
 def _check_values(compact_map: CompactMap) -> None:
     for name, limit in {
+        "frame_positions": COORDINATE_LIMIT,  # before what a file states relative to them
         "centroids": COORDINATE_LIMIT,
-        "frame_positions": COORDINATE_LIMIT,
         "frame_times": TIME_LIMIT,
         "frame_orientations": 2.0,
     }.items():
+        column = getattr(compact_map, name)
         # Written so that NaN fails too.
-        if not (np.abs(getattr(compact_map, name)) <= limit).all():
+        if column.size and not (-limit <= column.min() and column.max() <= limit):
             raise MapFileError(f"{name}: a value is not finite or beyond {limit:g}")
     norms = np.linalg.norm(compact_map.frame_orientations.astype(np.float64), axis=1)
     if not (np.abs(norms - 1) <= 1e-3).all():
         raise MapFileError("frame_orientations: not unit quaternions")
-    if len(np.unique(compact_map.ids)) != len(compact_map.ids):
+    ids = compact_map.ids
+    if not is_ascending(ids) and len(np.unique(ids)) != len(ids):
         raise MapFileError("ids: an id stands twice")
     for name, size in {
         "robot": len(compact_map.robots),

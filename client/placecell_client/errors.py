@@ -22,6 +22,7 @@ class ServiceError(Exception):
         type: the kind of problem as a URI, the same for every release.
         request_id: of the call, sent as `X-Request-Id` in each of its attempts.
         retry_after: seconds after which the service asks to be called again, if it said so.
+        ids: of the segments in question, if it told them; not all where they are very many.
     """
 
     def __init__(
@@ -32,14 +33,16 @@ class ServiceError(Exception):
         type: str,  # noqa: A002
         request_id: str | None = None,
         retry_after: float | None = None,
+        ids: tuple[int, ...] = (),
     ) -> None:
-        super().__init__(status, title, detail, type, request_id, retry_after)
+        super().__init__(status, title, detail, type, request_id, retry_after, ids)
         self.status = status
         self.title = title
         self.detail = detail
         self.type = type
         self.request_id = request_id
         self.retry_after = retry_after
+        self.ids = ids
 
     def __str__(self) -> str:
         text = f"{self.status} {self.title}"
@@ -57,6 +60,7 @@ class ServiceError(Exception):
             type=answer.without_key(str(problem.get("type") or "about:blank")),
             request_id=answer.request_id,
             retry_after=retry_after(answer.headers),
+            ids=_ids(problem),
         )
 
     @classmethod
@@ -79,6 +83,11 @@ def _problem(answer: Answer) -> dict[str, Any]:
         return loads(MEDIA_TYPES["json"], answer.content)
     except (ValueError, RecursionError):
         return {}
+
+
+def _ids(problem: dict[str, Any]) -> tuple[int, ...]:
+    ids = problem.get("ids")
+    return tuple(one for one in ids if isinstance(one, int)) if isinstance(ids, list) else ()
 
 
 def _phrase(status: int) -> str:

@@ -4,20 +4,26 @@ Each function raises a ValueError, KeyError, TypeError or the like if the answer
 service makes it.
 """
 
+import re
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from placecell_client import map_delta, map_file
 from placecell_client.answer import Answer
-from placecell_client.map_file import MEDIA_TYPE
+from placecell_client.map_copy import ChangesPage
+from placecell_client.map_delta import decode_delta
 from placecell_client.results import (
     Candidate,
     Description,
     Info,
     ItemError,
     MapSummary,
+    MapVersion,
     Matches,
     Skipped,
+    Written,
 )
 from placecell_client.wire import loads, row_of
 
@@ -96,9 +102,39 @@ def summary(answer: Answer) -> MapSummary:
 
 def file(answer: Answer) -> bytes:
     """Of `GET /maps/{map}`."""
-    if answer.media_type != MEDIA_TYPE:
-        raise ValueError(f"The answer is not {MEDIA_TYPE}")
-    return answer.content
+    return _file(answer, map_file.MEDIA_TYPE)
+
+
+def page(answer: Answer) -> ChangesPage:
+    """Of `GET /maps/{map}/changes`."""
+    delta = decode_delta(_file(answer, map_delta.MEDIA_TYPE))
+    # What compresses on the way makes the tag a weak one.
+    etag = str(answer.headers["ETag"]).removeprefix("W/").strip('"')
+    if not re.fullmatch("[0-9a-f]+-[0-9]+", etag):
+        raise ValueError("The answer's ETag is no map's")
+    return ChangesPage(delta, etag, answer.headers.get("Placecell-Next"))
+
+
+def written(answer: Answer) -> Written:
+    """Of a write to a map's segments."""
+    return Written.of(_content(answer))
+
+
+def ids(answer: Answer) -> NDArray[np.uint32]:
+    """Of `POST /maps/{map}/ids`."""
+    content = _content(answer)
+    first, count = int(content["first"]), int(content["count"])
+    return np.arange(first, first + count, dtype=np.uint32)
+
+
+def versions(answer: Answer) -> tuple[MapVersion, ...]:
+    """Of `GET /maps/{map}/versions`."""
+    return tuple(MapVersion.of(item) for item in _content(answer)["versions"])
+
+
+def oldest(answer: Answer) -> int:
+    """Of `POST /maps/{map}/compact`."""
+    return int(_content(answer)["oldest"])
 
 
 def gone(answer: Answer) -> None:
@@ -106,6 +142,12 @@ def gone(answer: Answer) -> None:
     # The page of a network that asks for a log-in says success too.
     if answer.status not in {204, 404}:
         raise ValueError("The answer is not 204 No Content")
+
+
+def _file(answer: Answer, media_type: str) -> bytes:
+    if answer.media_type != media_type:
+        raise ValueError(f"The answer is not {media_type}")
+    return answer.content
 
 
 def _content(answer: Answer) -> dict[str, Any]:

@@ -92,22 +92,26 @@ class MapSummary:
     Attributes:
         name: of the map.
         segments: in it.
-        bytes: of its file.
+        sequence: of its newest version; each write makes one.
+        etag: names that version, of all versions of all maps.
+        bytes: that it takes in the service's store, with its old versions.
         model_id: of the model that made it; searched only if the service has that model loaded.
-        robots: names of those that made it.
-        time_span: earliest and latest time, seconds; None for a map without segments.
-        etag: SHA-256 of its file, in hex.
         frame: name of its coordinate frame.
+        robots: how many segments each has in it.
+        time_span: earliest and latest time, seconds; None for a map without segments.
+        optional: names of the optional columns that it has.
     """
 
     name: str
     segments: int
+    sequence: int
+    etag: str
     bytes: int
     model_id: str
-    robots: tuple[str, ...]
-    time_span: tuple[float, float] | None
-    etag: str
     frame: str
+    robots: dict[str, int]
+    time_span: tuple[float, float] | None
+    optional: tuple[str, ...]
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapSummary":
@@ -116,13 +120,69 @@ class MapSummary:
         return cls(
             name=content["name"],
             segments=content["segments"],
+            sequence=content["sequence"],
+            etag=content["etag"],
             bytes=content["bytes"],
             model_id=content["model_id"],
-            robots=tuple(content["robots"]),
-            time_span=(span[0], span[1]) if span is not None else None,
-            etag=content["etag"],
             frame=content["frame"],
+            robots=dict(content["robots"]),
+            time_span=(span[0], span[1]) if span is not None else None,
+            optional=tuple(content["optional"]),
         )
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What a write to a map did.
+
+    Attributes:
+        map: its name.
+        sequence: of its version after the write.
+        etag: of that version.
+        segments: in the map after it.
+        changed: segments added or replaced; 0 also if the write had been done before.
+        removed: segments removed.
+    """
+
+    map: str
+    sequence: int
+    etag: str
+    segments: int
+    changed: int
+    removed: int
+
+    @classmethod
+    def of(cls, content: dict[str, Any]) -> "Written":
+        """From the service's JSON."""
+        return cls(**{name: content[name] for name in cls.__slots__})
+
+
+@dataclass(frozen=True, slots=True)
+class MapVersion:
+    """A version of a map.
+
+    Attributes:
+        sequence: its number; they grow by one.
+        etag: names it, of all versions of all maps.
+        time: when it was written, Unix seconds of the service's clock.
+        author: name of the key that wrote it.
+        operation: such as `put`, `edit`, `restore`, `age`.
+        changed: segments added or replaced.
+        removed: segments removed.
+    """
+
+    sequence: int
+    etag: str
+    time: float
+    author: str
+    operation: str
+    changed: int
+    removed: int
+
+    @classmethod
+    def of(cls, content: dict[str, Any]) -> "MapVersion":
+        """From the service's JSON."""
+        return cls(**{name: content[name] for name in cls.__slots__})
 
 
 @dataclass(frozen=True, slots=True)

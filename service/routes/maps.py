@@ -1,47 +1,23 @@
 """`/maps`: the maps that robots put, get and remove."""
 
-import re
-from functools import partial
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Header, Path, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from placecell_client.map_file import MEDIA_TYPE
 
-from service.account import audit
+from service.audit import tell, tell_written
+from service.bodies import OCTETS
 from service.keys import Holder
-from service.map_store import NAME_PATTERN
-from service.maps import StoredMap
+from service.map_name import Name
 from service.openapi import file_body
-from service.problems import Problem, documented
+from service.problems import documented
+from service.routes.answers import summary_of
 from service.schemas import MapOut, MapsResponse
-from service.state import HolderOf, State, StateOf, TimingOf
-
-OCTETS = "application/octet-stream"
+from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.versions import version_file
 
 router = APIRouter(tags=["maps"])
-
-NAME_RULE = "1 to 64 letters, digits, dots, dashes, underscores; a letter or digit first"
-
-
-async def checked_name(
-    name: Annotated[
-        str,
-        Path(
-            alias="map",
-            description=f"The map's name: {NAME_RULE}.",
-            json_schema_extra={"pattern": NAME_PATTERN},
-            examples=["yard"],
-        ),
-    ],
-) -> str:
-    """The map's name in the path; 422 if none can be named so."""
-    if not re.fullmatch(NAME_PATTERN, name):
-        raise Problem(422, "invalid-map-name", f"{name!r:.200} is no map's name: {NAME_RULE}.")
-    return name
-
-
-Name = Annotated[str, Depends(checked_name)]
 
 _NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
     201: {"model": MapOut, "description": "Stored under a new name."}
@@ -51,42 +27,49 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
         "description": "The map file.",
         "content": {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}},
     },
-    304: {"description": "The client has this file already."},
+    304: {"description": "The client has this version already."},
 }
 
 
 @router.get("/maps", summary="The stored maps", responses=documented(401))
 async def list_maps(state: StateOf, holder: HolderOf) -> MapsResponse:
     """By name, those that the key opens. Maps of a model that is not loaded are not searched."""
-    stored = [_summary(stored) for stored in state.maps.all() if holder.opens(stored.name)]
-    return MapsResponse(model_id=state.model_id, maps=stored)
+    return await state.store(_listed, state, holder)
 
 
 @router.put(
     "/maps/{map}",
     summary="Store a map",
     response_model=MapOut,
-    responses=_NEW_RESPONSE | documented(400, 401, 403, 408, 409, 413, 415, 422, 429, 504, 507),
+    responses=_NEW_RESPONSE
+    | documented(
+        *(400, 401, 403, 408, 409, 412, 413, 415, 422, 428, 429, 500, 503, 504, 507),
+    ),
     openapi_extra=file_body(MEDIA_TYPE, OCTETS),
 )
 async def put_map(
-    name: Name, request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
 ) -> Response:
-    """In place of the one of that name, whole or not at all.
+    """Whole or not at all; when the answer comes, it is on disk and survives a power cut.
 
-    When the answer comes, the map is on disk and survives a crash. The same file again changes
-    nothing.
+    The same content again changes nothing. To replace other content say which version you mean to
+    replace: `If-Match: "ETAG"`, or `*` for any. `If-None-Match: *` only makes new maps.
     """
     holder.check_write(name)
     async with state.uploads.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
-        put = partial(state.maps.put, name, body.content, holder.check_content)
-        stored, is_new = await state.compute(put)
+        written = await state.store(writer.put, name, body.content)
     timing.lap("commit")
-    _tell(request, state, holder, "put", name, len(stored.content))
+    tell_written(request, state, "put", written)
+    summary = await state.store(summary_of, written.stored)
     return JSONResponse(
-        _summary(stored).model_dump(mode="json"),
-        status_code=201 if is_new else 200,
-        headers={"ETag": _etag(stored), "Location": f"/maps/{name}"},
+        summary.model_dump(mode="json"),
+        status_code=201 if written.is_new else 200,
+        headers={"ETag": f'"{written.stored.tag}"', "Location": f"/maps/{name}"},
     )
 
 
@@ -94,75 +77,52 @@ async def put_map(
     "/maps/{map}",
     summary="A map's file",
     response_class=Response,
-    responses=_FILE_RESPONSE | documented(401, 403, 404, 422),
+    responses=_FILE_RESPONSE | documented(401, 403, 404, 410, 422, 500, 503),
 )
 async def get_map(
     name: Name,
     state: StateOf,
     holder: HolderOf,
-    if_none_match: Annotated[str | None, Header()] = None,
+    writer: WriterOf,
+    version: Annotated[
+        int | None,
+        Query(ge=1, le=1 << 53, description="Sequence of a version; the newest unless said."),
+    ] = None,
 ) -> Response:
-    """Byte by byte as it was put."""
+    """In its canonical form: equal maps are equal files, byte by byte."""
     holder.check_map(name)
     stored = state.maps.get(name)
-    if if_none_match is not None and _names_tag(if_none_match, _etag(stored)):
-        return Response(status_code=304, headers={"ETag": _etag(stored)})
-    stored, data = await state.compute(state.maps.file, name)
-    return Response(data, media_type=MEDIA_TYPE, headers={"ETag": _etag(stored)})
+    if version is None and writer.conditions.is_known(stored.tag):
+        return Response(status_code=304, headers={"ETag": f'"{stored.tag}"'})
+    sequence = stored.head.sequence if version is None else version
+    file, tag = await state.store(version_file, state.maps.store, stored, sequence)
+    return Response(file, media_type=MEDIA_TYPE, headers={"ETag": f'"{tag}"'})
 
 
 @router.delete(
     "/maps/{map}",
     summary="Remove a map",
     status_code=204,
-    responses=documented(401, 403, 404, 422),
+    responses=documented(401, 403, 404, 412, 422, 500, 503, 507),
 )
 async def delete_map(
-    name: Name, request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
 ) -> None:
-    """When the answer comes, it is gone from the disk."""
+    """With all its versions. When the answer comes, it is gone from the disk."""
     holder.check_write(name)
-    segments = await state.compute(state.maps.delete, name, holder.check_content)
+    segments = await state.store(writer.delete, name)
     timing.lap("commit")
-    _tell(request, state, holder, "delete", name, segments)
+    tell(request, state, "delete", name, f"{segments} segments", segments)
 
 
-def _tell(
-    request: Request, state: State, holder: Holder, operation: str, name: str, segments: int
-) -> None:
-    """The audit: who wrote what."""
-    state.metrics.writes.labels(operation).inc()
-    audit.info(
-        "%s %s map %s, %d segments",
-        *(holder.name, operation, name, segments),
-        extra={
-            "key": holder.name,
-            "operation": operation,
-            "map": name,
-            "segments": segments,
-            "request_id": request.scope["state"]["request_id"],
-        },
+def _listed(state: State, holder: Holder) -> MapsResponse:
+    return MapsResponse(
+        model_id=state.model_id,
+        maps=[summary_of(stored) for stored in state.maps.all() if holder.opens(stored.name)],
+        damaged=[name for name in state.maps.damaged() if holder.opens(name)],
     )
-
-
-def _summary(stored: StoredMap) -> MapOut:
-    return MapOut(
-        name=stored.name,
-        segments=len(stored.content),
-        bytes=stored.bytes,
-        model_id=stored.content.model_id,
-        robots=list(stored.content.robots),
-        time_span=stored.content.time_span,
-        etag=stored.etag,
-        frame=stored.content.frame,
-    )
-
-
-def _etag(stored: StoredMap) -> str:
-    return f'"{stored.etag}"'
-
-
-def _names_tag(if_none_match: str, etag: str) -> bool:
-    """Whether an If-None-Match header names this tag (RFC 9110, weak comparison)."""
-    tags = {tag.strip().removeprefix("W/") for tag in if_none_match.split(",")}
-    return bool(tags & {"*", etag})

@@ -49,7 +49,7 @@ class Asked:
     summary="The nearest segments of one map, some, or all",
     response_model=MatchResponse,
     responses=packed_response(MatchResponse)
-    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 504),
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 504),
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
 async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
@@ -112,8 +112,7 @@ def _search(asked: Asked, queries: list[tuple[Int8, Rows]], answer: str, timing:
         "queries": [_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
         "searched": [stored.name for stored in asked.scope.maps],
         "skipped": [
-            {"map": stored.name, "model_id": stored.content.model_id}
-            for stored in asked.scope.skipped
+            {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped
         ],
     }
     content = render(response, answer)

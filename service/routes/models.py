@@ -3,7 +3,7 @@
 from fastapi import APIRouter, Request
 
 from segments.manifest import ModelError
-from service.account import audit
+from service.audit import logger
 from service.problems import Problem, documented
 from service.schemas import ReloadResponse
 from service.state import HolderOf, State, StateOf
@@ -25,7 +25,7 @@ async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadRe
         raise Problem(409, "broken-model", f"The old model goes on. {error}.") from error
     ids = [model.id for model in state.models.all()]
     facts = {"key": holder.name, "request_id": request.scope["state"]["request_id"]}
-    audit.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
+    logger.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
     return ReloadResponse(model_id=ids[0], models=ids)
 
 

@@ -141,9 +141,9 @@ def test_command_takes_segments_from_the_town(
 ) -> None:
     from bench import describe
 
-    shorter = describe.town_scans
+    shorter = describe.town_recording
     monkeypatch.setattr(
-        describe, "town_scans", lambda folder, seed, show: shorter(folder, seed, show, scans=3)
+        describe, "town_recording", lambda folder, seed, show, _: shorter(folder, seed, show, 3)
     )
     monkeypatch.setattr(describe, "Plan", lambda repeats, seconds: TINY)
     file = workbench / "figures.json"

@@ -15,11 +15,19 @@ INFO = {
     "version": "1.0",
     "model": {"model_id": "m", "dimension": 2},
     "limits": {"k": 100},
-    "map_file": {"version": 0},
+    "map_file": {"version": 1},
 }
 SUMMARY = {
-    "name": "yard", "segments": 20, "bytes": 1, "model_id": "m", "robots": ["ann"],
-    "time_span": [0, 1], "etag": "e", "frame": "f", "later": "field",
+    "name": "yard", "segments": 20, "sequence": 3, "etag": "e-3", "bytes": 1, "model_id": "m",
+    "frame": "f", "robots": {"ann": 20}, "time_span": [0, 1], "optional": [], "later": "field",
+}  # fmt: skip
+WRITTEN = {
+    "map": "yard", "sequence": 4, "etag": "e-4", "segments": 20, "changed": 2, "removed": 1,
+    "later": "field",
+}  # fmt: skip
+VERSION = {
+    "sequence": 4, "etag": "e-4", "time": 1.5, "author": "ann", "operation": "edit",
+    "changed": 2, "removed": 1, "later": "field",
 }  # fmt: skip
 DESCRIBED = {
     "model_id": "m",

@@ -8,13 +8,15 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from placecell_client import AsyncClient, Client, Description, encode
+from placecell_client import AsyncClient, Client, Delta, Description, encode, encode_delta
 
 from tests.client.client_fakes import (
     DESCRIBED,
     INFO,
     MATCHED,
     SUMMARY,
+    VERSION,
+    WRITTEN,
     Blocking,
     async_client_of,
     client_of,
@@ -44,11 +46,13 @@ def test_both_have_the_same_methods() -> None:
     constructors = [list(inspect.signature(kind).parameters) for kind in (Client, AsyncClient)]
     assert constructors[0] == constructors[1]
     assert set(public(Client)) == {
-        "close", "info", "describe", "match", "maps", "put_map", "get_map", "get_map_file",
-        "delete_map",
+        "close", "info", "describe", "match", "maps", "put_map", "edit_map", "reserve_ids",
+        "pull", "changes", "get_map", "get_map_file", "versions", "restore_map", "age_map",
+        "compact_map", "delete_map",
     }  # fmt: skip
 
 
+DELTA = Delta(MAP, np.zeros(0, np.uint32), 0, 4)
 FILE = httpx.Response(
     200, content=encode(MAP), headers={"Content-Type": "application/vnd.placecell.map"}
 )
@@ -60,6 +64,17 @@ ANSWERS = {
     ("PUT", "/maps/yard"): httpx.Response(201, json=SUMMARY),
     ("GET", "/maps/yard"): FILE,
     ("DELETE", "/maps/yard"): httpx.Response(204),
+    ("POST", "/maps/yard/segments"): httpx.Response(200, json=WRITTEN),
+    ("POST", "/maps/yard/versions/3/restore"): httpx.Response(200, json=WRITTEN),
+    ("POST", "/maps/yard/age"): httpx.Response(200, json=WRITTEN),
+    ("POST", "/maps/yard/ids"): httpx.Response(200, json={"first": 7, "count": 2}),
+    ("POST", "/maps/yard/compact"): httpx.Response(200, json={"oldest": 3}),
+    ("GET", "/maps/yard/versions"): httpx.Response(200, json={"versions": [VERSION]}),
+    ("GET", "/maps/yard/changes"): httpx.Response(
+        200,
+        content=encode_delta(DELTA),
+        headers={"Content-Type": "application/vnd.placecell.delta", "ETag": '"e-4"'},
+    ),
 }
 
 
@@ -101,10 +116,18 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
             client.get_map("yard"),
             client.get_map_file("yard"),
             client.delete_map("yard"),
+            client.edit_map("yard", Delta(MAP, np.zeros(0, np.uint32)), robot="ann", create=True),
+            client.restore_map("yard", 3, if_match="e-3"),
+            client.age_map("yard", 1.5, dry_run=True),
+            client.reserve_ids("yard", 2).tolist(),
+            client.compact_map("yard", keep=2),
+            client.versions("yard"),
+            client.changes("yard", "e-3", limit=5).delta.changed,
+            client.pull("yard").content,
         ]
         told.append(([plain(result) for result in results], seen))
     assert told[0] == told[1]
-    assert len(told[0][1]) == 9
+    assert len(told[0][1]) == 17
 
 
 def test_maps_are_compressed_if_asked() -> None:

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import onnx
 from onnx import TensorProto, helper
-from placecell_client import CompactMap
+from placecell_client import CompactMap, Delta, encode_delta
 
 from segments.manifest import Manifest, preprocessing_of
 from segments.parameters import PROTOCOL_V1
@@ -91,12 +92,13 @@ def map_of(
 ) -> CompactMap:
     """A map with these descriptors; ids rise with the rows."""
     n = len(codes)
+    metres = np.arange(n) % 300
     return CompactMap(
         model_id=model_id,
         preprocessing="1",
         frame=frame,
         codes=codes,
-        centroids=np.stack([np.arange(n), -np.arange(n), np.full(n, 1.5)], axis=1).astype(float),
+        centroids=np.stack([metres, -metres, np.full(n, 1.5)], axis=1).astype(float),
         ids=np.arange(first_id, first_id + n, dtype=np.uint32),
         robots=(robot,),
         robot=np.zeros(n, np.uint16),
@@ -105,6 +107,14 @@ def map_of(
         frame_positions=np.zeros((1, 3)),
         frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
     )
+
+
+def edit_of(
+    codes: Int8, model_id: str, first_id: int = 100, robot: str = "ann", removed: Iterable[int] = ()
+) -> bytes:
+    """A delta file that puts these descriptors under ids that rise, and removes some."""
+    changed = map_of(codes, model_id, first_id, robot)
+    return encode_delta(Delta(changed, np.array([*removed], np.uint32)))
 
 
 def assert_problem(response: Any, status: int, kind: str, detail: str = "") -> None:

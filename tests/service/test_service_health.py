@@ -15,7 +15,7 @@ from tests.service.service_builders import assert_problem, cloud, request_of
 def test_health(service: Any, data_dir: Path) -> None:
     assert service.get("/livez").json() == {"status": "alive"}
     assert service.get("/readyz").json() == {"status": "ready"}
-    shutil.rmtree(data_dir / "maps")
+    shutil.rmtree(data_dir)
     assert_problem(service.get("/readyz"), 503, "not-ready")
     assert service.get("/livez").status_code == 200
 
@@ -29,7 +29,7 @@ def test_info(start: Any, manifest: Manifest) -> None:
     assert info["limits"]["min_points"] == 10
     assert info["map_file"] == {
         "format": "placecell-map",
-        "version": 0,
+        "version": 1,
         "media_type": "application/vnd.placecell.map",
     }
 
@@ -115,3 +115,14 @@ def test_the_description_is_complete(service: Any) -> None:
     assert "DescribeRequest" in schemas
     assert "HTTPValidationError" not in schemas
     assert service.get("/docs").status_code == 200
+
+
+def test_the_examples_of_the_description_run(service: Any) -> None:
+    document = service.get("/openapi.json").json()
+    for path in ("/describe", "/match"):
+        content = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
+        schema = document["components"]["schemas"][content["schema"]["$ref"].rpartition("/")[2]]
+        for example in schema["examples"]:
+            response = service.post(path, json=example)
+            assert response.status_code == 200, response.text
+            assert response.json().get("descriptors", response.json().get("queries"))

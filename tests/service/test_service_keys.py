@@ -177,7 +177,7 @@ def test_no_secret_gets_into_log_or_answer(
     assert secret not in caplog.text
     # Each write leaves a line: who, what map, how many segments.
     (line,) = [one for one in caplog.records if one.name == "placecell.audit"]
-    assert line.getMessage() == "ann put map yard, 3 segments"
+    assert line.getMessage() == "ann put map yard, 3 segments changed, 0 removed"
     assert vars(line)["request_id"] == answers[0].headers["x-request-id"]
 
 

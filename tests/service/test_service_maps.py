@@ -1,7 +1,7 @@
-import errno
-import hashlib
 import logging
-import os
+import re
+import sqlite3
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,15 @@ import pytest
 from placecell_client import encode
 
 from segments.manifest import Manifest
-from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
+from service.state import StartError
+from tests.service.service_builders import (
+    assert_problem,
+    cloud,
+    edit_of,
+    map_of,
+    random_codes,
+    request_of,
+)
 
 NAMES = ["%2e%2e", ".hidden", "-a", "a%5Cb", "a%00", "a%0A", "a%20b", "%C3%BC", "a" * 65]
 PATHS = ["a%2Fb", "..%2F..%2Fetc%2Fpasswd", "a/b", "%2Fetc%2Fpasswd", "a%2F..%2Fb"]
@@ -32,22 +40,27 @@ def whole(service: Any, yard: bytes) -> bool:
 
 
 def test_put_get_list_delete(service: Any, yard: bytes, manifest: Manifest) -> None:
-    etag = hashlib.sha256(yard).hexdigest()
     response = service.put("/maps/yard", content=yard)
     assert response.status_code == 201
+    etag = response.json()["etag"]
+    assert re.fullmatch("[0-9a-f]{16}-1", etag)
     assert response.headers["etag"] == f'"{etag}"'
+    assert response.headers["location"] == "/maps/yard"
     summary = {
         "name": "yard",
         "segments": 30,
+        "sequence": 1,
+        "etag": etag,
         "bytes": len(yard),
         "model_id": manifest.model_id,
-        "robots": ["ann"],
-        "time_span": [1.7e9, 1.7e9],
-        "etag": etag,
         "frame": "town",
+        "robots": {"ann": 30},
+        "time_span": [1.7e9, 1.7e9],
+        "optional": [],
     }
     assert response.json() == summary
-    assert service.get("/maps").json() == {"model_id": manifest.model_id, "maps": [summary]}
+    listed = {"model_id": manifest.model_id, "maps": [summary], "damaged": []}
+    assert service.get("/maps").json() == listed
     response = service.get("/maps/yard")
     assert response.content == yard
     assert response.headers["etag"] == f'"{etag}"'
@@ -74,23 +87,81 @@ def test_what_the_client_has_is_not_sent_again(
     assert response.headers["etag"] == f'"{etag}"'
 
 
-def test_the_same_file_again_changes_nothing(service: Any, yard: bytes, data_dir: Path) -> None:
-    service.put("/maps/yard", content=yard)
-    before = (data_dir / "maps" / "yard.safetensors").stat()
-    assert service.put("/maps/yard", content=yard).status_code == 200
-    after = (data_dir / "maps" / "yard.safetensors").stat()
-    assert (after.st_ino, after.st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
+def test_the_same_file_again_changes_nothing(service: Any, yard: bytes) -> None:
+    first = service.put("/maps/yard", content=yard)
+    # Whatever the client asks for: it may be an upload whose answer was lost, sent once more.
+    for headers in ({}, {"If-Match": '"x"'}, {"If-None-Match": "*"}):
+        again = service.put("/maps/yard", content=yard, headers=headers)
+        assert again.status_code == 200
+        assert again.json() == first.json()
+    assert len(service.get("/maps/yard/versions").json()["versions"]) == 1
 
 
-def test_another_file_replaces_it(service: Any, yard: bytes, manifest: Manifest) -> None:
-    service.put("/maps/yard", content=yard)
+def test_other_content_replaces_only_what_was_seen(
+    service: Any, yard: bytes, manifest: Manifest
+) -> None:
+    first = service.put("/maps/yard", content=yard).headers["etag"]
     other = encode(map_of(random_codes(4, 9), manifest.model_id, robot="zoe"))
-    assert service.put("/maps/yard", content=other).status_code == 200
+    refused = service.put("/maps/yard", content=other)
+    assert_problem(refused, 428, "precondition-required", "If-Match")
+    assert refused.headers["etag"] == first
+    for headers in ({"If-Match": '"x"'}, {"If-Match": f"W/{first}"}, {"If-None-Match": "*"}):
+        refused = service.put("/maps/yard", content=other, headers=headers)
+        assert_problem(refused, 412, "precondition-failed", first.strip('"'))
+    assert whole(service, yard)
+    replaced = service.put("/maps/yard", content=other, headers={"If-Match": f'"x", {first}'})
+    assert replaced.status_code == 200
+    assert replaced.json()["sequence"] == 2
     assert whole(service, other)
     body = {"model_id": manifest.model_id, "codes": random_codes(1).tolist(), "k": 100}
     found = service.post("/match", json=body).json()["queries"][0]["candidates"]
     assert {item["robot"] for item in found} == {"zoe"}
     assert len(found) == 4
+    # The version that it was made for is no longer there.
+    back = service.put("/maps/yard", content=yard, headers={"If-Match": first})
+    assert_problem(back, 412, "precondition-failed")
+    anything = service.put("/maps/yard", content=yard, headers={"If-Match": "*"})
+    assert anything.json()["sequence"] == 3
+    assert whole(service, yard)
+
+
+def test_a_condition_on_a_map_that_is_not_there(service: Any, yard: bytes) -> None:
+    for header in ('"x"', "*"):
+        refused = service.put("/maps/yard", content=yard, headers={"If-Match": header})
+        assert_problem(refused, 412, "precondition-failed", "is not there")
+    assert service.get("/maps/yard").status_code == 404
+    made = service.put("/maps/yard", content=yard, headers={"If-None-Match": "*"})
+    assert made.status_code == 201
+
+
+def test_a_map_is_removed_as_it_was_seen(service: Any, yard: bytes, manifest: Manifest) -> None:
+    first = service.put("/maps/yard", content=yard).headers["etag"]
+    service.post("/maps/yard/segments", content=edit_of(random_codes(1, 5), manifest.model_id))
+    refused = service.delete("/maps/yard", headers={"If-Match": first})
+    assert_problem(refused, 412, "precondition-failed")
+    now = service.get("/maps/yard").headers["etag"]
+    assert service.delete("/maps/yard", headers={"If-Match": now}).status_code == 204
+    # Under a name that is taken again no version has a tag that was there before.
+    assert service.put("/maps/yard", content=yard).headers["etag"] != first
+
+
+def test_a_map_of_a_new_model_takes_the_place_of_the_old(
+    start: Any, yard: bytes, other_manifest: Manifest
+) -> None:
+    with start(also=["other"]) as service:
+        service.put("/maps/yard", content=yard)
+        anew = encode(map_of(random_codes(5, 2), other_manifest.model_id))
+        put = service.put("/maps/yard", content=anew, headers={"If-Match": "*"})
+        assert (put.status_code, put.json()["sequence"]) == (200, 2)
+        assert service.get("/maps/yard").content == anew
+        assert service.get("/maps/yard?version=1").content == yard
+        body = {"model_id": other_manifest.model_id, "codes": random_codes(1).tolist()}
+        found = service.post("/match", json=body | {"maps": ["yard"]}).json()
+        assert len(found["queries"][0]["candidates"]) == 5
+    with start(also=["other"]) as service:
+        assert service.get("/maps/yard").content == anew
+        assert service.post("/maps/yard/versions/1/restore").status_code == 200
+        assert service.get("/maps/yard").content == yard
 
 
 def test_maps_are_there_after_a_restart(start: Any, yard: bytes, manifest: Manifest) -> None:
@@ -148,83 +219,111 @@ def test_a_path_is_not_a_maps_name(
     assert whole(service, yard)
 
 
-def test_a_damaged_file_is_set_aside_at_the_start(
+def alter(data_dir: Path, statement: str) -> None:
+    """Do something to the database behind the service's back."""
+    with closing(sqlite3.connect(data_dir / "maps.sqlite")) as connection:
+        connection.execute(statement)
+        connection.commit()
+
+
+def test_a_damaged_map_is_told_and_the_others_go_on(
     start: Any, yard: bytes, data_dir: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     with start() as service:
-        service.put("/maps/yard", content=yard)
         service.put("/maps/shed", content=yard)
-    (data_dir / "maps" / "shed.safetensors").write_bytes(yard[:-1])
-    (data_dir / "maps" / ".abc.unfinished").write_bytes(yard[:50])
+        service.put("/maps/yard", content=yard)
+    alter(data_dir, "UPDATE bases SET data = zeroblob(100) WHERE map = 1")
     with caplog.at_level(logging.ERROR), start() as service:
+        assert "'shed' is damaged" in caplog.text
         assert whole(service, yard)
-    assert "'shed' is damaged" in caplog.text
-    files = sorted(path.name for path in (data_dir / "maps").iterdir())
-    assert len(files) == 2
-    assert files[0].startswith("shed.safetensors.")
-    assert files[0].endswith(".broken")
-    assert (data_dir / "maps" / files[0]).read_bytes() == yard[:-1]
-    assert files[1] == "yard.safetensors"
+        assert service.get("/maps").json()["damaged"] == ["shed"]
+        for response in (
+            service.get("/maps/shed"),
+            service.put("/maps/shed", content=yard),
+            service.get("/maps/shed/changes"),
+            service.get("/maps/shed/versions"),
+            service.post("/match", json=request_of([cloud(0)]) | {"maps": ["shed"]}),
+        ):
+            assert_problem(response, 500, "map-damaged")
+        assert service.get("/readyz").status_code == 200
+        assert service.delete("/maps/shed").status_code == 204
+        assert service.get("/maps").json()["damaged"] == []
+        assert service.put("/maps/shed", content=yard).status_code == 201
+        assert service.get("/maps/shed").content == yard
 
 
-def test_a_file_altered_while_the_service_runs_is_not_given_out(
+def test_a_version_altered_while_the_service_runs_is_not_given_out(
     service: Any, yard: bytes, data_dir: Path
 ) -> None:
     service.put("/maps/yard", content=yard)
-    file = data_dir / "maps" / "yard.safetensors"
-    file.write_bytes(yard[:-1])
-    assert_problem(service.get("/maps/yard"), 500, "map-damaged")
-    assert service.put("/maps/yard", content=yard).status_code == 200
-    assert whole(service, yard)
-    file.unlink()
+    alter(data_dir, "UPDATE bases SET data = zeroblob(100)")
     assert_problem(service.get("/maps/yard"), 500, "map-damaged")
 
 
-@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO])
-def test_a_failing_disk_leaves_the_map_as_it_was(
-    service: Any,
-    yard: bytes,
-    manifest: Manifest,
-    data_dir: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    code: int,
+@pytest.mark.parametrize("what", ["cut", "empty", "rubbish", "gone"])
+def test_a_database_that_cannot_be_read_stops_the_start(
+    start: Any, yard: bytes, data_dir: Path, what: str
 ) -> None:
-    service.put("/maps/yard", content=yard)
-    files = sorted((data_dir / "maps").iterdir())
-
-    def failing(_: int) -> None:
-        raise OSError(code, os.strerror(code))
-
-    other = encode(map_of(random_codes(4, 9), manifest.model_id))
-    with monkeypatch.context() as patched:
-        patched.setattr("os.fsync", failing)
-        response = service.put("/maps/yard", content=other)
-    if code == errno.ENOSPC:
-        assert_problem(response, 507, "disk-full")
+    with start() as service:
+        service.put("/maps/yard", content=yard)
+    file = data_dir / "maps.sqlite"
+    data = file.read_bytes()
+    if what == "gone":
+        file.rename(data_dir / "maps.sqlite-wal")
     else:
-        assert_problem(response, 500, "internal-error")
-    assert sorted((data_dir / "maps").iterdir()) == files
-    assert whole(service, yard)
+        file.write_bytes({"cut": data[:-1], "empty": b"", "rubbish": b"rubbish" * 999}[what])
+    with pytest.raises(StartError, match="from a backup"), start():
+        pass
 
 
-def test_every_write_is_synced_before_the_answer(
-    service: Any, yard: bytes, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("setting", "status", "kind"),
+    [("max_page_count = 1", 507, "disk-full"), ("query_only = ON", 503, "store-unavailable")],
+)
+def test_a_failing_disk_leaves_the_map_as_it_was(
+    service: Any, yard: bytes, manifest: Manifest, setting: str, status: int, kind: str
 ) -> None:
-    synced: list[tuple[str, bool]] = []
-    fsync, final = os.fsync, data_dir / "maps" / "yard.safetensors"
-
-    def recorded(descriptor: int) -> None:
-        kind = "folder" if Path(f"/dev/fd/{descriptor}").is_dir() else "file"
-        synced.append((kind, final.exists()))
-        fsync(descriptor)
-
-    monkeypatch.setattr("os.fsync", recorded)
     service.put("/maps/yard", content=yard)
-    # The file before its name is there, the folder after.
-    assert synced == [("file", False), ("folder", True)]
-    synced.clear()
-    service.delete("/maps/yard")
-    assert synced == [("folder", False)]
+    before = service.get("/maps").json()
+    connection = service.app.state.placecell.maps.store._database._connection
+    connection.execute(f"PRAGMA {setting}")
+    edit = edit_of(random_codes(300, 9), manifest.model_id, 200)
+    other = encode(map_of(random_codes(300, 9), manifest.model_id))
+    for response in (
+        service.put("/maps/yard", content=other, headers={"If-Match": "*"}),
+        service.put("/maps/new", content=other),
+        service.post("/maps/yard/segments", content=edit),
+    ):
+        assert_problem(response, status, kind, "nothing was changed")
+    assert service.get("/maps").json() == before
+    assert whole(service, yard)
+    connection.execute("PRAGMA max_page_count = 1000000")
+    connection.execute("PRAGMA query_only = OFF")
+    assert service.post("/maps/yard/segments", content=edit).json()["sequence"] == 2
+
+
+def test_a_robot_has_a_quota_over_all_maps(start: Any, yard: bytes, manifest: Manifest) -> None:
+    with start(limits={"robot_segments": 50, "map_segments": 60}) as service:
+        assert service.put("/maps/a", content=yard).status_code == 201
+        before = service.get("/maps").json()
+        refused = service.put("/maps/b", content=yard)
+        assert_problem(refused, 507, "quota-exceeded", "'ann' would have 60 segments in all maps")
+        edit = edit_of(random_codes(21), manifest.model_id, 1000)
+        refused = service.post("/maps/a/segments", content=edit)
+        assert_problem(refused, 507, "quota-exceeded", "51 segments")
+        edit = edit_of(random_codes(31), manifest.model_id, 1000, "zoe")
+        refused = service.post("/maps/a/segments", content=edit)
+        assert_problem(refused, 507, "quota-exceeded", "The map would have 61")
+        assert service.get("/maps").json() == before
+        edit = edit_of(random_codes(20), manifest.model_id, 1000)
+        assert service.post("/maps/a/segments", content=edit).status_code == 200
+    # What was stored under other limits stays, and may become less, but not more.
+    with start(limits={"robot_segments": 10, "map_segments": 10}) as service:
+        assert service.get("/maps/a").status_code == 200
+        less = edit_of(random_codes(0), manifest.model_id, removed=[100])
+        assert service.post("/maps/a/segments?robot=ann", content=less).json()["segments"] == 49
+        more = edit_of(random_codes(1), manifest.model_id)
+        assert_problem(service.post("/maps/a/segments", content=more), 507, "quota-exceeded")
 
 
 def test_a_map_file_is_limited(start: Any, yard: bytes) -> None:
@@ -263,7 +362,7 @@ def test_a_map_with_several_robots_and_frames(service: Any, manifest: Manifest) 
         frame_orientations=np.array([[0, 0, 0, 1]] * 2, np.float32),
     )
     summary = service.put("/maps/two", content=encode(two)).json()
-    assert summary["robots"] == ["ann", "zoe"]
+    assert summary["robots"] == {"ann": 2, "zoe": 2}
     assert summary["time_span"] == [20, 50]
     body = {"model_id": manifest.model_id, "codes": codes.tolist(), "k": 1}
     queries = service.post("/match", json=body).json()["queries"]

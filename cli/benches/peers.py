@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from cli.bench import write_json
+from cli.benches.options import JsonFile, write_json
 from cli.sources import clear_errors, show
 
 DEFAULT_PYTHON = Path(".venv-peers/bin/python")
@@ -23,9 +23,7 @@ def peers(
     peer: Annotated[
         list[str] | None, typer.Option(help="A peer's name; may be repeated. (default: all)")
     ] = None,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
-    ] = None,
+    json_file: JsonFile = None,
     radius: Annotated[
         float | None,
         typer.Option(

@@ -1,0 +1,104 @@
+"""How far descriptors can be compressed: bytes a segment against recognition, on a drive."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import faiss
+import numpy as np
+
+from segments.extractor import Extractor
+from segments.quantiser import LEVELS, Quantiser
+from segments.recording import Recording
+from segments.types import Bool, Float32
+from training.evaluation import machine, retrieval
+from training.figure import figure
+
+PRODUCT_BYTES = (8, 16, 32, 64)
+
+
+def ladder(extractor: Extractor, recording: Recording, scans: tuple[int, int]) -> dict[str, Any]:
+    """Measure every way to store a model's descriptors.
+
+    Args:
+        scans: whose groups are asked for; what has to be fitted is fitted to the drive's others.
+
+    Raises:
+        ValueError: there is nothing to ask for, or to fit to.
+    """
+    tested = recording.within(*scans) & recording.distinct
+    fitted = ~recording.within(*scans) & recording.distinct
+    if tested.sum() < 100 or fitted.sum() < 1000:
+        raise ValueError(
+            f"{recording.name}: {int(tested.sum())} segments in scans {scans[0]} to {scans[1]} and "
+            f"{int(fitted.sum())} in others; 100 and 1,000 are needed"
+        )
+    around = extractor.manifest.surroundings
+    seen = None if around is None else recording.surroundings(around)
+    found = extractor.describe(recording.segments, seen)
+    chosen = np.flatnonzero(tested)
+    segments, groups = recording.segments.take(chosen), recording.groups[chosen]
+    shipped = extractor.manifest.quantiser
+    rows = [
+        {"storage": name, "bytes": size, "shipped": name == "as shipped"}
+        | retrieval(stored, segments, groups)
+        for name, size, stored in stored_as(found, tested, fitted, shipped)
+    ]
+    return {
+        "rows": rows,
+        "model_id": extractor.manifest.model_id,
+        "drive": recording.name,
+        "scans": list(scans),
+        "segments": len(chosen),
+        "fitted_to": int(fitted.sum()),
+        "protocol": recording.parameters.protocol,
+        "machine": machine(),
+    }
+
+
+def stored_as(
+    found: Float32, tested: Bool, fitted: Bool, shipped: Quantiser
+) -> Iterator[tuple[str, float, Float32]]:
+    """Each way's name, its bytes a segment, and the tested descriptors as it gives them back."""
+    asked, known = found[tested], found[fitted]
+    dimension = found.shape[1]
+    yield "float32", 4.0 * dimension, asked
+    yield "float16", 2.0 * dimension, asked.astype(np.float16).astype(np.float32)
+    for per_byte, levels in LEVELS.items():
+        if dimension % per_byte == 0:
+            quantiser = Quantiser.fit(known, per_byte)
+            yield (
+                f"{levels} levels",
+                dimension / per_byte,
+                quantiser.decode(quantiser.encode(asked)),
+            )
+    yield "as shipped", shipped.code_bytes(dimension), shipped.decode(shipped.encode(asked))
+    for size in PRODUCT_BYTES:
+        if dimension % size == 0:
+            product = faiss.ProductQuantizer(dimension, size, 8)
+            product.cp.min_points_per_centroid = 1  # a drive has fewer than it warns about
+            product.train(np.ascontiguousarray(known))
+            back = product.decode(product.compute_codes(asked))  # type: ignore[call-arg,func-returns-value]
+            yield f"product, {size} parts", size, np.asarray(back)
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """Recognition against bytes, as a PNG."""
+    with figure(file, 2, size=4) as axes:
+        for axis, key in zip(axes, ("top1", "recall_at_25"), strict=True):
+            for kind, marker in (("product", "s"), ("", "o")):
+                rows = [row for row in report["rows"]
+                        if row["storage"].startswith("product") == bool(kind)]  # fmt: skip
+                rows.sort(key=lambda row: row["bytes"])
+                axis.plot(
+                    [row["bytes"] for row in rows],
+                    [row[key] for row in rows],
+                    f"{marker}-",
+                    label="product quantisation" if kind else "every dimension by itself",
+                )
+            for row in report["rows"]:
+                if row["shipped"]:
+                    axis.plot(row["bytes"], row[key], "k*", markersize=14, label="as shipped")
+            axis.set(xscale="log", xlabel="bytes a descriptor", ylabel=key)
+            axis.grid(alpha=0.3)
+        axes[0].legend(fontsize=8)

@@ -1,0 +1,140 @@
+"""Maps of any size from the descriptors of a recording: things seen several times, and asked for.
+
+A thing's descriptor is that of a real segment; of more things than there are, the mean of two real
+segments' times the root of two, which keeps their spread (descriptors lie about 0). Each view of a
+thing, in the map or asked for, adds the difference between two real segments of one group that were
+seen from 5 m apart or more, drawn at random: what really separates views of one thing.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from placecell_client import CompactMap
+
+from segments.extractor import Extractor
+from segments.manifest import Manifest
+from segments.recording import Recording
+from segments.types import Float32, Int8, Int64
+
+VIEWS = 4
+"""Of each thing in the map."""
+
+SEGMENTS_A_FRAME = 40
+METRES_A_FRAME = 1.0
+
+APART = 5.0
+"""Metres between the places that two views are from: nearer ones are too easy to find."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Content:
+    """Segments of a map, and queries.
+
+    Attributes:
+        model_id: of the model that made the descriptors.
+        codes: int8 (n, code bytes), of the map.
+        things: int64 (n,), what each is a view of.
+        asked: int8 (q, code bytes), further views.
+        asked_things: int64 (q,).
+    """
+
+    model_id: str
+    codes: Int8
+    things: Int64
+    asked: Int8
+    asked_things: Int64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Views:
+    """What real segments look like, and how views of one thing differ.
+
+    Attributes:
+        manifest: of the model.
+        found: float32 (n, d), descriptors of real segments, one a group.
+        apart: float32 (m, d), differences between two of one group.
+    """
+
+    manifest: Manifest
+    found: Float32
+    apart: Float32
+
+    @classmethod
+    def of(cls, extractor: Extractor, recording: Recording, seed: int) -> "Views":
+        """From a recording.
+
+        Raises:
+            ValueError: no group was seen from places far enough apart.
+        """
+        around = extractor.manifest.surroundings
+        chosen = np.flatnonzero(recording.distinct)
+        seen = None if around is None else recording.surroundings(around)[chosen]
+        found = extractor.describe(recording.segments.take(chosen), seen)
+        groups = recording.groups[chosen]
+        # In random order within their groups: each with the next of its group.
+        shuffled = np.random.default_rng(seed).permutation(len(groups))
+        order = shuffled[np.argsort(groups[shuffled], kind="stable")]
+        sensors = recording.segments.sensors[chosen][order]
+        same = groups[order[1:]] == groups[order[:-1]]
+        same &= np.linalg.norm(np.diff(sensors, axis=0), axis=1) >= APART
+        if not same.any():
+            raise ValueError(f"{recording.name}: no group was seen from {APART:g} m apart")
+        _, first = np.unique(groups[order], return_index=True)
+        apart = found[order[1:][same]] - found[order[:-1][same]]
+        return cls(extractor.manifest, found[order[first]], apart)
+
+    def draw(self, count: int, queries: int, seed: int) -> Content:
+        """A map of so many segments, and queries for things in it."""
+        random = np.random.default_rng(seed)
+        things = np.arange(count) // VIEWS
+        asked = random.choice(things[-1] + 1, queries, replace=queries > things[-1] + 1)
+        base = self._things(int(things[-1]) + 1, random)
+        return Content(
+            self.manifest.model_id,
+            np.concatenate(
+                [
+                    self._codes(base, some, random)
+                    for some in np.array_split(things, 1 + count // 50_000)
+                ]
+            ),
+            things,
+            self._codes(base, asked, random),
+            asked,
+        )
+
+    def _things(self, count: int, random: np.random.Generator) -> Float32:
+        real = self.found[random.permutation(len(self.found))[:count]]
+        pairs = random.integers(len(self.found), size=(count - len(real), 2))
+        mixed = (self.found[pairs[:, 0]] + self.found[pairs[:, 1]]) * np.float32(np.sqrt(0.5))
+        return np.concatenate([real, mixed])
+
+    def _codes(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
+        apart = self.apart[random.integers(len(self.apart), size=len(things))]
+        return self.manifest.quantiser.encode(base[things] + apart)
+
+
+def map_of(codes: Int8, manifest: Manifest, robot: str, seed: int = 0) -> CompactMap:
+    """A map with these descriptors, along a road: some segments about each place of the sensor."""
+    random = np.random.default_rng(seed)
+    count = len(codes)
+    frames = -(-count // SEGMENTS_A_FRAME)
+    places = np.zeros((frames, 3))
+    # Back and forth in lanes of 2 km.
+    metres = METRES_A_FRAME * np.arange(frames)
+    places[:, 0], places[:, 1] = metres % 2000, 50 * (metres // 2000)
+    frame_index = np.arange(count) // SEGMENTS_A_FRAME
+    around = random.uniform([-40, -40, -2], [40, 40, 6], (count, 3))
+    return CompactMap(
+        model_id=manifest.model_id,
+        preprocessing=manifest.preprocessing["version"],
+        frame="bench",
+        codes=codes,
+        centroids=places[frame_index] + around,
+        ids=np.arange(count, dtype=np.uint32),
+        robots=(robot,),
+        robot=np.zeros(count, np.uint16),
+        frame_index=frame_index.astype(np.uint32),
+        frame_times=np.arange(1e9, 1e9 + frames),
+        frame_positions=places,
+        frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (frames, 1)),
+    )

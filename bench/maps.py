@@ -1,0 +1,264 @@
+"""Maps at scale: what a segment costs on disk and in memory, and how quick a large map is.
+
+The real server over loopback; maps of `map_content`. Another process asks on schedule, this one
+writes meanwhile.
+"""
+
+import asyncio
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import faiss
+import msgpack  # type: ignore[import-untyped]
+import numpy as np
+from placecell_client import Client, Delta, Description, encode
+
+from bench.load import Load, request_of, sent_by_process
+from bench.map_content import Content, Views, map_of
+from bench.serve import address_of, percentiles
+from bench.server import running_service
+from bench.soak import look
+from segments.extraction import Progress, silent
+from segments.models import DEFAULT_MODEL
+from segments.quantiser import Quantiser
+from segments.types import Int64
+from service.bodies import MSGPACK
+from training.evaluation import machine
+from training.figure import figure
+
+MAP = "site"
+OTHER = "other"
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is measured.
+
+    Attributes:
+        sizes: segments of the map.
+        queries: of a request.
+        asked: queries whose answers are checked.
+        k: candidates a query.
+        rate: requests a second.
+        seconds: of each phase.
+        upserts: segments a second that are written meanwhile, in tenths of it.
+        upload: segments of the map that is uploaded meanwhile, every `upload_seconds`.
+        upload_seconds: between uploads.
+        starts: of the service, from its cache; the median counts.
+    """
+
+    sizes: tuple[int, ...] = (10_000, 100_000, 1_000_000)
+    queries: int = 50
+    asked: int = 1_000
+    k: int = 10
+    rate: float = 10.0
+    seconds: float = 60.0
+    upserts: int = 1_000
+    upload: int = 10_000
+    upload_seconds: float = 10.0
+    starts: int = 3
+
+
+def bench(
+    views: Views, plan: Plan, seed: int = 0, *, progress: Progress = silent
+) -> dict[str, Any]:
+    """Measure all; the report as `placecell bench maps` writes it."""
+    ten_thousand = views.draw(10_000, 1, seed).codes
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
+        for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
+            content = views.draw(plan.sizes[number], plan.asked, seed)
+            rows.append(_row(views, content, plan, Path(folder) / str(number), seed))
+    return {
+        "rows": rows,
+        "file_bytes_per_segment": len(encode(map_of(ten_thousand, views.manifest, "ann"))) / 10_000,
+        "model_id": views.manifest.model_id,
+        "default": DEFAULT_MODEL,
+        "machine": machine(),
+        "seed": seed,
+        "plan": asdict(plan),
+    }
+
+
+def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
+    file = encode(map_of(content.codes, views.manifest, "ann", seed=seed))
+    row: dict[str, Any] = {"segments": len(content.codes)}
+    row["start_empty_s"] = round(_start(data, plan.starts), 3)
+    with running_service(data) as address, Client(address, timeout=120) as client:
+        empty = look(address)["resident_mb"]
+        started = time.perf_counter()
+        client.put_map(MAP, file)
+        spent = time.perf_counter() - started
+        row["upload_segments_per_second"] = round(len(content.codes) / spent)
+        row |= _recognised(client, content)
+        idle = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"idle_match_50_{key}_ms": idle[key] for key in ("p50", "p99")}
+        row["memory_mb"] = round(look(address)["resident_mb"] - empty, 1)
+        row["process_mb"] = look(address)["resident_mb"]
+    row["disk_bytes_per_segment"] = round(_bytes(data) / len(content.codes), 1)
+    row["start_cache_s"] = round(_start(data, plan.starts) - row["start_empty_s"], 3)
+    for cached in (data / "cache").glob("*"):
+        cached.unlink()
+    row["start_rebuild_s"] = round(_start(data, 1) - row["start_empty_s"], 3)
+    with running_service(data) as address, Client(address, timeout=120) as client:
+        with _writing(client, views, plan, len(content.codes), seed) as written:
+            busy = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
+        row |= written | {"memory_mb_after_writes": round(look(address)["resident_mb"] - empty, 1)}
+    return row
+
+
+def _recognised(client: Client, content: Content) -> dict[str, float]:
+    """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
+    model = client.info().model
+    exact = _by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
+    found = []
+    for start in range(0, len(content.asked), 500):
+        codes = content.asked[start : start + 500]
+        nothing = np.zeros((len(codes), 0), np.float32)
+        asked = Description(model["model_id"], codes, nothing, np.zeros((len(codes), 3)), {})
+        for candidates in client.match(asked, maps=[MAP], k=25).queries:
+            assert isinstance(candidates, tuple)
+            found.append(content.things[[candidate.id for candidate in candidates]])
+    ours = np.array(found)
+    recall, best = _shares(ours, content), _shares(exact, content)
+    return {
+        "top1": _shares(ours[:, :1], content),
+        "recall_at_25": recall,
+        "exact_recall_at_25": best,
+        "recall_at_25_of_exact": round(recall / best, 4),
+    }
+
+
+def _by_comparing_all(content: Content, quantiser: Quantiser) -> Int64:
+    """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
+    nearest = faiss.ResultHeap(len(content.asked), 25)
+    asked = quantiser.levels(content.asked).astype(np.float32)
+    for start in range(0, len(content.codes), 100_000):
+        some = quantiser.levels(content.codes[start : start + 100_000]).astype(np.float32)
+        distances, rows = faiss.knn(asked, some, 25)
+        nearest.add_result(distances, rows + start)
+    nearest.finalize()
+    return np.asarray(content.things[nearest.I])
+
+
+def _shares(things: Int64, content: Content) -> float:
+    return float((things == content.asked_things[:, None]).any(axis=1).mean())
+
+
+async def _asked(address: str, content: Content, plan: Plan, folder: Path) -> dict[str, float]:
+    """Milliseconds of `/match` from descriptors, asked on schedule by another process."""
+    bodies = [
+        msgpack.packb(
+            {
+                "model_id": content.model_id,
+                "codes": content.asked[start : start + plan.queries].tobytes(),
+                "maps": [MAP],
+                "k": plan.k,
+            }
+        )
+        for start in range(0, len(content.asked) - plan.queries + 1, plan.queries)
+    ]
+    sent = tuple(request_of("/match", MSGPACK, body) for body in bodies)
+    outcome = await sent_by_process(
+        Load(*address_of(address), sent, plan.rate, plan.seconds), folder
+    )
+    good = np.array(outcome.statuses) == 200
+    if not good.all():
+        raise RuntimeError(f"/match was answered {set(outcome.statuses)}")
+    return {key: spent or 0.0 for key, spent in percentiles(np.array(outcome.milliseconds)).items()}
+
+
+@contextmanager
+def _writing(
+    client: Client, views: Views, plan: Plan, count: int, seed: int
+) -> Iterator[dict[str, Any]]:
+    """Upsert and upload until the block ends; then the figures are filled in."""
+    done, written = threading.Event(), dict[str, Any]()
+    random = np.random.default_rng(seed)
+    fresh = views.draw(plan.upload, 1, seed + 1).codes
+    others = [encode(map_of(np.roll(fresh, shift, 0), views.manifest, "bob")) for shift in (0, 1)]
+    fewer = plan.upserts // 10
+
+    def upsert(number: int) -> None:
+        # Half of them are there already, half are new.
+        ids = np.unique(random.integers(count, size=fewer // 2))
+        ids = np.append(ids, count + number * fewer + np.arange(fewer - len(ids)))
+        drawn = map_of(fresh[random.integers(len(fresh), size=fewer)], views.manifest, "ann")
+        changed = replace(drawn, ids=ids.astype(np.uint32))
+        client.edit_map(MAP, Delta(changed, np.zeros(0, np.uint32)))
+
+    def upload(number: int) -> None:
+        client.put_map(OTHER, others[number % 2], if_match="*" if number else None)
+
+    def regularly(name: str, work: Callable[[int], None], seconds: float) -> None:
+        started = time.perf_counter()
+        spent: list[float] = []
+        while not done.is_set():
+            due = time.perf_counter()
+            work(len(spent))
+            spent.append(1e3 * (time.perf_counter() - due))
+            # Late ones are made up for: the rate is that of the plan, or what the service bears.
+            done.wait(max(0.0, started + len(spent) * seconds - time.perf_counter()))
+        written[f"{name}s_a_second"] = round(len(spent) / (time.perf_counter() - started), 3)
+        written[f"{name}_ms"] = percentiles(np.array(spent))
+
+    with ThreadPoolExecutor(2) as pool:
+        works = [
+            pool.submit(regularly, "upsert", upsert, 0.1),
+            pool.submit(regularly, "upload", upload, plan.upload_seconds),
+        ]
+        try:
+            yield written
+        finally:
+            done.set()
+        for work in works:
+            work.result()
+    written["upserted_segments_a_second"] = round(fewer * written["upserts_a_second"])
+
+
+def _start(data: Path, times: int) -> float:
+    """Seconds until the service answers; the median."""
+    spent = []
+    for _ in range(times):
+        started = time.perf_counter()
+        with running_service(data):
+            spent.append(time.perf_counter() - started)
+    return float(np.median(spent))
+
+
+def _bytes(folder: Path) -> int:
+    """Of all files in a folder."""
+    return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """What maps cost against their size, as a PNG."""
+    rows = report["rows"]
+    sizes = [row["segments"] for row in rows]
+    with figure(file, 3) as (left, middle, right):
+        for name, key, style in (
+            ("p99 under writes", "match_50_p99_ms", "o-"),
+            ("p50 under writes", "match_50_p50_ms", "o--"),
+            ("p99 idle", "idle_match_50_p99_ms", "s-"),
+            ("p50 idle", "idle_match_50_p50_ms", "s--"),
+        ):
+            left.plot(sizes, [row[key] for row in rows], style, label=name)
+        left.set(title="/match of 50 descriptors", ylabel="milliseconds")
+        for name, key in (("process", "process_mb"), ("store and index", "memory_mb")):
+            middle.plot(sizes, [row[key] for row in rows], "o-", label=name)
+        middle.set(title="memory", ylabel="MB")
+        for name, key in (("from the cache", "start_cache_s"), ("rebuilt", "start_rebuild_s")):
+            right.plot(sizes, [row[key] for row in rows], "o-", label=name)
+        right.set(title="start, beyond that of an empty service", ylabel="seconds")
+        for axes in (left, middle, right):
+            axes.set(xscale="log", xlabel="segments")
+            axes.grid(alpha=0.3)
+            axes.legend(fontsize=8)

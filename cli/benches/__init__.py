@@ -1,0 +1,20 @@
+"""`placecell bench`: what is measured, one file a bench."""
+
+import typer
+
+from cli.benches.describe import describe
+from cli.benches.ladder import ladder
+from cli.benches.maps import maps
+from cli.benches.peers import peers
+from cli.benches.serve import serve
+from cli.benches.soak import soak
+from cli.benches.town import town
+
+bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
+bench.command()(describe)
+bench.command()(serve)
+bench.command()(soak)
+bench.command()(maps)
+bench.command()(ladder)
+bench.command()(town)
+bench.command()(peers)

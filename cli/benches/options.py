@@ -1,0 +1,57 @@
+"""What the benches share: where segments come from, where figures go."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from cli.sources import load, show
+
+if TYPE_CHECKING:
+    from segments.recording import Recording
+    from segments.segments import Segments
+
+Source = Annotated[
+    Path | None,
+    typer.Option(
+        "--segments",
+        metavar="PATH",
+        help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
+        "(default: a short drive through the synthetic town)",
+    ),
+]
+JsonFile = Annotated[
+    Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
+]
+Kept = Annotated[
+    Path,
+    typer.Option(
+        "--output", "-o", help="Folder that keeps the town's drive and the paper's network."
+    ),
+]
+Seed = Annotated[int, typer.Option(help="Of the town, and of everything that is drawn.")]
+
+
+def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 20) -> "Recording":
+    """The recording of a drive, or of a drive of so many scans through the town."""
+    from bench.describe import town_recording
+
+    if segments is None:
+        return town_recording(output / "town", seed, show, scans)
+    return load(segments)
+
+
+def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Segments], str]":
+    """The segments of each scan, and where they are from."""
+    from bench.describe import scans_of
+
+    recording = recording_from(segments, output, seed)
+    return scans_of(recording), "synthetic town" if segments is None else segments.stem
+
+
+def write_json(report: dict[str, Any], file: Path | None) -> None:
+    """Write the figures, if that is wanted."""
+    if file:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(report, indent=2) + "\n")

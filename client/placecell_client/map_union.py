@@ -1,0 +1,114 @@
+"""Segments of several maps in one."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from placecell_client.canonical import canonical
+from placecell_client.compact_map import (
+    FRAME_COLUMNS,
+    OPTIONAL,
+    SEGMENT_COLUMNS,
+    CompactMap,
+    MapFileError,
+)
+
+ROBOT_LIMIT = 1 << 16
+"""Names that a robot index tells apart."""
+
+
+def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -> CompactMap:
+    """The segments of all maps, in canonical form; optional columns are those of any.
+
+    Args:
+        maps: one or more valid ones, of one kind; no id in two of them, but for the rows left out.
+        without: rows of the first to leave out.
+
+    Raises:
+        MapFileError: the maps do not go together, or have too many robots.
+    """
+    check_same_kind(maps)
+    names = tuple({name: None for each in maps for name in each.robots})
+    if len(names) > ROBOT_LIMIT:
+        raise MapFileError(f"robots: {len(names)} names; at most {ROBOT_LIMIT}")
+    optional = tuple(name for name in OPTIONAL if any(name in each.optional for each in maps))
+    frames = np.cumsum([0, *(len(each.frame_times) for each in maps)])
+    aligned = [
+        _renumbered(with_optional(each, optional), names, int(before))
+        for each, before in zip(maps, frames, strict=False)
+    ]
+    ids = np.concatenate([each.ids for each in aligned])
+    rows = np.arange(len(ids))
+    if without is not None:
+        rows = np.delete(rows, without)
+    rows = rows[np.argsort(ids[rows], kind="stable")]
+    joined: dict[str, Any] = {
+        name: np.concatenate([getattr(each, name) for each in aligned])[rows]
+        for name in (*SEGMENT_COLUMNS, *optional)
+    }
+    for name in FRAME_COLUMNS:
+        joined[name] = np.concatenate([getattr(each, name) for each in maps])
+    return canonical(replace(aligned[0], **joined))
+
+
+def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
+    """The map with these optional columns.
+
+    Those that it lacks: 0 for `extents` and `points`, a segment's own id for `views`, its frame's
+    time for `seen`, rounded down, within what an uint32 holds.
+    """
+    missing = [name for name in names if getattr(compact_map, name) is None]
+    defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}
+    return replace(compact_map, **defaults)
+
+
+def is_same_kind(one: CompactMap, other: CompactMap) -> bool:
+    """Whether segments of both may stand in one map: same model, preprocessing, frame, width."""
+    return _kind(one) == _kind(other)
+
+
+def check_same_kind(maps: Sequence[CompactMap]) -> None:
+    """See that segments of all may stand in one map.
+
+    Raises:
+        MapFileError: they may not; the message says why.
+    """
+    first = _kind(maps[0])
+    for other in maps[1:]:
+        for what, value in _kind(other).items():
+            if value != first[what]:
+                raise MapFileError(f"{what}: {first[what]!r} and {value!r} do not go together")
+
+
+def _kind(compact_map: CompactMap) -> dict[str, str | int]:
+    return {
+        "model_id": compact_map.model_id,
+        "preprocessing": compact_map.preprocessing,
+        "frame": compact_map.frame,
+        "code_bytes": compact_map.code_bytes,
+    }
+
+
+def _default(compact_map: CompactMap, name: str) -> NDArray[Any]:
+    dtype, shape = OPTIONAL[name]
+    if name == "views":
+        return compact_map.ids
+    if name == "seen":
+        seconds = np.floor(compact_map.frame_times).clip(0, np.iinfo(np.uint32).max)
+        return seconds.astype(np.uint32)[compact_map.frame_index]
+    return np.zeros((len(compact_map), *shape), dtype)
+
+
+def _renumbered(compact_map: CompactMap, names: tuple[str, ...], frames_before: int) -> CompactMap:
+    """With indices into the joined tables."""
+    places = {name: place for place, name in enumerate(names)}
+    robots = np.array([places[name] for name in compact_map.robots], np.uint16)
+    return replace(
+        compact_map,
+        robots=names,
+        robot=robots[compact_map.robot],
+        frame_index=compact_map.frame_index + np.uint32(frames_before),
+    )

@@ -1,0 +1,192 @@
+"""`/maps/{map}/segments` and what robots need to share a map: ids of their own, and changes."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request, Response
+from fastapi.responses import JSONResponse
+from placecell_client import encode_delta
+from placecell_client.map_delta import MEDIA_TYPE
+
+from service.audit import tell, tell_written
+from service.bodies import OCTETS
+from service.changes import Page
+from service.map_name import Name
+from service.openapi import file_body
+from service.problems import documented
+from service.routes.answers import outcome_of
+from service.schemas import IdsOut, WrittenOut
+from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.stored_map import StoredMap
+
+router = APIRouter(tags=["sharing"])
+
+_NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
+    201: {"model": WrittenOut, "description": "There was no such map, and now there is."}
+}
+_DELTA_RESPONSE: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "A delta file, of a part of what changed.",
+        "content": {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}},
+        "headers": {
+            "Placecell-Since": {"schema": {"type": "integer"}, "description": "Where it begins."},
+            "Placecell-Until": {"schema": {"type": "integer"}, "description": "Where it leads."},
+            "Placecell-Next": {
+                "schema": {"type": "string"},
+                "description": "Cursor of the next part; not there: this is the last.",
+            },
+        },
+    },
+}
+
+
+@router.post(
+    "/maps/{map}/segments",
+    summary="Add, replace and remove segments",
+    response_model=WrittenOut,
+    responses=_NEW_RESPONSE
+    | documented(
+        *(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507),
+    ),
+    openapi_extra=file_body(MEDIA_TYPE, OCTETS),
+)
+async def edit_segments(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
+    robot: Annotated[
+        str | None,
+        Query(
+            max_length=200,
+            description="Whose segments are removed; those of the key's robot and of the robots of "
+            "the changed segments may be anyway.",
+        ),
+    ] = None,
+    create: Annotated[bool, Query(description="Make the map if there is none.")] = False,
+) -> Response:
+    """All of them or none; when the answer comes, they are on disk and survive a power cut.
+
+    The body is a delta file whose `since` and `until` are 0. Sent again it changes nothing. A
+    segment of another robot is neither replaced nor removed: that is a 409 which lists the ids, and
+    nothing is done. It is with `If-Match: "ETAG"`, which says that you have seen that segment.
+    """
+    holder.check_write(name)
+    async with state.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
+        written = await state.store(writer.edit, name, body.content, robot, create)
+    timing.lap("commit")
+    tell_written(request, state, "edit", written)
+    return JSONResponse(
+        outcome_of(written).model_dump(mode="json"),
+        status_code=201 if written.is_new else 200,
+        headers={"ETag": f'"{written.stored.tag}"'},
+    )
+
+
+@router.post(
+    "/maps/{map}/age",
+    summary="Remove segments that were not seen again",
+    responses=documented(401, 403, 404, 412, 422, 500, 503, 507),
+)
+async def age_segments(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
+    unseen_since: Annotated[
+        float,
+        Query(
+            allow_inf_nan=False,
+            description="Seconds, of the clock of the frames: what was seen then or later stays. "
+            "That is its `seen`, or its frame's time.",
+        ),
+    ],
+    dry_run: Annotated[bool, Query(description="Only tell how many they are.")] = False,
+) -> WrittenOut:
+    """A version of its own, that can be undone as any other."""
+    holder.check_write(name)
+    written = await state.store(writer.age, name, unseen_since, dry_run)
+    timing.lap("commit")
+    if not dry_run:
+        tell_written(request, state, "age", written)
+    return outcome_of(written)
+
+
+@router.post(
+    "/maps/{map}/ids",
+    summary="Ids for new segments",
+    responses=documented(401, 403, 404, 409, 422, 500, 503, 507),
+)
+async def reserve_ids(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    count: Annotated[int, Query(ge=1, le=1_000_000, description="How many.")],
+) -> IdsOut:
+    """That no segment of the map ever had, and that nobody else is given."""
+    holder.check_write(name)
+    first = await state.store(writer.reserve, name, count)
+    tell(request, state, "ids", name, f"{count} ids from {first} on")
+    return IdsOut(first=first, count=count)
+
+
+@router.get(
+    "/maps/{map}/changes",
+    summary="What changed since a version",
+    response_class=Response,
+    responses=_DELTA_RESPONSE | documented(401, 403, 404, 410, 422, 500, 503),
+)
+async def changes(
+    name: Name,
+    state: StateOf,
+    holder: HolderOf,
+    since: Annotated[
+        str,
+        Query(
+            max_length=40,
+            description="The version that you have: its ETag, without quotes, or its sequence; "
+            "0: none, send all.",
+            examples=["0"],
+        ),
+    ] = "0",
+    cursor: Annotated[
+        str | None,
+        Query(max_length=100, description="Of the next part, from `Placecell-Next`."),
+    ] = None,
+    limit: Annotated[
+        int, Query(ge=1, le=100_000, description="Segments in a part, at most.")
+    ] = 20_000,
+) -> Response:
+    """As a delta file, or several: parts that lead to the version that was newest at the first.
+
+    Apply them when you have them all; so you see the map whole. Where a link is cut, go on at the
+    cursor that you have. A 410 says that the way from your version is not known any more: begin
+    with `since=0`.
+    """
+    holder.check_map(name)
+    stored = state.maps.get(name)
+    page, content = await state.store(_page, state, stored, since, cursor, limit)
+    headers = {
+        "ETag": f'"{page.tag}"',
+        "Placecell-Since": str(page.delta.since),
+        "Placecell-Until": str(page.delta.until),
+    }
+    if page.next is not None:
+        headers["Placecell-Next"] = page.next
+    return Response(content, media_type=MEDIA_TYPE, headers=headers)
+
+
+def _page(
+    state: State, stored: StoredMap, since: str, cursor: str | None, limit: int
+) -> tuple[Page, bytes]:
+    """A page, and its file."""
+    if cursor is None:
+        page = state.changes.since(stored, since, limit)
+    else:
+        page = state.changes.at(stored, cursor, limit)
+    return page, encode_delta(page.delta)

@@ -1,0 +1,86 @@
+"""`/maps/{map}/versions`: what a map was, and back to it."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Query, Request, Response
+
+from service.audit import tell, tell_written
+from service.map_name import Name
+from service.problems import documented
+from service.routes.answers import outcome_of, version_of
+from service.schemas import CompactOut, VersionsResponse, WrittenOut
+from service.state import HolderOf, StateOf, TimingOf, WriterOf
+from service.versions import commits_of
+
+router = APIRouter(tags=["versions"])
+
+
+@router.get(
+    "/maps/{map}/versions",
+    summary="The versions of a map",
+    responses=documented(401, 403, 404, 422, 500, 503),
+)
+async def list_versions(
+    name: Name,
+    state: StateOf,
+    holder: HolderOf,
+    limit: Annotated[int, Query(ge=1, le=10_000, description="So many, at most.")] = 100,
+) -> VersionsResponse:
+    """The newest first: who made it when, by what, and how much it changed."""
+    holder.check_map(name)
+    stored = state.maps.get(name)
+    commits = await state.store(commits_of, state.maps.store, stored)
+    return VersionsResponse(
+        map=name,
+        oldest=commits[0].sequence,
+        versions=[version_of(commit) for commit in commits[: -limit - 1 : -1]],
+    )
+
+
+@router.post(
+    "/maps/{map}/versions/{version}/restore",
+    summary="Make a map again what it was",
+    responses=documented(401, 403, 404, 410, 412, 422, 500, 503, 507),
+)
+async def restore_version(
+    name: Name,
+    version: Annotated[int, Path(ge=1, le=1 << 53, description="Its sequence.", examples=[1])],
+    request: Request,
+    response: Response,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
+) -> WrittenOut:
+    """A new version with the content of an old one; so this can be undone too."""
+    holder.check_write(name)
+    written = await state.store(writer.restore, name, version)
+    timing.lap("commit")
+    tell_written(request, state, "restore", written)
+    response.headers["ETag"] = f'"{written.stored.tag}"'
+    return outcome_of(written)
+
+
+@router.post(
+    "/maps/{map}/compact",
+    summary="Let go of old versions",
+    responses=documented(401, 403, 404, 422, 500, 503, 507),
+)
+async def compact_map(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
+    keep: Annotated[int, Query(ge=1, le=1 << 53, description="Of the newest, so many.")] = 1,
+) -> CompactOut:
+    """What they alone hold is given back to the disk. The service does so by itself, in time."""
+    holder.check_write(name)
+    stored = await state.store(writer.compact, name, keep)
+    timing.lap("commit")
+    head = stored.head
+    tell(request, state, "compact", name, f"versions from {head.oldest} on are kept")
+    return CompactOut(
+        oldest=head.oldest, sequence=head.sequence, bytes=head.base_bytes + head.log_bytes
+    )

@@ -1,0 +1,69 @@
+"""What a map was: its commits, and each version that is still kept."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from placecell_client import encode
+
+from service.layers import Layers
+from service.map_store import Commit, History, MapStore
+from service.problems import Problem
+from service.replay import version_of
+from service.stored_map import StoredMap, tag_of
+
+
+@contextmanager
+def history_of(store: MapStore, stored: StoredMap) -> Iterator[History]:
+    """A map's log; 404 if the map was removed by now."""
+    try:
+        with store.read(stored.head.uid) as history:
+            yield history
+    except KeyError as error:
+        raise Problem(404, "unknown-map", f"Map {stored.name!r:.80} was removed.") from error
+
+
+def commits_of(store: MapStore, stored: StoredMap) -> list[Commit]:
+    """The commits of a map, oldest first."""
+    with history_of(store, stored) as history:
+        return history.commits()
+
+
+def version(store: MapStore, stored: StoredMap, sequence: int) -> tuple[Layers, str]:
+    """One version of a map, and its tag.
+
+    Raises:
+        Problem: 404 if there is none of this sequence, 410 if it is no longer kept.
+        StoreError: it is damaged.
+    """
+    if sequence == stored.head.sequence:
+        return stored.layers, stored.tag
+    with history_of(store, stored) as history:
+        _check_kept(history, sequence)
+        return version_of(history, sequence), tag_of(sequence, history.mark(sequence))
+
+
+def version_file(store: MapStore, stored: StoredMap, sequence: int) -> tuple[bytes, str]:
+    """The file of one version, and its tag; errors as of `version`."""
+    if sequence == stored.head.sequence != stored.head.oldest:
+        return encode(stored.layers.content()), stored.tag
+    with history_of(store, stored) as history:
+        _check_kept(history, sequence)
+        oldest = sequence == history.head.oldest
+        file = history.base() if oldest else encode(version_of(history, sequence).content())
+        return file, tag_of(sequence, history.mark(sequence))
+
+
+def _check_kept(history: History, sequence: int) -> None:
+    head = history.head
+    if not 1 <= sequence <= head.sequence:
+        raise Problem(
+            404,
+            "unknown-version",
+            f"Map {head.name!r:.80} has versions {head.oldest} to {head.sequence}, not {sequence}.",
+        )
+    if sequence < head.oldest:
+        raise Problem(
+            410,
+            "version-gone",
+            f"Map {head.name!r:.80} kept version {sequence}, but its first is now {head.oldest}.",
+        )

@@ -1,0 +1,215 @@
+"""Writes to maps, each for one request: what is asked, whether it may be, and what it did."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from placecell_client import CompactMap, Delta, encode
+from placecell_client.map_edit import delta_between
+
+from service.keys import Holder
+from service.layers import robots_of
+from service.map_store import OutOfIdsError
+from service.maps import Maps, unknown
+from service.models import Models
+from service.preconditions import Preconditions
+from service.problems import Problem
+from service.stored_map import StoredMap
+from service.uploads import check_joins, edit_of, map_of
+from service.versions import version
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What a write did.
+
+    Attributes:
+        stored: the map after it.
+        changed: segments added or replaced.
+        removed: segments removed.
+        is_new: whether there was no such map before.
+    """
+
+    stored: StoredMap
+    changed: int
+    removed: int
+    is_new: bool = False
+
+
+Check = Callable[[CompactMap, Delta], None]
+"""Of the segments that will be replaced or removed, as they are, and of the delta that does it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """Whoever sent a request, at work on the maps.
+
+    What leads to where the map is already is done, not refused: so a write whose answer was lost
+    can be sent again.
+
+    Attributes:
+        maps: all.
+        models: loaded.
+        holder: of the key.
+        conditions: under which they write.
+    """
+
+    maps: Maps
+    models: Models
+    holder: Holder
+    conditions: Preconditions
+
+    def put(self, name: str, data: bytes) -> Written:
+        """Make a map what a file says; what others wrote is replaced only if it was seen."""
+        content = map_of(data, self.models)
+        with self.maps.writing(name):
+            stored = self.maps.find(name)
+            if stored is None:
+                return self._create(name, content, "put")
+            delta = _leading(stored, content)
+            return self._commit(stored, delta, "put", replaces=True)
+
+    def edit(self, name: str, data: bytes, robot: str | None, create: bool) -> Written:
+        """Add, replace and remove segments, all or none.
+
+        Args:
+            name: of the map.
+            data: a delta file.
+            robot: whose segments may be removed; the key's, or those of the changed segments.
+            create: make the map if there is none.
+        """
+        edit = edit_of(data, self.models)
+        owners = {robot, self.holder.key.robot, *edit.changed.robots} - {None}
+
+        def check(before: CompactMap, delta: Delta) -> None:
+            if self.conditions.if_match is None:
+                _check_own(before, delta, owners)
+
+        with self.maps.writing(name):
+            stored = self.maps.find(name) if create else self.maps.get(name)
+            if stored is None:
+                return self._create(name, edit.changed, "edit")
+            check_joins(edit.changed, name, stored.layers.base)
+            return self._commit(stored, edit, "edit", check)
+
+    def restore(self, name: str, sequence: int) -> Written:
+        """Make a map again what it was."""
+        with self.maps.writing(name):
+            stored = self.maps.get(name)
+            layers, _ = version(self.maps.store, stored, sequence)
+            return self._commit(stored, _leading(stored, layers.content()), "restore")
+
+    def age(self, name: str, unseen_since: float, dry_run: bool) -> Written:
+        """Remove what was last seen before a time, seconds of the frames' clock.
+
+        Args:
+            name: of the map.
+            unseen_since: the time.
+            dry_run: only tell how many they are.
+        """
+        with self.maps.writing(name):
+            stored = self.maps.get(name)
+            ids, seen = stored.layers.last_seen()
+            removed = np.sort(ids[seen < unseen_since])
+            if dry_run:
+                return Written(stored, 0, len(removed))
+            nothing = stored.layers.take(removed[:0])
+            return self._commit(stored, Delta(nothing, removed), "age")
+
+    def delete(self, name: str) -> int:
+        """Remove a map; how many segments it had, 0 if it was damaged."""
+        with self.maps.writing(name):
+            if name in self.maps.damaged():
+                # Whose segments it had cannot be told.
+                self.holder.check_all()
+                self.maps.delete(name)
+                return 0
+            stored = self.maps.get(name)
+            self.holder.check_robots(stored.layers.robots)
+            self.conditions.check(stored.tag)
+            self.maps.delete(name)
+            return len(stored)
+
+    def compact(self, name: str, keep: int) -> StoredMap:
+        """Let go of all but the last versions.
+
+        Args:
+            name: of the map.
+            keep: so many, 1 or more.
+        """
+        self.holder.check_all()
+        stored = self.maps.get(name)
+        sequence = max(stored.head.sequence - keep + 1, stored.head.oldest)
+        if sequence == stored.head.oldest:
+            return stored
+        layers, _ = version(self.maps.store, stored, sequence)
+        return self.maps.compact(stored.head, sequence, encode(layers.content()))
+
+    def reserve(self, name: str, count: int) -> int:
+        """The first of so many ids that no segment of the map ever had, and nobody else is given.
+
+        Raises:
+            Problem: 409 if there are not so many.
+        """
+        try:
+            return self.maps.store.reserve(self.maps.get(name).head.uid, count)
+        except KeyError as error:
+            raise unknown(name) from error
+        except OutOfIdsError as error:
+            raise Problem(409, "out-of-ids", f"Map {name!r}: {error}.") from error
+
+    def _create(self, name: str, content: CompactMap, operation: str) -> Written:
+        self.holder.check_robots(robots_of(content))
+        self.conditions.check(None)
+        stored = self.maps.create(name, content, self.holder.name, operation)
+        return Written(stored, len(content), 0, is_new=True)
+
+    def _commit(
+        self,
+        stored: StoredMap,
+        asked: Delta,
+        operation: str,
+        check: Check = lambda *_: None,
+        replaces: bool = False,
+    ) -> Written:
+        before, delta = stored.layers.effect_of(asked)
+        if not stored.layers.is_changed_by(delta):
+            return Written(stored, 0, 0)
+        self.holder.check_robots(robots_of(before) + robots_of(delta.changed))
+        if replaces:
+            self.conditions.check_replaces(stored.tag)
+        else:
+            self.conditions.check(stored.tag)
+        check(before, delta)
+        stored = self.maps.commit(stored, delta, self.holder.name, operation)
+        return Written(stored, len(delta.changed), len(delta.removed))
+
+
+def _leading(stored: StoredMap, content: CompactMap) -> Delta:
+    """From a map as it is to a content."""
+    sequence = stored.head.sequence
+    return delta_between(stored.layers.content(), content, sequence, sequence + 1)
+
+
+def _check_own(before: CompactMap, delta: Delta, owners: set[str | None]) -> None:
+    """See that no segment becomes another robot's, nor is removed by one; 409 if it would."""
+    after = dict(zip(delta.changed.ids.tolist(), _names(delta.changed), strict=True))
+    taken = {
+        id_: robot
+        for id_, robot in zip(before.ids.tolist(), _names(before), strict=True)
+        if (after[id_] != robot if id_ in after else robot not in owners)
+    }
+    if taken:
+        whose = ", ".join(sorted(set(taken.values())))
+        raise Problem(
+            409,
+            "id-taken",
+            f"{len(taken)} ids are of segments of {whose:.200}: take others (POST /maps/MAP/ids), "
+            "or say If-Match if you mean to replace or remove these.",
+            ids=list(taken),
+        )
+
+
+def _names(content: CompactMap) -> list[str]:
+    """Of each segment's robot."""
+    return [content.robots[index] for index in content.robot.tolist()]

@@ -1,0 +1,115 @@
+"""What storing descriptors costs, and maps made for benches."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from placecell_client import decode, encode
+from typer.testing import CliRunner
+
+from bench import ladder as ladders
+from bench.ladder import draw, ladder, stored_as
+from bench.map_content import VIEWS, Views, map_of
+from cli import app
+from segments.extractor import load_extractor
+from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
+from segments.parameters import PROTOCOL_V1
+from segments.quantiser import Quantiser
+from segments.recording import Recording
+from segments.types import Float32
+from tests.training.conftest import make_shapes
+
+EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)
+
+
+def recorded(views: int = 200) -> Recording:
+    """Eight boxes, seen in turn in each of many scans; from the middle on, eight others."""
+    shapes = make_shapes(views, seed=3)
+    frames = np.tile(np.arange(views), 8)
+    return Recording(
+        name="boxes",
+        parameters=PROTOCOL_V1,
+        segments=shapes.segments,
+        frames=frames,
+        groups=shapes.groups + 8 * (frames >= views // 2),
+        distinct=np.ones(len(frames), dtype=bool),
+        scans=views,
+        scan_hashes=tuple(str(scan) for scan in range(views)),
+        path_length=10.0,
+    )
+
+
+def recorded_from_two_places() -> Recording:
+    """The same, from places 7 m apart in turn."""
+    boxes = recorded()
+    sensors = boxes.segments.sensors + np.outer(boxes.frames % 2, [0, 7, 0]).astype(np.float32)
+    return replace(boxes, segments=replace(boxes.segments, sensors=sensors))
+
+
+def clouds(count: int, dimension: int = 8, seed: int = 0) -> Float32:
+    return np.random.default_rng(seed).normal(size=(count, dimension)).astype(np.float32)
+
+
+def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
+    found = clouds(600)
+    asked = np.arange(600) < 100
+    steps = {
+        name: (size, back) for name, size, back in stored_as(found, asked, ~asked, Quantiser(0.05))
+    }
+    assert {name: size for name, (size, _) in steps.items()} == {
+        "float32": 32, "float16": 16, "255 levels": 8, "15 levels": 4, "4 levels": 2,
+        "as shipped": 8, "product, 8 parts": 8,
+    }  # fmt: skip
+    errors = {name: float(np.abs(back - found[:100]).mean()) for name, (_, back) in steps.items()}
+    assert errors["float32"] == 0
+    assert 0 < errors["float16"] < errors["255 levels"] < errors["15 levels"] < errors["4 levels"]
+
+
+def test_the_report_has_a_row_for_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ladders, "PRODUCT_BYTES", (7,))
+    report = ladder(EIGENVALUE, recorded(300), (150, 299))
+    assert report["segments"] == 8 * 150
+    assert report["fitted_to"] == 8 * 150
+    rows = {row["storage"]: row for row in report["rows"]}
+    assert rows["as shipped"]["bytes"] == 7
+    assert rows["product, 7 parts"]["top1"] == pytest.approx(rows["float32"]["top1"], abs=0.3)
+    draw(report, tmp_path / "ladder.png")
+    assert (tmp_path / "ladder.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_too_few_segments_are_refused() -> None:
+    with pytest.raises(ValueError, match="1,000 are needed"):
+        ladder(EIGENVALUE, recorded(20), (10, 19))
+
+
+def test_the_command_tells_and_writes(tmp_path: Path) -> None:
+    recorded(300).save(tmp_path / "boxes.safetensors")
+    words = ["bench", "ladder", tmp_path / "boxes.safetensors", "--scans", "150:299",
+             "--model", BASELINE, "--json", tmp_path / "ladder.json"]  # fmt: skip
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    assert json.loads((tmp_path / "ladder.json").read_text())["rows"][0]["storage"] == "float32"
+
+
+def test_views_of_a_thing_differ_as_those_of_one_group_do() -> None:
+    views = Views.of(EIGENVALUE, recorded_from_two_places(), seed=0)
+    assert len(views.found) == 16
+    assert 700 < len(views.apart) < 900  # half of the pairs
+    content = views.draw(1000, 50, seed=1)
+    assert np.bincount(content.things).tolist() == [VIEWS] * 250
+    assert len(np.unique(content.asked_things)) == 50
+    # More things than there are groups, and none of their views alike.
+    assert len(np.unique(content.codes, axis=0)) > 900
+    np.testing.assert_array_equal(content.codes, views.draw(1000, 50, seed=1).codes)
+    with pytest.raises(ValueError, match="5 m apart"):
+        Views.of(EIGENVALUE, recorded(), seed=0)
+
+
+def test_a_made_map_is_small_and_valid() -> None:
+    manifest = load_extractor(MODELS_FOLDER / DEFAULT_MODEL).manifest
+    codes = np.zeros((10_000, manifest.code_bytes), np.int8)
+    file = encode(map_of(codes, manifest, "ann"))
+    assert len(file) / 10_000 < 48
+    assert len(decode(file)) == 10_000

@@ -1,0 +1,99 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from placecell_client import Delta, MapFileError, decode_delta, encode, encode_delta
+from placecell_client.compact_map import OPTIONAL
+
+from tests.client.file_surgery import inner_header, with_inner_header
+from tests.client.map_builders import deltas, random_map
+
+GONE = np.array([100, 200], np.uint32)
+SMALL = encode_delta(Delta(random_map(segments=3, frames=2), GONE, 3, 9))
+
+
+def test_a_delta_comes_back() -> None:
+    given_delta = Delta(random_map(optional=("seen", "views")), GONE, 3, 9)
+    back = decode_delta(encode_delta(given_delta))
+    assert encode(back.changed) == encode(given_delta.changed)
+    assert (back.since, back.until, back.removed.tolist()) == (3, 9, [100, 200])
+    assert back.removed.dtype == np.uint32
+    assert len(back) == 22
+
+
+@given(deltas())
+def test_encoding_what_was_decoded_changes_nothing(given_delta: Delta) -> None:
+    data = encode_delta(given_delta)
+    assert encode_delta(decode_delta(data)) == data
+
+
+def test_a_delta_without_segments_keeps_the_names_of_its_columns() -> None:
+    nothing = random_map(segments=0, optional=OPTIONAL)
+    back = decode_delta(encode_delta(Delta(nothing, np.zeros(0, np.uint32))))
+    assert len(back) == 0
+    assert back.changed.optional == tuple(OPTIONAL)
+
+
+def test_what_the_header_says() -> None:
+    header = inner_header(SMALL)
+    assert {key: header[key] for key in ("format", "version", "count", "removed")} == {
+        "format": "placecell-delta",
+        "version": 1,
+        "count": 3,
+        "removed": 2,
+    }
+    assert (header["since"], header["until"]) == (3, 9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"version": 2}, "delta file of version 2; this program reads 1"),
+        ({"since": None}, "not integers"),
+        ({"since": 3.0}, "not integers"),
+        ({"until": True}, "not integers"),
+        ({"until": "9"}, "not integers"),
+        ({"since": 10}, "since <= until"),
+        ({"since": -1}, "since <= until"),
+        ({"until": 1 << 53}, "since <= until"),
+        ({"since": 0}, "from nothing"),
+        ({"removed": 3}, "canonical"),
+        ({"count": 2}, "canonical"),
+        ({"extra": 2}, "canonical"),
+        ({"scale_cm": 2}, "scale_cm"),
+    ],
+)
+def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str) -> None:
+    assert with_inner_header(SMALL) == SMALL
+    with pytest.raises(MapFileError, match=message):
+        decode_delta(with_inner_header(SMALL, **changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"removed": np.array([5, 3], np.uint32)}, "ascend"),
+        ({"removed": np.array([3, 3], np.uint32)}, "ascend"),
+        ({"removed": np.array([3, 5])}, "removed: int64"),
+        ({"removed": np.array([[3, 5]], np.uint32)}, "removed"),
+        ({"removed": random_map(segments=3).ids[:1]}, "changed as well"),
+        ({"since": 0, "until": 4}, "from nothing"),
+        ({"since": 5, "until": 4}, "since <= until"),
+        ({"since": np.int64(2)}, "not integers"),
+        ({"changed": replace(random_map(segments=3), frame="")}, "frame"),
+    ],
+)
+def test_deltas_that_are_not_valid_are_not_written(changes: dict[str, Any], message: str) -> None:
+    valid = Delta(random_map(segments=3), GONE, 3, 9)
+    with pytest.raises(MapFileError, match=message):
+        encode_delta(replace(valid, **changes))
+
+
+@pytest.mark.parametrize(
+    ("since", "until", "is_whole"), [(0, 0, False), (0, 1, True), (1, 1, False), (1, 2, False)]
+)
+def test_what_is_from_nothing(since: int, until: int, is_whole: bool) -> None:
+    nothing = np.zeros(0, np.uint32)
+    assert Delta(random_map(), nothing, since, until).is_whole is is_whole

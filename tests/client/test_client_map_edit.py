@@ -1,0 +1,243 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from placecell_client import CompactMap, Delta, MapFileError, decode, encode, encode_delta
+from placecell_client.compact_map import OPTIONAL
+from placecell_client.map_edit import (
+    apply,
+    compose,
+    delta_between,
+    difference,
+    empty,
+    is_same_kind,
+    join,
+    take,
+    with_optional,
+)
+
+from tests.client.map_builders import COLUMN_SETS, deltas, maps, random_map
+
+NOTHING = np.zeros(0, np.uint32)
+NARROW = st.sets(st.sampled_from(["extents", "seen"]))
+WIDE = NARROW.map(lambda names: {"extents", "seen", *names, "points"})
+
+
+def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
+    """Segments by id, in values that say all of them."""
+    segments = {}
+    for row, key in enumerate(compact_map.ids.tolist()):
+        frame = compact_map.frame_index[row]
+        turn = compact_map.frame_orientations[frame].astype(float) + 0.0
+        last = [value for value in turn if value][-1]
+        segments[key] = {
+            "codes": compact_map.codes[row].tolist(),
+            "centimetres": [round(value * 100) for value in compact_map.centroids[row].tolist()],
+            "robot": compact_map.robots[compact_map.robot[row]],
+            "time": float(compact_map.frame_times[frame]),
+            "position": (compact_map.frame_positions[frame] + 0.0).tolist(),
+            "orientation": (turn * np.sign(last) + 0.0).tolist(),
+        } | {name: getattr(compact_map, name)[row].tolist() for name in compact_map.optional}
+    return segments
+
+
+def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
+    """What `apply` should give, by hand."""
+    segments = plain(compact_map)
+    for key in delta.removed.tolist():
+        segments.pop(key, None)
+    segments |= plain(delta.changed)
+    for key, segment in segments.items():
+        defaults = {
+            "extents": [0, 0, 0],
+            "points": 0,
+            "views": key,
+            "seen": max(0, int(np.floor(segment["time"]))),
+        }
+        for name in {*compact_map.optional, *delta.changed.optional}:
+            segment.setdefault(name, defaults[name])
+    return segments
+
+
+@given(maps(), deltas())
+def test_apply_is_what_it_is_by_hand(compact_map: CompactMap, delta: Delta) -> None:
+    after = apply(compact_map, delta)
+    assert plain(after) == applied(compact_map, delta)
+    assert encode(decode(encode(after))) == encode(after)
+    assert set(after.optional) == {*compact_map.optional, *delta.changed.optional}
+
+
+@given(maps(), deltas())
+def test_a_delta_twice_is_a_delta_once(compact_map: CompactMap, delta: Delta) -> None:
+    once = apply(compact_map, delta)
+    assert encode(apply(once, delta)) == encode(once)
+
+
+@given(maps(NARROW), maps(WIDE))
+def test_a_difference_leads_to_the_new_map(old: CompactMap, new: CompactMap) -> None:
+    changed, removed = difference(old, new)
+    assert encode(apply(old, Delta(changed, removed))) == encode(new)
+    before, after = plain(with_optional(old, new.optional)), plain(new)
+    assert plain(changed) == {
+        key: segment for key, segment in after.items() if before.get(key) != segment
+    }
+    assert removed.tolist() == sorted(set(before) - set(after))
+
+
+@given(maps(), maps(), st.booleans(), st.integers(0, 2))
+def test_a_delta_between_any_maps_leads_to_the_new_one(
+    old: CompactMap, new: CompactMap, is_other_model: bool, since: int
+) -> None:
+    if is_other_model:
+        new = replace(new, model_id="n", codes=new.codes.repeat(2, axis=1))
+    delta = delta_between(old, new, since, since + 1)
+    assert encode(apply(old, delta)) == encode(new)
+    is_told = not is_other_model and set(old.optional) <= set(new.optional)
+    assert delta.is_whole is not (since > 0 and is_told)
+    assert delta.until == since + 1
+
+
+@given(maps())
+def test_equal_maps_do_not_differ(compact_map: CompactMap) -> None:
+    changed, removed = difference(compact_map, decode(encode(compact_map)))
+    assert (len(changed), len(removed)) == (0, 0)
+
+
+@given(maps(), deltas(since=1), deltas(since=2), deltas(since=3))
+def test_composed_deltas_do_what_they_do_in_turn(
+    compact_map: CompactMap, first: Delta, second: Delta, third: Delta
+) -> None:
+    in_turn = apply(apply(apply(compact_map, first), second), third)
+    left = compose(compose(first, second), third)
+    right = compose(first, compose(second, third))
+    assert encode(apply(compact_map, left)) == encode(in_turn)
+    assert encode_delta(left) == encode_delta(right)
+    assert (left.since, left.until) == (1, 4)
+
+
+@given(maps(), maps(), deltas(since=5))
+def test_what_follows_a_delta_from_nothing_is_from_nothing(
+    compact_map: CompactMap, other: CompactMap, delta: Delta
+) -> None:
+    whole = Delta(compact_map, NOTHING, 0, 5)
+    both = compose(whole, delta)
+    assert both.is_whole
+    assert encode(apply(other, both)) == encode(apply(compact_map, delta))
+    again = compose(delta, Delta(other, NOTHING, 0, 7))
+    assert encode_delta(again) == encode_delta(Delta(other, NOTHING, 0, 7))
+
+
+def test_deltas_that_do_not_follow_are_not_composed() -> None:
+    one = Delta(random_map(), NOTHING, 1, 2)
+    with pytest.raises(MapFileError, match="since 3 does not follow one until 2"):
+        compose(one, replace(one, since=3, until=4))
+
+
+@given(maps(COLUMN_SETS), st.integers(1, 4))
+def test_a_delta_in_parts_is_joined(compact_map: CompactMap, count: int) -> None:
+    removed = np.arange(20, 30, dtype=np.uint32)
+    whole = Delta(compact_map, removed, 2, 7)
+    parts = [
+        Delta(take(compact_map, slice(part, None, count)), removed[part::count], 2, 7)
+        for part in range(count)
+    ]
+    assert encode_delta(join(parts[::-1])) == encode_delta(whole)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"until": 8}, "parts"),
+        ({"changed": random_map(segments=4, seed=1)}, "stands twice"),
+        ({"removed": np.array([50, 90], np.uint32)}, "ascend"),
+        ({"removed": random_map(segments=4).ids[:1]}, "changed as well"),
+        ({"changed": random_map(segments=0, dimension=5)}, "code_bytes"),
+    ],
+)
+def test_what_is_no_other_part_is_not_joined(changes: dict[str, Any], message: str) -> None:
+    first = Delta(random_map(segments=4), np.array([50], np.uint32), 2, 7)
+    second = replace(Delta(random_map(segments=0), NOTHING, 2, 7), **changes)
+    with pytest.raises(MapFileError, match=message):
+        join([first, second])
+
+
+def test_nothing_is_not_joined() -> None:
+    with pytest.raises(MapFileError, match="parts"):
+        join([])
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"model_id": "other"},
+        {"preprocessing": "2"},
+        {"frame": "field"},
+        {"codes": np.zeros((20, 5), np.int8)},
+    ],
+)
+def test_segments_of_another_kind_do_not_come_in(changes: dict[str, Any]) -> None:
+    one = random_map()
+    other = replace(one, **changes)
+    what = next(iter(changes)).replace("codes", "code_bytes")
+    assert not is_same_kind(one, other)
+    with pytest.raises(MapFileError, match=f"{what}: .* do not go together"):
+        apply(one, Delta(other, NOTHING))
+    with pytest.raises(MapFileError, match=what):
+        difference(one, other)
+    with pytest.raises(MapFileError, match=what):
+        delta_between(one, other, 0, 0)
+
+
+def test_a_difference_takes_no_column_away() -> None:
+    with pytest.raises(MapFileError, match="points: a difference cannot"):
+        difference(random_map(optional=("points",)), random_map())
+
+
+def test_a_delta_that_is_not_valid_is_not_applied() -> None:
+    broken = replace(random_map(), frame_index=np.full(20, 9, np.uint32))
+    with pytest.raises(MapFileError, match="index 9"):
+        apply(random_map(), Delta(broken, NOTHING))
+
+
+def test_more_robots_than_an_index_tells_apart() -> None:
+    one = random_map(robots=tuple(f"a{number}" for number in range(40_000)))
+    other = replace(one, robots=tuple(f"b{number}" for number in range(40_000)))
+    with pytest.raises(MapFileError, match="80000 names; at most 65536"):
+        apply(one, Delta(other, NOTHING))
+
+
+def test_defaults_of_columns_that_a_map_lacks() -> None:
+    given_map = replace(
+        random_map(segments=4, frames=4), frame_times=np.array([-3.5, 1.9, 1.7e9 + 0.5, 8e9])
+    )
+    filled = with_optional(given_map, OPTIONAL)
+    assert filled.extents is not None
+    assert filled.points is not None
+    assert filled.views is not None
+    assert filled.seen is not None
+    assert filled.extents.tolist() == [[0, 0, 0]] * 4
+    assert filled.points.tolist() == [0] * 4
+    assert filled.views.tolist() == given_map.ids.tolist()
+    assert filled.seen.tolist() == [0, 1, 1_700_000_000, (1 << 32) - 1]
+    assert with_optional(filled, OPTIONAL).optional == filled.optional == tuple(OPTIONAL)
+    filled.check()
+
+
+def test_an_empty_map() -> None:
+    nothing = empty("tiny-0123456789abcdef", "1", "town", 4, ("points",))
+    assert len(decode(encode(nothing))) == 0
+    given_map = random_map()
+    assert encode(apply(nothing, Delta(given_map, NOTHING))) == encode(
+        with_optional(given_map, ("points",))
+    )
+
+
+@pytest.mark.parametrize("rows", [np.array([3, 1]), slice(1, 4), np.arange(20) % 7 == 0])
+def test_some_of_a_maps_segments(rows: Any) -> None:
+    given_map = random_map(optional=OPTIONAL)
+    some = take(given_map, rows)
+    everything = plain(given_map)
+    assert plain(some) == {key: everything[key] for key in given_map.ids[rows].tolist()}

@@ -1,0 +1,233 @@
+"""What is done in the background leaves every answer as it was."""
+
+import json
+import logging
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from placecell_client import encode
+
+from segments.manifest import Manifest
+from service.housekeeping import Bounds, Housekeeper
+from service.map_cache import MapCache
+from service.state import State
+from tests.service.service_builders import edit_of, map_of, random_codes
+
+EAGER = Bounds(recent=3, share=0.0, commits=1_000)
+
+
+def keeper_of(state: State, data_dir: Path, bounds: Bounds) -> Housekeeper:
+    return Housekeeper(state.maps, state.changes, MapCache(data_dir), bounds)
+
+
+@contextmanager
+def site(start: Any, manifest: Manifest, edits: int = 5) -> Iterator[tuple[Any, State]]:
+    """A service whose own housekeeper is asleep, with a map of edits + 1 versions."""
+    with start() as service:
+        service.put("/maps/site", content=encode(map_of(random_codes(20), manifest.model_id)))
+        for step in range(edits):
+            data = edit_of(random_codes(2, step), manifest.model_id, 115 + 3 * step)
+            assert service.post("/maps/site/segments", content=data).status_code == 200
+        yield service, service.app.state.placecell
+
+
+def told(service: Any, manifest: Manifest) -> list[Any]:
+    """All that a client can see of the map."""
+    query = {"model_id": manifest.model_id, "codes": random_codes(9, 3).tolist(), "k": 30}
+    sequence = service.get("/maps").json()["maps"][0]["sequence"]
+    versions = service.get("/maps/site/versions").json()
+    kept = range(versions["oldest"], sequence + 1)
+    return [
+        service.get("/maps").json(),
+        service.post("/match", json=query).json(),
+        versions,
+        [service.get(f"/maps/site?version={one}").content for one in kept],
+        [service.get(f"/maps/site/changes?since={one}").content for one in (0, *kept)],
+    ]
+
+
+def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir: Path) -> None:
+    with site(start, manifest) as (service, state):
+        before = told(service, manifest)
+        assert len(state.maps.get("site").layers.recent) > 3
+        keeper_of(state, data_dir, EAGER).look()
+        assert len(state.maps.get("site").layers.recent) == 0
+        assert state.maps.get("site").folded == 6
+        assert told(service, manifest) == before
+    with start() as service:
+        assert told(service, manifest) == before
+        # From the cache, which needed nothing replayed.
+        stored = service.app.state.placecell.maps.get("site")
+        assert (stored.folded, len(stored.layers.recent)) == (6, 0)
+
+
+def test_what_is_written_during_a_fold_stays(
+    start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with site(start, manifest) as (service, state):
+        begun, written = threading.Event(), threading.Event()
+        indexed = state.maps._index
+
+        def slowly(*arguments: Any) -> Any:
+            # Once, in the fold: all is read, and nothing is shown yet.
+            monkeypatch.setattr(state.maps, "_index", indexed)
+            begun.set()
+            assert written.wait(60)
+            return indexed(*arguments)
+
+        monkeypatch.setattr(state.maps, "_index", slowly)
+        keeper = keeper_of(state, data_dir, EAGER)
+        thread = threading.Thread(target=keeper.look)
+        thread.start()
+        assert begun.wait(60)
+        data = edit_of(random_codes(4, 8), manifest.model_id, 118, removed=[100, 116])
+        assert service.post("/maps/site/segments", content=data).status_code == 200
+        before = told(service, manifest)
+        written.set()
+        thread.join(60)
+        assert state.maps.get("site").folded == 6
+        assert told(service, manifest) == before
+    with start() as service:
+        assert told(service, manifest) == before
+
+
+@pytest.mark.parametrize("what", ["removed", "removed and made anew"])
+def test_a_map_that_is_removed_during_a_fold_stays_removed(
+    start: Any, manifest: Manifest, data_dir: Path, what: str
+) -> None:
+    with site(start, manifest) as (service, state):
+        stored = state.maps.get("site")
+        service.delete("/maps/site")
+        if "anew" in what:
+            service.put("/maps/site", content=encode(map_of(random_codes(1), manifest.model_id)))
+        before = service.get("/maps").json()
+        assert state.maps.fold(stored) is None
+        assert service.get("/maps").json() == before
+
+
+def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_dir: Path) -> None:
+    with site(start, manifest) as (_, state):
+        keeper = keeper_of(state, data_dir, Bounds(commits=5))
+        keeper.look()
+        assert state.maps.get("site").folded == 1
+        keeper_of(state, data_dir, Bounds(commits=4)).look()
+        assert state.maps.get("site").folded == 6
+
+
+@pytest.mark.parametrize("bounds", [Bounds(log_bytes=100, log_share=0), Bounds(log_commits=4)])
+def test_a_long_history_is_shortened(
+    start: Any, manifest: Manifest, data_dir: Path, bounds: Bounds
+) -> None:
+    with site(start, manifest) as (service, state):
+        before = told(service, manifest)
+        keeper_of(state, data_dir, Bounds()).look()
+        assert told(service, manifest) == before
+        keeper_of(state, data_dir, bounds).look()
+        after = told(service, manifest)
+        assert 1 < after[2]["oldest"] <= 6
+        assert after[1] == before[1]
+        assert after[3] == before[3][-len(after[3]) :]
+        # Enough that it is not to be done again at once.
+        keeper_of(state, data_dir, bounds).look()
+        assert told(service, manifest) == after
+    with start() as service:
+        assert told(service, manifest) == after
+
+
+def damage(file: Path, how: str) -> None:
+    data = file.read_bytes()
+    line, _, rest = data.partition(b"\n")
+    stated = json.loads(line)
+    if how == "gone":
+        file.unlink()
+    elif how == "cut":
+        file.write_bytes(data[:-1])
+    elif how == "flipped":
+        file.write_bytes(data[:-9] + bytes([data[-9] ^ 1]) + data[-8:])
+    elif how == "empty":
+        file.write_bytes(b"")
+    elif how == "of another history":
+        stated["mark"] = "0" * 64
+        file.write_bytes(json.dumps(stated).encode() + b"\n" + rest)
+    else:
+        stated["sequence"] = {"of the future": 99, "of nonsense": "x"}[how]
+        file.write_bytes(json.dumps(stated).encode() + b"\n" + rest)
+
+
+@pytest.mark.parametrize(
+    "how", ["gone", "cut", "flipped", "empty", "of another history", "of the future", "of nonsense"]
+)
+def test_a_cache_that_is_not_to_be_trusted_is_not(
+    start: Any, manifest: Manifest, data_dir: Path, how: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    with site(start, manifest) as (service, state):
+        keeper_of(state, data_dir, EAGER).look()
+        before = told(service, manifest)
+    (file,) = (data_dir / "cache").iterdir()
+    damage(file, how)
+    with caplog.at_level(logging.WARNING), start() as service:
+        assert told(service, manifest) == before
+        assert service.app.state.placecell.maps.get("site").folded == 1
+    assert ("left aside" in caplog.text) == (how != "gone")
+
+
+def test_a_cache_of_an_earlier_version_is_completed(
+    start: Any, manifest: Manifest, data_dir: Path
+) -> None:
+    with site(start, manifest) as (service, state):
+        keeper_of(state, data_dir, EAGER).look()
+        data = edit_of(random_codes(4, 8), manifest.model_id, 118, removed=[100, 116])
+        service.post("/maps/site/segments", content=data)
+        before = told(service, manifest)
+    with start() as service:
+        assert service.app.state.placecell.maps.get("site").folded == 6
+        assert told(service, manifest) == before
+
+
+def test_caches_of_maps_that_are_gone_are_removed(
+    start: Any, manifest: Manifest, data_dir: Path
+) -> None:
+    with site(start, manifest) as (service, state):
+        keeper = keeper_of(state, data_dir, EAGER)
+        keeper.look()
+        (data_dir / "cache" / "half.unfinished").write_bytes(b"half")
+        assert len(list((data_dir / "cache").iterdir())) == 2
+        service.delete("/maps/site")
+        keeper.look()
+        assert list((data_dir / "cache").iterdir()) == []
+
+
+def test_what_fails_is_told_and_tried_again(
+    start: Any,
+    manifest: Manifest,
+    data_dir: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with site(start, manifest) as (service, state):
+        keeper = keeper_of(state, data_dir, EAGER)
+        with monkeypatch.context() as patched, caplog.at_level(logging.ERROR):
+            patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "full")))
+            keeper.look()
+        assert "housekeeping failed at map 'site'" in caplog.text
+        assert service.get("/maps/site").status_code == 200
+        keeper.look()
+
+
+def test_it_works_by_itself_and_ends(
+    start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with site(start, manifest) as (_, state):
+        before = threading.active_count()
+        looked = threading.Event()
+        monkeypatch.setattr(state.changes, "forget", looked.set)
+        bounds = Bounds(recent=3, share=0.0, seconds=0.01)
+        with keeper_of(state, data_dir, bounds).working():
+            assert threading.active_count() == before + 1
+            assert looked.wait(60)
+        assert threading.active_count() == before
+        assert state.maps.get("site").folded == 6

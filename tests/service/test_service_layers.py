@@ -1,0 +1,142 @@
+"""Layers hold what their edits led to, however many edits, and whenever they are folded."""
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from placecell_client import CompactMap, Delta, encode
+from placecell_client.map_edit import apply, empty
+
+from segments.quantiser import Quantiser
+from service.layers import Layers, robots_of
+from service.map_index import index_of
+from service.stored_map import LayeredIndex
+from tests.service.service_builders import map_of
+
+QUANTISER = Quantiser(0.1)
+NOTHING = empty("m", "1", "town", 7)
+
+
+def segments(ids: list[int], value: int = 0, robot: str = "ann") -> CompactMap:
+    """Of these ids; their codes tell id and value."""
+    codes = np.zeros((len(ids), 7), np.int8)
+    codes[:, 0], codes[:, 1] = ids, value
+    made = replace(map_of(codes, "m", robot=robot), ids=np.array(ids, np.uint32))
+    return apply(NOTHING, Delta(made, np.zeros(0, np.uint32)))
+
+
+def edit(ids: list[int], removed: list[int], value: int, robot: str = "ann") -> Delta:
+    return Delta(segments(ids, value, robot), np.array(sorted({*removed} - {*ids}), np.uint32))
+
+
+IDS = st.lists(st.integers(0, 12), unique=True)
+EDITS = st.lists(
+    st.builds(edit, IDS, IDS, st.integers(0, 2), st.sampled_from(["ann", "zoe"])), max_size=8
+)
+STARTS = IDS.map(sorted).map(segments)
+
+
+@given(STARTS, EDITS)
+@settings(max_examples=200, deadline=None)
+def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[Delta]) -> None:
+    layers, expected = Layers.of(start), start
+    for each in edits:
+        layers, expected = layers.after(each), apply(expected, each)
+        assert encode(layers.content()) == encode(expected)
+    assert len(layers) == len(expected)
+    assert layers.ids.tolist() == expected.ids.tolist()
+    assert layers.robots == robots_of(expected)
+    assert layers.time_span == expected.time_span
+    wanted = np.arange(0, 20, 3, dtype=np.uint32)
+    rows = np.flatnonzero(np.isin(expected.ids, wanted))
+    found = layers.take(wanted)
+    assert found.ids.tolist() == expected.ids[rows].tolist()
+    assert found.codes.tolist() == expected.codes[rows].tolist()
+
+
+@given(STARTS, EDITS, EDITS)
+@settings(max_examples=200, deadline=None)
+def test_a_new_base_changes_nothing(
+    start: CompactMap, first: list[Delta], then: list[Delta]
+) -> None:
+    before = Layers.of(start)
+    for each in first:
+        before = before.after(each)
+    after = before
+    for each in then:
+        after = after.after(each)
+    folded = after.upon(before.content(), before)
+    assert encode(folded.content()) == encode(after.content())
+    assert len(folded) == len(after)
+
+
+@given(STARTS, EDITS, EDITS.filter(len))
+@settings(max_examples=200, deadline=None)
+def test_the_effect_of_an_edit_is_all_that_it_changes(
+    start: CompactMap, edits: list[Delta], asked: list[Delta]
+) -> None:
+    layers = Layers.of(start)
+    for each in edits:
+        layers = layers.after(each)
+    before, effect = layers.effect_of(asked[0])
+    after = layers.after(asked[0])
+    assert encode(layers.after(effect).content()) == encode(after.content())
+    assert layers.is_changed_by(effect) == (encode(after.content()) != encode(layers.content()))
+    # What it says is replaced or removed was there, with other values.
+    assert {*before.ids} == {*effect.removed} | ({*effect.changed.ids} & {*layers.ids})
+    again = after.effect_of(asked[0])[1]
+    assert not after.is_changed_by(again)
+
+
+@given(STARTS, EDITS, st.integers(1, 15))
+@settings(max_examples=100, deadline=None)
+def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], k: int) -> None:
+    layers = Layers.of(start)
+    for each in edits:
+        layers = layers.after(each)
+    flat = layers.content()
+    queries = segments(list(range(13)), 1).codes
+    distances, rows = LayeredIndex.of(layers, QUANTISER).search(layers, queries, k)
+    expected, places = index_of(flat.codes, QUANTISER).search(queries, k)
+    np.testing.assert_array_equal(distances, expected)
+    np.testing.assert_array_equal(layers.column("ids", rows), flat.ids[places])
+    np.testing.assert_array_equal(layers.column("centroids", rows), flat.centroids[places])
+    names = np.array(flat.robots or ("",), dtype=object)[flat.robot[places]]
+    np.testing.assert_array_equal(layers.robot_names(rows), names)
+
+
+def test_optional_columns_of_an_edit_become_the_map_s() -> None:
+    start = Layers.of(segments([1, 2, 3]))
+    seen = replace(segments([2, 9]), seen=np.array([7, 8], np.uint32))
+    after = start.after(Delta(seen, np.zeros(0, np.uint32)))
+    assert after.optional == {"seen"}
+    assert after.content().seen is not None
+    assert dict(zip(*(column.tolist() for column in after.last_seen()), strict=True)) == {
+        1: 1_700_000_000,
+        2: 7,
+        3: 1_700_000_000,
+        9: 8,
+    }
+    # An edit that lacks the column is filled up, as the map would be.
+    plain = Delta(segments([9], 5), np.zeros(0, np.uint32))
+    _, effect = after.effect_of(plain)
+    assert effect.changed.seen is not None
+    assert effect.changed.seen.tolist() == [1_700_000_000]
+    # A column alone is a change, once.
+    nothing = Delta(replace(NOTHING, seen=np.zeros(0, np.uint32)), np.zeros(0, np.uint32))
+    assert start.is_changed_by(start.effect_of(nothing)[1])
+    assert not after.is_changed_by(after.effect_of(nothing)[1])
+
+
+def test_a_whole_delta_replaces_all() -> None:
+    start = Layers.of(segments([1, 2, 3], robot="zoe"))
+    other = replace(segments([5]), model_id="another")
+    whole = Delta(other, np.zeros(0, np.uint32), 0, 9)
+    before, effect = start.effect_of(whole)
+    assert before.ids.tolist() == [1, 2, 3]
+    assert start.is_changed_by(effect)
+    after = start.after(effect)
+    assert (after.base.model_id, after.ids.tolist()) == ("another", [5])
+    assert after.robots == Counter(ann=1)

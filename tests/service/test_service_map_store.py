@@ -1,0 +1,402 @@
+"""The store: what it keeps, and what it keeps of it when the disk is cut, full or damaged."""
+
+import logging
+import shutil
+import sqlite3
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from service import map_store
+from service.database import ADVICE, VACUUM_PAGES
+from service.map_store import IDS, Head, Note, OutOfIdsError, StoreError, StoreLockedError
+from service.sqlite_store import FILE, PART_BYTES, SqliteMapStore
+
+NOTE = Note(1.7e9, "ann", "edit", 3, 1)
+LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return tmp_path / "deep" / "var"
+
+
+@pytest.fixture
+def store(folder: Path) -> Iterator[SqliteMapStore]:
+    with SqliteMapStore.owned(folder) as opened:
+        yield opened
+
+
+@contextmanager
+def behind(folder: Path) -> Iterator[sqlite3.Connection]:
+    """Someone else at the database."""
+    with closing(sqlite3.connect(folder / FILE)) as connection:
+        yield connection
+        connection.commit()
+
+
+def all_of(store: SqliteMapStore, uid: str) -> tuple[Head, bytes, list[tuple[int, bytes]]]:
+    """What the store has of a map."""
+    with store.read(uid) as history:
+        blobs = history.blobs(history.head.oldest, history.head.sequence)
+        return history.head, history.base(), [(commit.sequence, blob) for commit, blob in blobs]
+
+
+def grown(store: SqliteMapStore, name: str = "yard", commits: int = 4) -> Head:
+    head = store.create(name, LARGE, replace(NOTE, operation="put"), 7)
+    for count in range(commits):
+        head = store.append(head, bytes([count]) * (count + 1) * 3_000, NOTE, 0)
+    return head
+
+
+def test_a_map_is_a_base_and_what_was_committed_after_it(store: SqliteMapStore) -> None:
+    first = store.create("yard", LARGE, NOTE, 7)
+    assert (first.name, first.sequence, first.oldest, first.next_id) == ("yard", 1, 1, 7)
+    second = store.append(first, b"one", NOTE, 9)
+    third = store.append(second, b"three", replace(NOTE, author="zoe"), 8)
+    assert (third.sequence, third.oldest, third.next_id) == (3, 1, 9)
+    assert (third.base_bytes, third.log_bytes, third.commits) == (len(LARGE), 8, 2)
+    assert all_of(store, first.uid) == (third, LARGE, [(2, b"one"), (3, b"three")])
+    assert store.heads() == [third]
+    with store.read(first.uid) as history:
+        assert [commit.sequence for commit in history.commits()] == [1, 2, 3]
+        assert [commit.note.author for commit in history.commits()] == ["ann", "ann", "zoe"]
+        assert [commit.mark for commit in history.commits()] == [
+            first.mark,
+            second.mark,
+            third.mark,
+        ]
+        assert [blob for _, blob in history.blobs(2, 3)] == [b"three"]
+        assert list(history.blobs(3, 3)) == []
+    assert store.verify() == []
+
+
+def test_all_is_there_when_it_is_opened_again(folder: Path) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        before = all_of(store, grown(store).uid), store.heads()
+    with SqliteMapStore.owned(folder) as store:
+        assert (all_of(store, store.heads()[0].uid), store.heads()) == before
+
+
+def test_a_commit_follows_what_it_was_made_for(store: SqliteMapStore) -> None:
+    first = store.create("yard", b"file", NOTE, 0)
+    second = store.append(first, b"a", NOTE, 0)
+    for wrong in (first, replace(second, mark="0" * 64), replace(second, uid="other")):
+        with pytest.raises(KeyError):
+            store.append(wrong, b"b", NOTE, 0)
+    assert store.heads() == [second]
+    with pytest.raises(ValueError, match="'yard' already"):
+        store.create("yard", b"other", NOTE, 0)
+    for call in (store.delete, lambda uid: store.reserve(uid, 1), lambda uid: all_of(store, uid)):
+        with pytest.raises(KeyError):
+            call("absent")
+
+
+def test_marks_name_a_version_and_all_before_it(store: SqliteMapStore) -> None:
+    one, other = (store.create(name, b"file", NOTE, 0) for name in ("a", "b"))
+    assert one.mark != other.mark
+    same = [store.append(head, b"delta", NOTE, 0).mark for head in (one, other)]
+    assert same[0] != same[1]
+    store.delete(one.uid)
+    again = store.create("a", b"file", NOTE, 0)
+    assert again.uid != one.uid
+    assert store.append(again, b"delta", NOTE, 0).mark != same[0]
+
+
+def test_compaction_lets_go_of_what_was_before(store: SqliteMapStore) -> None:
+    head = grown(store)
+    other = grown(store, "other")
+    before = all_of(store, other.uid)
+    compacted = store.compact(head.uid, 3, b"the file of version 3")
+    assert compacted == replace(
+        head, oldest=3, base_bytes=len(b"the file of version 3"), log_bytes=9_000 + 12_000
+    )
+    assert all_of(store, head.uid)[1:] == (
+        b"the file of version 3",
+        [(4, b"\2" * 9_000), (5, b"\3" * 12_000)],
+    )
+    with store.read(head.uid) as history:
+        assert [commit.sequence for commit in history.commits()] == [3, 4, 5]
+        with pytest.raises(KeyError):
+            list(history.blobs(2, 4))
+    for gone in (2, 6):
+        with pytest.raises(KeyError):
+            store.compact(head.uid, gone, b"")
+    assert store.compact(head.uid, 5, b"head").log_bytes == 0
+    assert all_of(store, other.uid) == before
+    assert store.verify() == []
+
+
+def test_a_reader_sees_one_moment(store: SqliteMapStore) -> None:
+    head = grown(store)
+    before = all_of(store, head.uid)
+    with store.read(head.uid) as history:
+        store.compact(store.append(head, b"more", NOTE, 0).uid, 5, b"later")
+        assert (history.head, history.base()) == before[:2]
+        assert len(list(history.blobs(1, 5))) == 4
+        store.delete(head.uid)
+        assert len(history.commits()) == 5
+    assert store.heads() == []
+
+
+def test_ids_are_given_out_once(store: SqliteMapStore) -> None:
+    head = store.create("yard", b"file", NOTE, 10)
+    assert [store.reserve(head.uid, count) for count in (5, 1, 3)] == [10, 15, 16]
+    assert store.append(head, b"", NOTE, 12).next_id == 19
+    (head,) = store.heads()
+    store.append(head, b"", NOTE, IDS - 2)
+    with pytest.raises(OutOfIdsError, match="2 ids"):
+        store.reserve(head.uid, 3)
+    assert store.reserve(head.uid, 2) == IDS - 2
+    with pytest.raises(OutOfIdsError, match="0 ids"):
+        store.reserve(head.uid, 1)
+
+
+def test_every_call_is_one_transaction(store: SqliteMapStore) -> None:
+    said: list[str] = []
+    store._database._connection.set_trace_callback(said.append)
+
+    def transactions() -> int:
+        begun, done = (sum(one.startswith(word) for one in said) for word in ("BEGIN", "COMMIT"))
+        assert begun == done
+        said.clear()
+        return begun
+
+    head = grown(store, commits=0)
+    assert transactions() == 1
+    head = store.append(head, LARGE, NOTE, 0)
+    assert transactions() == 1
+    store.reserve(head.uid, 3)
+    assert transactions() == 1
+    store.compact(head.uid, 2, LARGE)
+    assert transactions() == 1
+    store.delete(head.uid)
+    assert transactions() == 1
+
+
+def test_a_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
+    def pragma(name: str) -> Any:
+        return store._database._connection.execute(f"PRAGMA {name}").fetchone()[0]
+
+    assert pragma("journal_mode") == "wal"
+    assert pragma("synchronous") == 2  # FULL
+    assert pragma("fullfsync") == pragma("checkpoint_fullfsync") == 1
+    assert pragma("auto_vacuum") == 2  # incremental
+
+
+def test_what_a_power_cut_leaves_is_a_state_that_was(folder: Path, tmp_path: Path) -> None:
+    """Of the log only a part may have come to the disk: all of each call, or nothing."""
+    states: list[list[Head]] = []
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    with SqliteMapStore.owned(folder) as store:
+        states.append(store.heads())
+        other = store.create("other", b"z" * 10_000, NOTE, 0)
+        states.append(store.heads())
+        head = store.create("yard", b"x" * 10_000, NOTE, 7)
+        states.append(store.heads())
+        for count in range(3):
+            head = store.append(head, bytes([count + 1]) * 9_000, NOTE, 0)
+            states.append(store.heads())
+        store.reserve(head.uid, 2)
+        states.append(store.heads())
+        store.compact(head.uid, 3, b"y" * 10_000)
+        states.append(store.heads())
+        store.delete(other.uid)
+        states.append(store.heads())
+        log = (folder / f"{FILE}-wal").read_bytes()
+        main = (folder / FILE).read_bytes()
+    seen = []
+    for length in [*range(0, len(log), 2_777), len(log)]:
+        for tail in (b"", b"\0" * 5_000):  # cut, or as long as it was to be, but not written
+            for left in copy.iterdir():
+                left.unlink()
+            (copy / FILE).write_bytes(main)
+            (copy / f"{FILE}-wal").write_bytes(log[:length] + tail)
+            with SqliteMapStore.owned(copy) as store:
+                assert store.verify() == []
+                seen.append(states.index(store.heads()))
+    assert seen == sorted(seen)
+    assert set(seen) == set(range(len(states)))
+
+
+@pytest.mark.parametrize("kind", ["full", "read-only"])
+def test_a_disk_that_takes_no_more_leaves_all_as_it_was(folder: Path, kind: str) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        head = grown(store)
+        before = all_of(store, head.uid)
+        connection = store._database._connection
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        setting = f"max_page_count = {pages + 2}" if kind == "full" else "query_only = ON"
+        connection.execute(f"PRAGMA {setting}")
+        writes: list[Callable[[], Head]] = [
+            lambda: store.create("other", LARGE, NOTE, 0),
+            lambda: store.append(head, LARGE, NOTE, 0),
+            lambda: store.compact(head.uid, 4, LARGE * 3),
+        ]
+        for write in writes:
+            with pytest.raises(StoreError) as raised:
+                write()
+            assert raised.value.kind == kind
+            assert all_of(store, head.uid) == before
+        connection.execute("PRAGMA max_page_count = 1000000")
+        connection.execute("PRAGMA query_only = OFF")
+        assert store.append(head, LARGE, NOTE, 0).sequence == head.sequence + 1
+    with SqliteMapStore.owned(folder) as store:
+        assert store.heads()[0].sequence == head.sequence + 1
+        assert store.verify() == []
+
+
+def test_another_process_at_the_database_is_waited_for_and_then_told(
+    store: SqliteMapStore, folder: Path
+) -> None:
+    head = grown(store)
+    store._database._connection.execute("PRAGMA busy_timeout = 10")
+    with behind(folder) as other:
+        other.execute("BEGIN IMMEDIATE")
+        with pytest.raises(StoreError) as raised:
+            store.append(head, b"", NOTE, 0)
+        assert raised.value.kind == "busy"
+        assert store.heads() == [head]
+    assert store.append(head, b"", NOTE, 0).sequence == head.sequence + 1
+
+
+@pytest.mark.parametrize(
+    ("statement", "words"),
+    [
+        ("UPDATE commits SET delta = x'00' WHERE sequence = 3", "version 3"),
+        ("UPDATE commits SET delta = NULL WHERE sequence = 5", "version 5"),
+        ("UPDATE commits SET mark = 'x' WHERE sequence = 5", "version 5"),
+        ("DELETE FROM commits WHERE sequence = 4", "version 4"),
+        ("DELETE FROM commits WHERE sequence = 5", "version 5"),
+        ("UPDATE bases SET data = x'00' WHERE part = 1", "base"),
+        ("DELETE FROM bases WHERE part = 1", "base"),
+    ],
+)
+def test_a_damaged_blob_is_told_and_the_other_maps_are_well(
+    store: SqliteMapStore, folder: Path, statement: str, words: str
+) -> None:
+    head, other = grown(store), grown(store, "other")
+    with behind(folder) as connection:
+        where = " AND" if "WHERE" in statement else " WHERE"
+        connection.execute(f"{statement}{where} map = 1")
+    with pytest.raises(StoreError, match=f"'yard': its {words} was altered or lost") as raised:
+        all_of(store, head.uid)
+    assert raised.value.kind == "damaged"
+    assert len(all_of(store, other.uid)[2]) == 4
+    (found,) = store.verify()
+    assert words in found
+
+
+def test_a_cut_database_does_not_open(folder: Path) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        grown(store)
+    whole = (folder / FILE).read_bytes()
+    lengths = [0, 1, 99, 100, 4_000, *range(4_096, len(whole), len(whole) // 17), len(whole) - 1]
+    for length in lengths:
+        (folder / FILE).write_bytes(whole[:length])
+        with pytest.raises(StoreError, match="from a backup") as raised:
+            SqliteMapStore(folder)
+        assert raised.value.kind == "damaged"
+    (folder / FILE).write_bytes(whole)
+    with SqliteMapStore.owned(folder) as store:
+        assert store.verify() == []
+
+
+def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
+    folder.mkdir(parents=True)
+    (folder / FILE).write_bytes(b"rubbish" * 1_000)
+    with pytest.raises(StoreError, match=ADVICE):
+        SqliteMapStore(folder)
+    (folder / FILE).unlink()
+    with behind(folder) as connection:
+        connection.execute("CREATE TABLE theirs (a)")
+    with pytest.raises(StoreError, match="no database of Placecell"):
+        SqliteMapStore(folder)
+    (folder / FILE).unlink()
+    SqliteMapStore(folder).close()
+    with behind(folder) as connection:
+        connection.execute("PRAGMA user_version = 99")
+    with pytest.raises(StoreError, match="version 99; this program reads version 1"):
+        SqliteMapStore(folder)
+
+
+def test_a_log_without_its_database_is_not_thrown_away(folder: Path) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        grown(store)
+        shutil.copy(folder / f"{FILE}-wal", folder / "kept")
+    (folder / "kept").rename(folder / f"{FILE}-wal")
+    (folder / FILE).unlink()
+    with pytest.raises(StoreError, match=r"maps\.sqlite-wal is there, but not maps\.sqlite"):
+        SqliteMapStore(folder)
+
+
+def test_a_start_that_was_cut_short_is_begun_anew(folder: Path) -> None:
+    folder.mkdir(parents=True)
+    for tail in ("", "-wal", "-journal"):
+        (folder / f"{FILE}.unfinished{tail}").write_bytes(b"half")
+    with SqliteMapStore.owned(folder) as store:
+        grown(store)
+    assert sorted(path.name for path in folder.iterdir()) == ["lock", FILE]
+
+
+def test_room_is_given_back(store: SqliteMapStore, folder: Path) -> None:
+    def pages() -> int:
+        (found,) = store._database._connection.execute("PRAGMA page_count").fetchone()
+        return int(found)
+
+    head = store.create("yard", LARGE * 2, NOTE, 0)
+    before = pages()
+    store.delete(head.uid)
+    assert pages() == before
+    store.give_back()
+    # A little is kept, to be written to again.
+    assert pages() <= VACUUM_PAGES + 20
+
+
+def test_one_process_owns_the_folder(store: SqliteMapStore, folder: Path) -> None:
+    with pytest.raises(StoreLockedError, match="in use"), SqliteMapStore.owned(folder):
+        pass
+
+
+def test_nothing_is_written_to_a_file_that_is_no_longer_there(
+    store: SqliteMapStore, folder: Path
+) -> None:
+    head = grown(store)
+    assert store.writable()
+    (folder / FILE).rename(folder / "gone")
+    for _ in range(2):
+        assert not store.writable()
+        with pytest.raises(StoreError, match="removed") as raised:
+            store.append(head, b"", NOTE, 0)
+        assert raised.value.kind == "failing"
+        (folder / FILE).write_bytes(b"another")
+    (folder / "gone").rename(folder / FILE)
+    assert store.writable()
+    assert store.append(head, b"", NOTE, 0).sequence == head.sequence + 1
+
+
+def test_maps_of_version_0_are_told_not_read(
+    folder: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (folder / "maps").mkdir(parents=True)
+    (folder / "maps" / "yard.safetensors").write_bytes(b"old")
+    with caplog.at_level(logging.WARNING), SqliteMapStore.owned(folder) as store:
+        assert store.heads() == []
+    assert "1 map files" in caplog.text
+    assert "version 0" in caplog.text
+    assert (folder / "maps" / "yard.safetensors").read_bytes() == b"old"
+
+
+def test_a_mark_depends_on_all_that_led_to_it() -> None:
+    marks = {
+        map_store.mark_of(before, sequence, blob)
+        for before in ("a", "b")
+        for sequence in (1, 2)
+        for blob in (b"", b"x")
+    }
+    assert len(marks) == 8

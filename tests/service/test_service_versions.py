@@ -1,0 +1,144 @@
+"""Versions of a map: told, given out, gone back to, and let go of."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from placecell_client import encode
+
+from segments.manifest import Manifest
+from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
+
+
+@pytest.fixture
+def files(service: Any, manifest: Manifest) -> list[bytes]:
+    """A map `yard` with four versions; the file of each."""
+    service.put("/maps/yard", content=encode(map_of(random_codes(9), manifest.model_id)))
+    files = [service.get("/maps/yard").content]
+    for step in range(3):
+        data = edit_of(random_codes(2, step), manifest.model_id, 106 + step)
+        service.post("/maps/yard/segments", content=data)
+        files.append(service.get("/maps/yard").content)
+    return files
+
+
+def test_every_version_is_told_and_given_out(service: Any, files: list[bytes]) -> None:
+    listed = service.get("/maps/yard/versions").json()
+    assert (listed["map"], listed["oldest"]) == ("yard", 1)
+    told = [
+        [one[key] for key in ("sequence", "author", "operation", "changed", "removed")]
+        for one in listed["versions"]
+    ]
+    assert told == [
+        [4, "anyone", "edit", 2, 0],
+        [3, "anyone", "edit", 2, 0],
+        [2, "anyone", "edit", 2, 0],
+        [1, "anyone", "put", 9, 0],
+    ]
+    assert all(one["time"] > 1.7e9 for one in listed["versions"])
+    for sequence, file in enumerate(files, 1):
+        response = service.get(f"/maps/yard?version={sequence}")
+        assert response.content == file
+        assert response.headers["etag"].strip('"') == listed["versions"][-sequence]["etag"]
+    few = service.get("/maps/yard/versions?limit=2").json()["versions"]
+    assert few == listed["versions"][:2]
+
+
+def test_a_restored_version_is_a_new_one_and_can_be_undone(
+    service: Any, files: list[bytes]
+) -> None:
+    response = service.post("/maps/yard/versions/2/restore")
+    assert response.status_code == 200
+    assert response.json()["sequence"] == 5
+    assert response.headers["etag"] == service.get("/maps/yard").headers["etag"]
+    assert service.get("/maps/yard").content == files[1]
+    # Again it changes nothing: a request whose answer was lost may be repeated.
+    assert service.post("/maps/yard/versions/2/restore").json()["sequence"] == 5
+    assert service.post("/maps/yard/versions/4/restore").json()["sequence"] == 6
+    assert service.get("/maps/yard").content == files[3]
+    for sequence, file in enumerate([*files, files[1], files[3]], 1):
+        assert service.get(f"/maps/yard?version={sequence}").content == file
+    assert service.get("/maps/yard/versions").json()["versions"][0]["operation"] == "restore"
+
+
+def test_to_go_back_may_be_tied_to_what_was_seen(service: Any, files: list[bytes]) -> None:
+    stale = service.get("/maps/yard?version=3").headers["etag"]
+    refused = service.post("/maps/yard/versions/1/restore", headers={"If-Match": stale})
+    assert_problem(refused, 412, "precondition-failed")
+    now = {"If-Match": service.get("/maps/yard").headers["etag"]}
+    assert service.post("/maps/yard/versions/1/restore", headers=now).status_code == 200
+
+
+@pytest.mark.parametrize("keep", [1, 2, 3, 4, 9])
+def test_compaction_keeps_the_newest(start: Any, manifest: Manifest, keep: int) -> None:
+    with start() as service:
+        service.put("/maps/yard", content=encode(map_of(random_codes(9), manifest.model_id)))
+        for step in range(3):
+            data = edit_of(random_codes(2, step), manifest.model_id, 106 + step)
+            service.post("/maps/yard/segments", content=data)
+        files = [service.get(f"/maps/yard?version={one}").content for one in range(1, 5)]
+        tag = service.get("/maps/yard").headers["etag"]
+        oldest = max(1, 5 - keep)
+        done = service.post(f"/maps/yard/compact?keep={keep}").json()
+        assert (done["oldest"], done["sequence"]) == (oldest, 4)
+        assert service.get("/maps").json()["maps"][0]["bytes"] == done["bytes"]
+        assert service.get("/maps/yard").headers["etag"] == tag
+    with start() as service:
+        for sequence, file in enumerate(files, 1):
+            response = service.get(f"/maps/yard?version={sequence}")
+            if sequence < oldest:
+                assert_problem(response, 410, "version-gone", f"first is now {oldest}")
+                refused = service.post(f"/maps/yard/versions/{sequence}/restore")
+                assert_problem(refused, 410, "version-gone")
+            else:
+                assert response.content == file
+        listed = service.get("/maps/yard/versions").json()
+        assert listed["oldest"] == oldest
+        assert [one["sequence"] for one in listed["versions"]] == list(range(4, oldest - 1, -1))
+        assert service.get("/maps/yard").headers["etag"] == tag
+        # And it goes on from there.
+        data = edit_of(random_codes(2, 9), manifest.model_id, 500)
+        assert service.post("/maps/yard/segments", content=data).json()["sequence"] == 5
+        again = service.post(f"/maps/yard/compact?keep={keep + 1}").json()
+        assert again["oldest"] == oldest
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status", "kind"),
+    [
+        ("GET", "/maps/yard?version=5", 404, "unknown-version"),
+        ("GET", "/maps/yard?version=0", 422, "invalid-request"),
+        ("GET", "/maps/yard?version=x", 422, "invalid-request"),
+        ("GET", "/maps/yard?version=99999999999999999999", 422, "invalid-request"),
+        ("GET", "/maps/other?version=1", 404, "unknown-map"),
+        ("GET", "/maps/other/versions", 404, "unknown-map"),
+        ("GET", "/maps/yard/versions?limit=0", 422, "invalid-request"),
+        ("POST", "/maps/yard/versions/5/restore", 404, "unknown-version"),
+        ("POST", "/maps/yard/versions/0/restore", 422, "invalid-request"),
+        ("POST", "/maps/yard/versions/x/restore", 422, "invalid-request"),
+        ("POST", "/maps/other/versions/1/restore", 404, "unknown-map"),
+        ("POST", "/maps/other/compact", 404, "unknown-map"),
+        ("POST", "/maps/yard/compact?keep=0", 422, "invalid-request"),
+        ("PUT", "/maps/yard/versions", 405, "method-not-allowed"),
+    ],
+)
+def test_what_cannot_be_is_told(
+    service: Any, files: list[bytes], method: str, path: str, status: int, kind: str
+) -> None:
+    assert_problem(service.request(method, path), status, kind)
+    assert service.get("/maps/yard").content == files[-1]
+
+
+def test_a_clock_that_jumps_changes_only_what_is_told(
+    start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times = iter([5e9, 1.0, 2e9])
+    with start() as service:
+        monkeypatch.setattr(service.app.state.placecell.maps, "_clock", lambda: next(times))
+        service.put("/maps/yard", content=encode(map_of(random_codes(2), manifest.model_id)))
+        for step in range(2):
+            data = edit_of(random_codes(1, step), manifest.model_id, 500)
+            service.post("/maps/yard/segments", content=data)
+    with start() as service:
+        listed = service.get("/maps/yard/versions").json()["versions"]
+        assert [(one["sequence"], one["time"]) for one in listed] == [(3, 2e9), (2, 1.0), (1, 5e9)]
