@@ -194,7 +194,9 @@ def opened(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline:
         maps = []
         for head in store.heads():
             with store.read(head.uid) as history:
-                tags = [(each.sequence, tag_of(each.sequence, each.mark)) for each in history.commits()]
+                tags = [
+                    (each.sequence, tag_of(each.sequence, each.mark)) for each in history.commits()
+                ]
             file = encode(newest(store, head, cache)[0].content())
             maps.append((head.name, tuple(tags), hashlib.sha256(file).hexdigest()))
         if wrong := store.verify():

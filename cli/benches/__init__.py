@@ -5,6 +5,7 @@ import typer
 from cli.benches.describe import describe
 from cli.benches.ladder import ladder
 from cli.benches.maps import maps
+from cli.benches.peers import peers
 from cli.benches.serve import serve
 from cli.benches.soak import soak
 from cli.benches.town import town
@@ -18,3 +19,4 @@ bench.command()(maps)
 bench.command()(ladder)
 bench.command()(town)
 bench.command()(views)
+bench.command()(peers)
