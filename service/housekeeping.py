@@ -75,14 +75,12 @@ class Housekeeper:
         for stored in self._maps.all():
             if self._stopped.is_set():
                 return
-            try:
+            with _told(f"map {stored.name!r}"):
                 self._care(stored)
-            except Exception:
-                # A thread that ends would be missed by nobody until the disk is full.
-                logger.exception("housekeeping failed at map %r", stored.name)
-        self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
-        self._changes.forget()
-        self._maps.store.give_back()
+        with _told("the data directory"):
+            self._changes.forget()
+            self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
+            self._maps.store.give_back()
 
     def _work(self) -> None:
         while not self._stopped.wait(self._bounds.seconds):
@@ -126,6 +124,15 @@ class Housekeeper:
             file = encode(version_of(history, oldest).content())
         self._maps.compact(head, oldest, file)
         logger.info("map %r: versions before %d were let go", head.name, oldest)
+
+
+@contextmanager
+def _told(where: str) -> Iterator[None]:
+    """What fails is told; a thread that ended would be missed by nobody until the disk is full."""
+    try:
+        yield
+    except Exception:
+        logger.exception("housekeeping failed at %s", where)
 
 
 def release_memory() -> None:

@@ -96,7 +96,7 @@ class Writer:
             stored = self.maps.find(name) if create else self.maps.get(name)
             layers = stored.layers if stored is not None else Layers.of(take(edit.changed, NONE))
             check_joins(edit.changed, name, layers.base)
-            seen = self._sighting(edit.changed, layers) if deduplicate else None
+            seen = self._sighting(edit, layers) if deduplicate else None
             if seen is not None:
                 edit = replace(edit, changed=seen.changed)
             if stored is None:
@@ -172,11 +172,12 @@ class Writer:
         except OutOfIdsError as error:
             raise Problem(409, "out-of-ids", f"Map {name!r}: {error}.") from error
 
-    def _sighting(self, upload: CompactMap, layers: Layers) -> Sighting:
-        model = self.models.named(upload.model_id)
+    def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
+        upload, model = edit.changed, self.models.named(edit.changed.model_id)
         there = layers.about(upload.centroids, RADIUS)
-        same_ids = layers.take(upload.ids)
-        stored = apply(there, Delta(same_ids, NONE))
+        stored = apply(there, Delta(layers.take(upload.ids), NONE))
+        # What the edit removes was not seen again.
+        stored = take(stored, ~np.isin(stored.ids, edit.removed))
         same_view = SAME_VIEW * model.manifest.pair_threshold / model.manifest.quantiser.step
         return sighting(upload, stored, model.manifest.quantiser, same_view)
 

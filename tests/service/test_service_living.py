@@ -209,6 +209,13 @@ def test_over_http(service: Any, manifest: Manifest) -> None:
         assert (again.json()["segments"], again.json()["sequence"]) == (3, 2)
     stored = decode(service.get("/maps/site").content)
     assert told(stored) == [(1, 1, 20), (2, 2, 10), (4, 2, 20)]
+    # What an edit removes it has not seen again, whatever stands there now.
+    upload = seen_at(25, [5], [0.1], [0], model_id=manifest.model_id)
+    instead = service.post(
+        "/maps/site/segments?deduplicate=true",
+        content=encode_delta(Delta(upload, np.array([1], np.uint32))),
+    ).json()
+    assert (instead["changed"], instead["removed"], instead["repeats"]) == (1, 1, 0)
     # What was not seen again can be told from what was.
     assert service.post("/maps/site/age?unseen_since=15").json()["removed"] == 1
     plain = seen_at(30, [9], [0.1], [0], model_id=manifest.model_id)
