@@ -156,5 +156,5 @@ def _data(arguments: str) -> bytes:
 
 
 def _bytes(text: str) -> bytes:
-    """Of `\\x41\\x42`."""
+    r"""Of `\x41\x42`."""
     return bytes.fromhex(text.replace("\\x", ""))

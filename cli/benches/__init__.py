@@ -2,6 +2,7 @@
 
 import typer
 
+from cli.benches.crash import crash, powerloss
 from cli.benches.describe import describe
 from cli.benches.ladder import ladder
 from cli.benches.maps import maps
@@ -20,3 +21,5 @@ bench.command()(ladder)
 bench.command()(town)
 bench.command()(views)
 bench.command()(peers)
+bench.command()(crash)
+bench.command()(powerloss)
