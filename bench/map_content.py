@@ -2,8 +2,8 @@
 
 A thing's descriptor is that of a real segment; of more things than there are, the mean of two real
 segments' times the root of two, which keeps their spread (descriptors lie about 0). Each view of a
-thing, in the map or asked for, adds the difference between two real segments of one group, drawn at
-random: what really separates views of one thing.
+thing, in the map or asked for, adds the difference between two real segments of one group that were
+seen from 5 m apart or more, drawn at random: what really separates views of one thing.
 """
 
 from dataclasses import dataclass
@@ -21,6 +21,9 @@ VIEWS = 4
 
 SEGMENTS_A_FRAME = 40
 METRES_A_FRAME = 1.0
+
+APART = 5.0
+"""Metres between the places that two views are from: nearer ones are too easy to find."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,7 +64,7 @@ class Views:
         """From a recording.
 
         Raises:
-            ValueError: it has no groups of two or more.
+            ValueError: no group was seen from places far enough apart.
         """
         around = extractor.manifest.surroundings
         chosen = np.flatnonzero(recording.distinct)
@@ -71,9 +74,11 @@ class Views:
         # In random order within their groups: each with the next of its group.
         shuffled = np.random.default_rng(seed).permutation(len(groups))
         order = shuffled[np.argsort(groups[shuffled], kind="stable")]
+        sensors = recording.segments.sensors[chosen][order]
         same = groups[order[1:]] == groups[order[:-1]]
+        same &= np.linalg.norm(np.diff(sensors, axis=0), axis=1) >= APART
         if not same.any():
-            raise ValueError(f"{recording.name}: no two segments are of one group")
+            raise ValueError(f"{recording.name}: no group was seen from {APART:g} m apart")
         _, first = np.unique(groups[order], return_index=True)
         apart = found[order[1:][same]] - found[order[:-1][same]]
         return cls(extractor.manifest, found[order[first]], apart)

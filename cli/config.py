@@ -26,6 +26,8 @@ def config() -> None:
         settings = Settings()
         file = settings_file()
         stated = tomllib.loads(file.read_text()) if file.is_file() else {}
+    # Their names may be written in any case.
+    environment = {name.upper(): value for name, value in os.environ.items()}
     table = Table("setting", "value", "from", "meaning")
 
     def rows(model: BaseModel, inside: str, stated: dict[str, Any]) -> None:
@@ -37,8 +39,8 @@ def config() -> None:
             variable = PREFIX + (inside + name).upper()
             source = str(file) if name in stated else "default"
             # A group can also be given as one JSON object.
-            group = os.environ.get(PREFIX + inside.rstrip("_").upper(), "{}") if inside else "{}"
-            if variable in os.environ or name in json.loads(group):
+            group = environment.get(PREFIX + inside.rstrip("_").upper(), "{}") if inside else "{}"
+            if variable in environment or name in json.loads(group):
                 source = "environment"
             shown = ", ".join(value) if isinstance(value, tuple) else str(value)
             table.add_row(variable, shown, source, field.description or "")

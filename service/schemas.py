@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Generic, Literal, Self, TypeVar
 
 from placecell_client.compact_map import COORDINATE_LIMIT
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from service.settings import Limits
 
@@ -73,28 +73,23 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         return self
 
 
+EXAMPLE: dict[str, JsonValue] = {
+    "points": [[8.0, 2.0 + step / 8, step / 4] for step in range(12)],
+    "sensor": [0.0, 0.0, 1.8],
+}
+"""A segment that can be described: the smallest, for the eye."""
+
+
 class DescribeRequest(ScanRequest[SegmentIn]):
     """The segments of one scan."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"segments": [{"points": [[4.1, 2.0, 0.4], [4.2, 2.0, 0.5]], "sensor": [0, 0, 1]}]}
-            ]
-        }
-    )
+    model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
 class MatchRequest(QueryRequest[SegmentIn, Codes]):
     """Queries, as segments or as descriptors, and where to look for them."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"model_id": "group-0123456789abcdef", "codes": [[3, -7]], "maps": ["yard"], "k": 5}
-            ]
-        }
-    )
+    model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE], "k": 5}]})
 
 
 class ItemErrorOut(BaseModel):
@@ -197,6 +192,9 @@ class WrittenOut(BaseModel):
     segments: int = Field(description="In the map after it.")
     changed: int = Field(description="Segments added or replaced.")
     removed: int = Field(description="Segments removed.")
+    repeats: int = Field(
+        0, description="Segments that were not stored, for they were seen before (`deduplicate`)."
+    )
 
 
 class IdsOut(BaseModel):

@@ -11,28 +11,47 @@ writes two drives along the same streets in opposite directions, in the KITTI od
     route = Route.wander(town, length=400.0)
     write_drive(Path("out/drive"), town, route, traffic_seed=1, scans=350)
 
-writes one. Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
+writes one. A large town has tens of kilometres of streets, of which only what is near is built:
+
+    city = City.build(seed=7, metres=20_000.0)
+    route = city.route(city.planner.every_street())
+    several_robots(Path("out/city"), city, route, robots=2)
+
+Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
 `origin.txt` takes it to the town frame); the *sensor frame* (x ahead, y left, z up).
 """
 
 from town.block import SceneObject
+from town.city import City
 from town.drive import read_origin, write_drive
 from town.lidar import HDL_64E, Lidar
 from town.mesh import Mesh
-from town.robots import two_robots
+from town.odometry import ODOMETRY_FILE, Odometry
+from town.pairs import Pair, Traversal, draw_pairs
+from town.planner import Planner
+from town.robots import several_robots, two_robots, way_of
 from town.route import Route
 from town.scene import Scene
 from town.town import Town
 
 __all__ = [
     "HDL_64E",
+    "ODOMETRY_FILE",
+    "City",
     "Lidar",
     "Mesh",
+    "Odometry",
+    "Pair",
+    "Planner",
     "Route",
     "Scene",
     "SceneObject",
     "Town",
+    "Traversal",
+    "draw_pairs",
     "read_origin",
+    "several_robots",
     "two_robots",
+    "way_of",
     "write_drive",
 ]

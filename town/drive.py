@@ -8,9 +8,12 @@ import numpy as np
 
 from segments.extraction import Progress, silent
 from segments.types import Float64
+from town.city import City
 from town.lidar import HDL_64E, Lidar
+from town.odometry import ODOMETRY_FILE, Odometry
+from town.oncoming import Oncoming
 from town.route import Route
-from town.scene import Scene
+from town.scene import Layers, Scene, Scenes, Surfaces
 from town.town import Town
 
 SENSOR_TO_CAMERA = np.array(
@@ -25,18 +28,20 @@ SENSOR_TO_CAMERA = np.array(
 
 SCANS_PER_SECOND = 10.0
 
-FILES = ("calib.txt", "poses.txt", "times.txt", "origin.txt")
+FILES = ("calib.txt", "poses.txt", ODOMETRY_FILE, "times.txt", "origin.txt")
 
 
 def write_drive(
     folder: Path,
-    town: Town,
+    town: Town | City,
     route: Route,
     *,
     traffic_seed: int,
     scans: int,
     spacing: float = 1.0,
     noise_seed: int = 0,
+    odometry: Odometry | None = None,
+    oncoming: float = 0.0,
     lidar: Lidar = HDL_64E,
     overwrite: bool = False,
     progress: Progress = silent,
@@ -49,19 +54,69 @@ def write_drive(
     frame. The drive's world frame (that of the poses, as `segments.drives` reads them) has its
     origin at the first scan's sensor and its x axis along the first scan's heading, but is level:
     a robot knows which way is up, so the first pose holds the street's slope at its start. With
-    `origin.txt`, drives of one town can be compared in one true frame.
+    `origin.txt`, drives of one town can be compared in one true frame. With an odometry there is a
+    second file in the form of `poses.txt`, `poses_odometry.txt`: the first pose is the same, the
+    others are where the robot believes to be (`KittiOdometry(folder, ODOMETRY_FILE)` reads them).
 
     Args:
         folder: made if it is missing.
         traffic_seed: which cars are parked where.
         scans: how many.
         spacing: metres between scans along the lane.
-        noise_seed: of the sensor's noise.
+        noise_seed: of the sensor's noise, and of the odometry's.
+        odometry: how it errs, if the robot has one.
+        oncoming: cars that come the other way, a kilometre of the route.
         overwrite: replace the drive that the folder holds.
         progress: wraps the loop over the scans.
 
     Returns:
         the folder.
+
+    Raises:
+        FileExistsError: the folder is not empty, and `overwrite` is not set.
+        ValueError: the route is too short, there is to be no scan, or no such number of cars.
+    """
+    check(folder, route, scans, spacing, overwrite)
+    cars = Oncoming.draw(route, oncoming, traffic_seed)
+    clear(folder)
+    distances = scan_distances(scans, spacing)
+    poses = route.poses(distances, lidar.height)
+    scenes = town.scenes(traffic_seed, lidar.max_range)
+    for scan in progress(range(scans), scans, f"scans of {folder.name}"):
+        rng = np.random.default_rng([noise_seed, scan])
+        sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
+        scene = seen_from(poses[scan, :2, 3], scenes, cars, scan / SCANS_PER_SECOND)
+        points = lidar.scan(scene, sweep, poses[scan], rng)
+        (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
+    origin = levelled(poses[0])
+    (folder / "poses.txt").write_text(matrix_lines(as_camera(poses, origin)))
+    if odometry is not None:
+        believed = odometry.poses(poses, noise_seed)
+        (folder / ODOMETRY_FILE).write_text(matrix_lines(as_camera(believed, origin)))
+    times = np.arange(scans) / SCANS_PER_SECOND
+    (folder / "origin.txt").write_text(matrix_lines(origin[None]))
+    (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
+    (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
+    return folder
+
+
+def seen_from(place: Float64, scenes: Scenes, cars: Oncoming, time: float) -> Surfaces:
+    """What rays from a place (2,) are cast at, at a time in seconds."""
+    standing = scenes.around(place)
+    moving = cars.around(place, time)
+    return Layers(standing, Scene(moving)) if len(moving) else standing
+
+
+def scan_distances(scans: int, spacing: float) -> Float64:
+    """Metres along the lane at which scans are taken: (scans,).
+
+    A sweep reaches half a spacing to both sides of its scan's pose.
+    """
+    return np.asarray(spacing * (np.arange(scans, dtype=np.float64) + 0.5))
+
+
+def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: bool) -> None:
+    """See that a drive can be written.
 
     Raises:
         FileExistsError: the folder is not empty, and `overwrite` is not set.
@@ -74,42 +129,30 @@ def write_drive(
             f"the route is {route.length():.1f} m long: too short for {scans} scans "
             f"{spacing} m apart"
         )
-    clear(folder, overwrite)
-    # A sweep reaches half a spacing to both sides of its scan's pose.
-    distances: Float64 = spacing * (np.arange(scans, dtype=np.float64) + 0.5)
-    poses = route.poses(distances, lidar.height)
-    scene = Scene(town.mesh(traffic_seed))
-    for scan in progress(range(scans), scans, f"scans of {folder.name}"):
-        rng = np.random.default_rng([noise_seed, scan])
-        sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
-        points = lidar.scan(scene, sweep, poses[scan], rng)
-        (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
-    origin = levelled(poses[0])
-    camera = SENSOR_TO_CAMERA @ np.linalg.inv(origin) @ poses @ np.linalg.inv(SENSOR_TO_CAMERA)
-    times = np.arange(scans) / SCANS_PER_SECOND
-    (folder / "poses.txt").write_text(matrix_lines(camera))
-    (folder / "origin.txt").write_text(matrix_lines(origin[None]))
-    (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
-    (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
-    return folder
-
-
-def clear(folder: Path, overwrite: bool) -> None:
-    """Make the folder ready for a new drive.
-
-    Raises:
-        FileExistsError: it is not empty, and `overwrite` is not set.
-    """
     if folder.is_dir() and any(folder.iterdir()) and not overwrite:
         raise FileExistsError(
             f"{folder} is not empty: give another folder, or overwrite=True to replace its drive"
         )
+
+
+def clear(folder: Path) -> None:
+    """Make the folder ready for a new drive."""
     # Only what a drive consists of is taken away: no scan of a longer drive may stay behind.
     if (folder / "velodyne").is_dir():
         shutil.rmtree(folder / "velodyne")
     for name in FILES:
         (folder / name).unlink(missing_ok=True)
     (folder / "velodyne").mkdir(parents=True)
+
+
+def as_camera(poses: Float64, origin: Float64) -> Float64:
+    """Poses (n, 4, 4) of the sensor in the town frame, as KITTI's of the left camera.
+
+    Args:
+        origin: (4, 4) the drive's world to the town frame.
+    """
+    to_world = SENSOR_TO_CAMERA @ np.linalg.inv(origin)
+    return np.asarray(to_world @ poses @ np.linalg.inv(SENSOR_TO_CAMERA))
 
 
 def levelled(pose: Float64) -> Float64:

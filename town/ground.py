@@ -1,10 +1,12 @@
 """The ground as a mesh: carriageways, kerbs, and the raised blocks between them."""
 
+from dataclasses import dataclass
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 
-from segments.types import Bool, Float64
+from segments.types import Bool, Float64, Int64
 from town.mesh import Mesh, Reflectance
 from town.plan import KERB_HEIGHT, Plan
 from town.terrain import Terrain
@@ -16,19 +18,73 @@ KERB_WIDTH = 0.02
 """A kerb rises over this distance: all but upright, and still a height field."""
 
 
-def ground_mesh(plan: Plan, terrain: Terrain) -> Mesh:
-    """The town's ground."""
-    spans_x, spans_y = plan.spans()
-    x, y = grid_lines(spans_x), grid_lines(spans_y)
-    places = terrain.bend(np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1))
-    on_block = inside(x, spans_x)[:, None] & inside(y, spans_y)[None, :]
-    height = terrain.height(places) + KERB_HEIGHT * on_block
-    corners = np.concatenate([places, height[..., None]], axis=-1)
-    cells = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], 2)
-    paved = on_block[:-1, :-1] & on_block[1:, 1:]
-    reflectance = np.where(paved, Reflectance.PAVING, Reflectance.ASPHALT)
-    mesh = Mesh.of_quads(cells.reshape(-1, 4, 3), 0.0)
-    return Mesh(mesh.triangles, np.repeat(reflectance.ravel(), 2).astype(np.float32))
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """A height field on the lines of a grid, which has a line at both edges of every kerb.
+
+    *Regions* of a line of n streets, in turn: the rim (0), block 0 (1), street 0 (2), block 1 (3),
+    and so on to the other rim (2n + 2).
+
+    Attributes:
+        terrain: it lies on.
+        x, y: the grid's lines on the plan, rising, metres.
+        regions_x, regions_y: the region that each line lies in.
+        raised: (2n + 3, 2m + 3): where the ground is a kerb higher than a carriageway, by region.
+    """
+
+    terrain: Terrain
+    x: Float64
+    y: Float64
+    regions_x: Int64
+    regions_y: Int64
+    raised: Bool
+
+    @classmethod
+    def of(cls, plan: Plan, terrain: Terrain, raised: Bool | None = None) -> Self:
+        """The ground of a town, with all the streets of its plan unless `raised` says otherwise."""
+        spans_x, spans_y = plan.spans()
+        x, y = grid_lines(spans_x), grid_lines(spans_y)
+        if raised is None:
+            raised = np.zeros((2 * len(spans_x) + 1, 2 * len(spans_y) + 1), dtype=bool)
+            raised[1::2, 1::2] = True
+        return cls(terrain, x, y, regions(x, spans_x), regions(y, spans_y), raised)
+
+    def mesh(self, columns: slice = slice(None), rows: slice = slice(None)) -> Mesh:
+        """The ground as a mesh, or a part of it.
+
+        Args:
+            columns, rows: which of the grid's lines. Parts that share their outer lines join
+                without a gap.
+        """
+        x, y = self.x[columns], self.y[rows]
+        on_block = self.raised[np.ix_(self.regions_x[columns], self.regions_y[rows])]
+        places = self.terrain.bend(np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1))
+        height = self.terrain.height(places) + KERB_HEIGHT * on_block
+        corners = np.concatenate([places, height[..., None]], axis=-1)
+        cells = np.stack(
+            [corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], 2
+        )
+        paved = on_block[:-1, :-1] & on_block[1:, 1:]
+        reflectance = np.where(paved, Reflectance.PAVING, Reflectance.ASPHALT)
+        mesh = Mesh.of_quads(cells.reshape(-1, 4, 3), 0.0)
+        return Mesh(mesh.triangles, np.repeat(reflectance.ravel(), 2).astype(np.float32))
+
+    def tile(self, column: int, row: int) -> Mesh:
+        """Block (column, row) with the streets on its east and north; tiles make up the ground."""
+        return self.mesh(tile_lines(self.regions_x, column), tile_lines(self.regions_y, row))
+
+    def boxes(self) -> Float64:
+        """Where the tiles lie: (columns, rows, 2, 2), lowest and highest x and y, town frame."""
+        columns, rows = ((side - 1) // 2 for side in self.raised.shape)
+        boxes = np.empty((columns, rows, 2, 2))
+        for column, row in np.ndindex(columns, rows):
+            x, y = (
+                self.x[tile_lines(self.regions_x, column)],
+                self.y[tile_lines(self.regions_y, row)],
+            )
+            places = self.terrain.bend(np.stack(np.meshgrid(x, y), axis=-1)).reshape(-1, 2)
+            boxes[column, row] = places.min(axis=0), places.max(axis=0)
+        return boxes
 
 
 def grid_lines(spans: Float64) -> Float64:
@@ -42,7 +98,13 @@ def grid_lines(spans: Float64) -> Float64:
     return np.concatenate([*parts, edges[-1:]])
 
 
-def inside(lines: Float64, spans: Float64) -> Bool:
-    """Which lines lie on a block's raised part."""
-    low, high = spans[:, 0] + KERB_WIDTH, spans[:, 1] - KERB_WIDTH
-    return np.asarray(((lines[:, None] >= low) & (lines[:, None] <= high)).any(axis=1))
+def regions(lines: Float64, spans: Float64) -> Int64:
+    """The region that each line lies in: (lines,); a kerb's lower edge is part of the street."""
+    starts, ends = spans[:, 0] + KERB_WIDTH, spans[:, 1] - KERB_WIDTH
+    return np.searchsorted(starts, lines, side="right") + np.searchsorted(ends, lines, side="left")
+
+
+def tile_lines(regions: Int64, block: int) -> slice:
+    """Lines from a block's kerb to the next block's, or to the end."""
+    first, last = np.searchsorted(regions, [2 * block + 1, 2 * block + 3]) - 1
+    return slice(int(first), int(last) + 1)

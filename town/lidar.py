@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from segments.types import Float32, Float64
-from town.scene import Scene
+from town.scene import Surfaces
 
 
 def hdl_64e_elevations() -> tuple[float, ...]:
@@ -37,6 +37,8 @@ class Lidar:
         max_range: nothing farther returns, metres.
         range_at_tenth: how far a surface of reflectance 0.1 is seen, metres; the brightness that
             comes back falls with the square of the range, so darker ones vanish sooner.
+        rain: millimetres an hour (2 is light, 10 heavy): less light comes back, so what is far and
+            dark vanishes (Goodin et al., Predicting the Influence of Rain on LIDAR in ADAS, 2019).
     """
 
     columns: int = 1000
@@ -48,6 +50,7 @@ class Lidar:
     min_range: float = 0.9
     max_range: float = 100.0
     range_at_tenth: float = 50.0
+    rain: float = 0.0
 
     def sweep_times(self) -> Float64:
         """When each column is fired, in turns from the middle of the sweep: (columns,)."""
@@ -62,7 +65,7 @@ class Lidar:
         up = np.broadcast_to(np.sin(elevation), ahead.shape)
         return np.stack([ahead, left, up], axis=-1).astype(np.float32)
 
-    def scan(self, scene: Scene, sweep: Float64, pose: Float64, rng: np.random.Generator) \
+    def scan(self, scene: Surfaces, sweep: Float64, pose: Float64, rng: np.random.Generator) \
             -> Float32:  # fmt: skip
         """One turn.
 
@@ -87,7 +90,11 @@ class Lidar:
         measured = ranges + noise
         measured = np.round(measured / self.resolution) * np.float32(self.resolution)
         kept &= (hit >= 0) & (measured >= self.min_range) & (measured <= self.max_range)
-        kept &= reflectance * np.float32(self.range_at_tenth**2) >= np.float32(0.1) * ranges**2
+        lost = np.float32(2 * 0.01 * self.rain**0.6) * np.minimum(
+            ranges, np.float32(self.max_range)
+        )
+        bright = reflectance * np.exp(-lost)
+        kept &= bright * np.float32(self.range_at_tenth**2) >= np.float32(0.1) * ranges**2
         relative = np.linalg.inv(pose) @ sweep
         turned = np.matmul(directions, relative[:, :3, :3].astype(np.float32).transpose(0, 2, 1))
         column = np.flatnonzero(kept) // len(self.elevations)

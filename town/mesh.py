@@ -69,6 +69,10 @@ class Mesh:
         turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
         return Mesh(self.triangles @ turn + (x, y, z), self.reflectance)
 
+    def transformed(self, pose: Float64) -> "Mesh":
+        """Moved by a rigid transform (4, 4)."""
+        return Mesh(self.triangles @ pose[:3, :3].T + pose[:3, 3], self.reflectance)
+
     def bounds(self) -> Float64:
         """Lowest and highest x, y, z: (2, 3)."""
         corners = self.triangles.reshape(-1, 3)

@@ -5,6 +5,7 @@ The plan is straight; `Terrain.bend` takes it to the town frame. Metres, x east,
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import Self
 
 import numpy as np
@@ -21,6 +22,10 @@ BAY_WIDTH = 2.2
 """Parking bays lie along the kerb, on the carriageway."""
 
 
+Crossing = tuple[int, int]
+"""Column and row of the streets that cross; one less or more than there are: beyond the town."""
+
+
 @dataclass(frozen=True, slots=True)
 class Frontage:
     """One side of one block: the frame in which its street is furnished.
@@ -32,11 +37,13 @@ class Frontage:
         corner: (2,) the frame's origin on the plan, where two kerbs meet.
         heading: of its x axis on the plan, radians.
         length: of the kerb to the next corner.
+        street: the crossings at its two ends.
     """
 
     corner: Float64
     heading: float
     length: float
+    street: tuple[Crossing, Crossing]
 
     def on_plan(self, x: float, y: float) -> Float64:
         """A place of this frame, on the plan: (2,)."""
@@ -90,20 +97,31 @@ class Plan:
         """From kerb to kerb: where the blocks lie on x (n + 1, 2) and on y (m + 1, 2)."""
         return block_spans(self.easts, self.east_kerbs), block_spans(self.norths, self.north_kerbs)
 
-    def frontages(self) -> Iterator[Frontage]:
-        """Every block's sides that lie on a street, block by block, anticlockwise."""
+    def blocks(self) -> Iterator[tuple[int, int]]:
+        """Columns and rows of the blocks: block (i, j) lies south-west of crossing (i, j)."""
+        return product(range(len(self.easts) + 1), range(len(self.norths) + 1))
+
+    def block(self, column: int, row: int) -> Iterator[Frontage]:
+        """A block's sides that lie on a street, anticlockwise."""
         spans_x, spans_y = self.spans()
-        for i, (west, east) in enumerate(spans_x):
-            for j, (south, north) in enumerate(spans_y):
-                sides = [
-                    (j > 0, (west, south), 0.0, east - west),
-                    (i < len(spans_x) - 1, (east, south), np.pi / 2, north - south),
-                    (j < len(spans_y) - 1, (east, north), np.pi, east - west),
-                    (i > 0, (west, north), -np.pi / 2, north - south),
-                ]
-                for on_street, corner, heading, length in sides:
-                    if on_street:
-                        yield Frontage(np.array(corner), heading, float(length))
+        (west, east), (south, north) = spans_x[column], spans_y[row]
+        here = (column, row)
+        corners = [(column - 1, row - 1), (column, row - 1), here, (column - 1, row)]
+        sides = [
+            (row > 0, (west, south), 0.0, east - west),
+            (column < len(self.easts), (east, south), np.pi / 2, north - south),
+            (row < len(self.norths), (east, north), np.pi, east - west),
+            (column > 0, (west, north), -np.pi / 2, north - south),
+        ]
+        for side, (on_street, corner, heading, length) in enumerate(sides):
+            if on_street:
+                ends = (corners[side], corners[(side + 1) % 4])
+                yield Frontage(np.array(corner), heading, float(length), ends)
+
+    def frontages(self) -> Iterator[Frontage]:
+        """Every block's sides that lie on a street, block by block."""
+        for column, row in self.blocks():
+            yield from self.block(column, row)
 
 
 def block_spans(lines: Float64, kerbs: Float64) -> Float64:

@@ -1,11 +1,14 @@
-"""Two robots in one town: the case that place recognition between robots is for."""
+"""Robots in one town: the case that place recognition between robots is for."""
 
 from dataclasses import replace
 from pathlib import Path
+from string import ascii_lowercase
 
 from segments.extraction import Progress, silent
-from town.drive import write_drive
-from town.lidar import HDL_64E
+from town.city import City
+from town.drive import check, write_drive
+from town.lidar import HDL_64E, Lidar
+from town.odometry import Odometry
 from town.route import Route
 from town.town import Town
 
@@ -58,3 +61,70 @@ def two_robots(
         )
         drives.append(drive)
     return drives[0], drives[1]
+
+
+def several_robots(
+    folder: Path,
+    city: City,
+    route: Route,
+    robots: int,
+    *,
+    scans: int | None = None,
+    spacing: float = 1.0,
+    lidar: Lidar = HDL_64E,
+    odometry: Odometry | None = None,
+    oncoming: float = 0.0,
+    overwrite: bool = False,
+    progress: Progress = silent,
+) -> list[Path]:
+    """Drives `robot_a`, `robot_b`, ... along one route of a large town.
+
+    Every second robot drives the other way, so in the other lane. For each, other cars are parked
+    and others come towards it, and its odometry errs in its own way.
+
+    Args:
+        folder: gets the drives.
+        robots: how many, up to 26.
+        scans: of each drive; all of the route unless given.
+        spacing: metres between scans.
+        odometry: how it errs, of all of them, if they have one.
+        oncoming: cars that come the other way, a kilometre.
+        overwrite: replace drives that are there.
+        progress: wraps the loops over the scans.
+
+    Returns:
+        the drives' folders.
+
+    Raises:
+        FileExistsError: a drive is there already, and `overwrite` is not set.
+        ValueError: no such number of robots, scans or cars.
+    """
+    if not 1 <= robots <= len(ascii_lowercase):
+        raise ValueError(f"there can be 1 to {len(ascii_lowercase)} robots, not {robots}")
+    drives = [folder / f"robot_{ascii_lowercase[number]}" for number in range(robots)]
+    ways = [way_of(number, route, scans, spacing) for number in range(robots)]
+    for drive, (way, count) in zip(drives, ways, strict=True):
+        # Before the first of them is driven, which may take hours.
+        check(drive, way, count, spacing, overwrite)
+    for number, (drive, (way, count)) in enumerate(zip(drives, ways, strict=True)):
+        write_drive(
+            drive,
+            city,
+            way,
+            traffic_seed=number,
+            noise_seed=len(ascii_lowercase) * city.seed + number,
+            scans=count,
+            spacing=spacing,
+            lidar=lidar,
+            odometry=odometry,
+            oncoming=oncoming,
+            overwrite=overwrite,
+            progress=progress,
+        )
+    return drives
+
+
+def way_of(number: int, route: Route, scans: int | None, spacing: float) -> tuple[Route, int]:
+    """The way that a robot takes, every second one backwards, and how many scans it takes there."""
+    way = route.reversed() if number % 2 else route
+    return way, int(way.length() / spacing) if scans is None else scans

@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Self
 
 import numpy as np
 
 from segments.types import Float64
-from town.plan import Plan
+from town.plan import Crossing, Plan
 from town.terrain import Terrain
 from town.town import Town
 
@@ -47,8 +48,15 @@ class Route:
         for (i, j), (k, m) in pairwise(crossings):
             if abs(i - k) + abs(j - m) != 1:
                 raise ValueError(f"no street joins the crossings {(i, j)} and {(k, m)} directly")
-        corners = np.stack([town.plan.crossing(*crossing) for crossing in crossings])
-        return cls(town.terrain, town.terrain.bend(rounded(corners)), lane_offset)
+        return cls.over(town.plan, town.terrain, crossings, lane_offset)
+
+    @classmethod
+    def over(
+        cls, plan: Plan, terrain: Terrain, crossings: Sequence[Crossing], lane_offset: float = 1.6
+    ) -> Self:
+        """A route straight from crossing to crossing of a plan, whatever streets there are."""
+        corners = np.stack([plan.crossing(*crossing) for crossing in crossings])
+        return cls(terrain, terrain.bend(rounded(corners)), lane_offset)
 
     @classmethod
     def wander(cls, town: Town, length: float, seed: int = 0, lane_offset: float = 1.6) -> Self:
@@ -88,7 +96,15 @@ class Route:
 
     def length(self) -> float:
         """Metres along the lane."""
-        return float(arc_lengths(self.lane())[-1])
+        return float(self._driven[1][-1])
+
+    @cached_property
+    def _driven(self) -> tuple[Float64, Float64, Float64]:
+        """The lane (n, 2), the metres to each of its points (n,), and the headings there (n,)."""
+        lane = self.lane()
+        direction = np.gradient(lane, axis=0)
+        headings = np.unwrap(np.arctan2(direction[:, 1], direction[:, 0]))
+        return lane, arc_lengths(lane), headings
 
     def poses(self, distances: Float64, height: float) -> Float64:
         """Where a sensor is after so many metres along the lane.
@@ -100,10 +116,7 @@ class Route:
         Returns:
             float64 (n, 4, 4): sensor (x ahead, y left, z up from the slope) to town.
         """
-        lane = self.lane()
-        travelled = arc_lengths(lane)
-        direction = np.gradient(lane, axis=0)
-        headings = np.unwrap(np.arctan2(direction[:, 1], direction[:, 0]))
+        lane, travelled, headings = self._driven
         heading = np.interp(distances, travelled, headings)
         places = np.stack([np.interp(distances, travelled, lane[:, axis]) for axis in (0, 1)], 1)
         up = self.terrain.normals(places)

@@ -1,6 +1,6 @@
 """The lie of the land: how the plan's straight streets are bent, and how high the ground is."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -50,6 +50,30 @@ class Terrain:
             hill_waves=hill_waves,
             hill_heights=steepness / np.linalg.norm(hill_waves, axis=1),
             hill_phases=rng.uniform(0, 2 * np.pi, size=hills),
+        )
+
+    @classmethod
+    def winding(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
+        """A random terrain for a large town, whose streets wind by tens of metres.
+
+        Each wave shifts across its own direction. Streets run nearly along the waves, or across
+        them: what is bent grows longer, hardly ever shorter, so what stands there has its room.
+
+        Args:
+            slope: the steepest that the ground can get, as rise over run.
+        """
+        hills = cls.draw(rng, slope)
+        angles = rng.uniform(-0.1, 0.1, size=4) + np.array([0, 0, np.pi / 2, np.pi / 2])
+        lengths = rng.uniform(450.0, 900.0, size=4)
+        directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        # How far a wave turns a street at most, as a slope: four to nine degrees.
+        turns = rng.uniform(0.07, 0.16, size=(4, 1)) * rng.choice([-1.0, 1.0], size=(4, 1))
+        across = np.stack([-directions[:, 1], directions[:, 0]], axis=1)
+        return replace(
+            hills,
+            bend_waves=2 * np.pi / lengths[:, None] * directions,
+            bend_shifts=turns * lengths[:, None] / (2 * np.pi) * across,
+            bend_phases=rng.uniform(0, 2 * np.pi, size=4),
         )
 
     def bend(self, plan: Float64) -> Float64:

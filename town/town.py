@@ -6,9 +6,10 @@ from typing import Self
 import numpy as np
 
 from town.block import SceneObject, furnish
-from town.ground import ground_mesh
+from town.ground import Ground
 from town.mesh import Mesh
 from town.plan import Plan
+from town.scene import Scene, WholeTown
 from town.terrain import Terrain
 from town.traffic import traffic
 
@@ -49,7 +50,7 @@ class Town:
         objects = [
             thing for frontage in plan.frontages() for thing in furnish(frontage, terrain, rng)
         ]
-        return cls(seed, plan, terrain, ground_mesh(plan, terrain), tuple(objects))
+        return cls(seed, plan, terrain, Ground.of(plan, terrain).mesh(), tuple(objects))
 
     def traffic(self, seed: int) -> tuple[SceneObject, ...]:
         """Parked cars and people of one drive; another seed, another day."""
@@ -59,3 +60,7 @@ class Town:
         """All that a ray can hit on one day, in the town frame."""
         things = self.objects + self.traffic(traffic_seed)
         return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
+
+    def scenes(self, traffic_seed: int, reach: float) -> WholeTown:  # noqa: ARG002
+        """What a sensor can see on one day."""
+        return WholeTown(Scene(self.mesh(traffic_seed)))

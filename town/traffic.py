@@ -6,29 +6,36 @@ import numpy as np
 
 from town.block import SceneObject
 from town.car import car, person
-from town.plan import BAY_WIDTH, KERB_HEIGHT, Plan
+from town.plan import BAY_WIDTH, KERB_HEIGHT, Frontage, Plan
 from town.terrain import Terrain
 
 
 def traffic(plan: Plan, terrain: Terrain, seed: int) -> Iterator[SceneObject]:
-    """Cars in the parking bays and people on the pavements, as they are in one drive.
+    """Cars in the parking bays and people on the pavements, as they are in one drive."""
+    rng = np.random.default_rng([seed, 1])
+    for frontage in plan.frontages():
+        yield from traffic_along(frontage, terrain, rng)
+
+
+def traffic_along(
+    frontage: Frontage, terrain: Terrain, rng: np.random.Generator
+) -> Iterator[SceneObject]:
+    """The same, along one side of a block.
 
     Half of the bays are taken, by a car of any kind, not quite in the middle.
     """
-    rng = np.random.default_rng([seed, 1])
-    for frontage in plan.frontages():
-        for x in frontage.bays():
-            if rng.random() < 0.5:
-                spot = frontage.on_plan(
-                    x + float(rng.uniform(-0.2, 0.2)),
-                    -BAY_WIDTH / 2 + float(rng.uniform(-0.05, 0.1)),
-                )
-                heading = frontage.heading + float(rng.normal(scale=0.02))
-                # Cars stand in the direction of their lane, a few the other way.
-                if rng.random() < 0.9:
-                    heading += np.pi
-                yield SceneObject("parked car", terrain.place(car(rng), spot, heading))
-        for _ in range(int(rng.poisson(frontage.length / 40))):
-            spot = frontage.on_plan(float(rng.uniform(2, frontage.length - 2)), 1.8)
-            heading = float(rng.uniform(0, 2 * np.pi))
-            yield SceneObject("person", terrain.place(person(rng), spot, heading, KERB_HEIGHT))
+    for x in frontage.bays():
+        if rng.random() < 0.5:
+            spot = frontage.on_plan(
+                x + float(rng.uniform(-0.2, 0.2)),
+                -BAY_WIDTH / 2 + float(rng.uniform(-0.05, 0.1)),
+            )
+            heading = frontage.heading + float(rng.normal(scale=0.02))
+            # Cars stand in the direction of their lane, a few the other way.
+            if rng.random() < 0.9:
+                heading += np.pi
+            yield SceneObject("parked car", terrain.place(car(rng), spot, heading))
+    for _ in range(int(rng.poisson(frontage.length / 40))):
+        spot = frontage.on_plan(float(rng.uniform(2, frontage.length - 2)), 1.8)
+        heading = float(rng.uniform(0, 2 * np.pi))
+        yield SceneObject("person", terrain.place(person(rng), spot, heading, KERB_HEIGHT))

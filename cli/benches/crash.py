@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from cli.benches.options import JsonFile, Seed, write_json
+from cli.benches.options import Drawn, JsonFile, write_json
 from cli.sources import clear_errors, show
 
 
@@ -12,7 +12,7 @@ def crash(
     kills: Annotated[int, typer.Option(min=1, help="How often it is killed.")] = 200,
     writers: Annotated[int, typer.Option(min=1, help="Robots that write at once.")] = 3,
     json_file: JsonFile = None,
-    seed: Seed = 7,
+    seed: Drawn = 0,
 ) -> None:
     """Kill the service while robots write, and see whether anything is lost.
 

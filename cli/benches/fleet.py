@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from cli.benches.options import JsonFile, Seed, write_json
+from cli.benches.options import Drawn, JsonFile, write_json
 from cli.sources import clear_errors
 
 
@@ -12,7 +12,7 @@ def fleet(
     minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 5.0,
     clients: Annotated[int, typer.Option(min=2, help="Robots.")] = 8,
     json_file: JsonFile = None,
-    seed: Seed = 7,
+    seed: Drawn = 0,
 ) -> None:
     """Let robots share a map while links are cut and the service is killed and restarted.
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from cli.benches.options import JsonFile, Seed, write_json
+from cli.benches.options import Drawn, JsonFile, write_json
 from cli.sources import clear_errors, show
 
 
@@ -14,7 +14,7 @@ def powerloss(
         int, typer.Option(min=0, help="Moments at which the power is cut, about; 0: all.")
     ] = 0,
     json_file: JsonFile = None,
-    seed: Seed = 7,
+    seed: Drawn = 0,
 ) -> None:
     """Cut the power at every moment, and see whether anything is lost.
 

@@ -79,7 +79,7 @@ def write(content: Content) -> bytes:
         MapFileError: the header is too long.
     """
     parts: list[bytes | memoryview] = [_head(content, _checksum(content))]
-    parts += [_contiguous(column).data for column in _in_order(content.columns).values()]
+    parts += [np.ascontiguousarray(column).data for column in _in_order(content.columns).values()]
     return b"".join(parts)
 
 
@@ -108,7 +108,7 @@ def is_file_of(data: bytes, content: Content, checksum: str) -> bool:
     begin = len(head)
     for column in _in_order(content.columns).values():
         given = np.frombuffer(data, np.uint8, column.nbytes, begin)
-        if not np.array_equal(given, _contiguous(column).reshape(-1).view(np.uint8)):
+        if not np.array_equal(given, np.ascontiguousarray(column).reshape(-1).view(np.uint8)):
             return False
         begin += column.nbytes
     return begin == len(data)
@@ -116,10 +116,6 @@ def is_file_of(data: bytes, content: Content, checksum: str) -> bool:
 
 def _in_order(columns: Columns) -> Columns:
     return {name: columns[name] for name in DTYPES if name in columns}
-
-
-def _contiguous(column: NDArray[Any]) -> NDArray[Any]:
-    return np.ascontiguousarray(column)
 
 
 def _canonical_json(value: object) -> str:
@@ -131,7 +127,7 @@ def _checksum(content: Content) -> str:
     for name, column in sorted(content.columns.items()):
         shape = ",".join(map(str, column.shape))
         digest.update(f"\n{name} {_NAMES[column.dtype]} {shape}\n".encode())
-        digest.update(_contiguous(column).data)
+        digest.update(np.ascontiguousarray(column).data)
     return digest.hexdigest()
 
 

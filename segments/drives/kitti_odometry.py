@@ -26,10 +26,15 @@ class KittiOdometry(Drive):
     name = "KITTI odometry"
     layout = "velodyne/*.bin, poses.txt, calib.txt, times.txt"
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, pose_name: str = "poses.txt") -> None:
+        """Read all but the scans.
+
+        Args:
+            pose_name: of the file of poses, where there are others than the true ones.
+        """
         self.folder = folder
         self.scan_files = find_scans(folder / "velodyne")
-        pose_file = folder / "poses.txt"
+        pose_file = folder / pose_name
         beside = folder.parent.parent / "poses" / f"{folder.name}.txt"
         if not pose_file.exists() and beside.exists():
             pose_file = beside

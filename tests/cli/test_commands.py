@@ -313,7 +313,7 @@ def test_config_tells_every_setting_and_its_source(
     file = tmp_path / "own.toml"
     file.write_text("port = 9000\n[limits]\nk = 50\n")
     monkeypatch.setenv("PLACECELL_CONFIG", str(file))
-    monkeypatch.setenv("PLACECELL_LIMITS__DEADLINE", "3")
+    monkeypatch.setenv("placecell_limits__deadline", "3")
     lines = {
         cells[1].strip(): [cell.strip() for cell in cells[2:4]]
         for line in run("config").output.splitlines()

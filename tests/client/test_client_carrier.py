@@ -1,7 +1,8 @@
 """What map and delta files refuse, and that they refuse it before they allocate."""
 
 import tracemalloc
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,6 +61,17 @@ TYPES = {
 NOTHING = carrier.FileFormat("x", "x", 0, frozenset(), frozenset())
 
 
+@contextmanager
+def little_memory() -> Iterator[None]:
+    """Less than a megabyte is allocated meanwhile."""
+    tracemalloc.start()
+    try:
+        yield
+        assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    finally:
+        tracemalloc.stop()
+
+
 @each_kind
 def test_every_flipped_bit_is_found(kind: Kind) -> None:
     for bit in range(len(kind.data) * 8):
@@ -92,24 +104,19 @@ def test_trailing_bytes_are_refused(kind: Kind) -> None:
 def test_a_header_that_claims_a_huge_table_allocates_nothing(kind: Kind) -> None:
     huge = {"dtype": "I8", "shape": [1 << 40, 4], "data_offsets": [0, 1 << 42]}
     claims = with_outer_header(kind.data, outer_header(kind.data) | {"codes": huge})
-    tracemalloc.start()
-    with pytest.raises(MapFileError, match="cut short"):
-        kind.decode(claims)
-    with pytest.raises(MapFileError, match="cut short"):
-        kind.decode((1 << 62).to_bytes(8, "little") + kind.data[8:])
-    assert tracemalloc.get_traced_memory()[1] < 1 << 20
-    tracemalloc.stop()
+    with little_memory():
+        with pytest.raises(MapFileError, match="cut short"):
+            kind.decode(claims)
+        with pytest.raises(MapFileError, match="cut short"):
+            kind.decode((1 << 62).to_bytes(8, "little") + kind.data[8:])
 
 
 @each_kind
 def test_a_header_that_is_too_long_is_not_parsed(kind: Kind) -> None:
     long = b"[" + b"{}," * (HEADER_LIMIT // 3) + b"{}]"
     data = len(long).to_bytes(8, "little") + long
-    tracemalloc.start()
-    with pytest.raises(MapFileError, match="at most 1048576"):
+    with little_memory(), pytest.raises(MapFileError, match="at most 1048576"):
         kind.decode(data)
-    assert tracemalloc.get_traced_memory()[1] < 1 << 20
-    tracemalloc.stop()
 
 
 def test_a_header_that_would_be_too_long_is_not_written() -> None:
@@ -191,6 +198,16 @@ def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float)
     column = np.full_like(content.columns[name], value)
     with pytest.raises(MapFileError, match=name):
         kind.decode(carrier.write(Content(content.header, content.columns | {name: column})))
+
+
+@each_kind
+@pytest.mark.parametrize("name", ["ids", "frame_times", "frame_orientations"])
+def test_whole_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
+    content = content_of(kind.data)
+    column = content.columns[name]
+    other = -column if name == "frame_orientations" else column[::-1]
+    with pytest.raises(MapFileError, match="canonical"):
+        kind.decode(carrier.write(Content(content.header, content.columns | {name: other})))
 
 
 @pytest.mark.parametrize("name", OPTIONAL)

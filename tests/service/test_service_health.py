@@ -115,3 +115,15 @@ def test_the_description_is_complete(service: Any) -> None:
     assert "DescribeRequest" in schemas
     assert "HTTPValidationError" not in schemas
     assert service.get("/docs").status_code == 200
+
+
+def test_the_examples_of_the_description_run(service: Any) -> None:
+    document = service.get("/openapi.json").json()
+    for path in ("/describe", "/match", "/localize"):
+        content = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
+        schema = document["components"]["schemas"][content["schema"]["$ref"].rpartition("/")[2]]
+        for example in schema["examples"]:
+            response = service.post(path, json=example)
+            assert response.status_code == 200, response.text
+            answer = response.json()
+            assert path == "/localize" or answer.get("descriptors", answer.get("queries"))

@@ -107,3 +107,13 @@ def test_the_nearer_of_two_things_hides_the_farther(room: Mesh) -> None:
     low = ahead[np.abs(ahead[:, 2]) < 0.2 * ahead[:, 0]]
     assert low[:, 0] == pytest.approx(4.0, abs=1e-3)
     assert low[:, 3] == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(("rain", "farthest"), [(0.0, 50.0), (10.0, 21.36), (50.0, 12.93)])
+def test_rain_shortens_sight(rain: float, farthest: float) -> None:
+    """By hand: (50 m / r)^2 = exp(2 * 0.01 * rain^0.6 * r), which r = farthest solves."""
+    plain = box((-200.0, -200.0, -3.0), (400.0, 400.0, 1.27), 0.1)
+    lidar = replace(NOISELESS, rain=rain, elevations=tuple(np.linspace(-20.0, -0.5, 64)))
+    ranges = np.linalg.norm(scan(lidar, plain)[:, :3], axis=1)
+    assert 0.8 * farthest < ranges.max() <= farthest + 0.1
+    assert (50.0 / farthest) ** 2 == pytest.approx(np.exp(0.02 * rain**0.6 * farthest), rel=0.02)

@@ -1,4 +1,5 @@
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -6,11 +7,20 @@ import pytest
 from scipy.spatial import cKDTree
 
 from segments.drives import open_drive
+from segments.drives.kitti_odometry import KittiOdometry
 from segments.extraction import record
 from segments.parameters import PROTOCOL_V1
 from segments.recording import Recording
 from segments.types import Float64
-from town import read_origin, two_robots
+from town import (
+    HDL_64E,
+    ODOMETRY_FILE,
+    City,
+    Odometry,
+    read_origin,
+    several_robots,
+    two_robots,
+)
 
 SCANS = 32
 
@@ -85,3 +95,50 @@ def test_progress_is_told_and_drives_are_protected(
     assert told == [(2, "scans of robot_a"), (2, "scans of robot_b")]
     with pytest.raises(FileExistsError):
         two_robots(tmp_path, scans=2, columns=100)
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    city = City.build(seed=3, metres=600.0)
+    return several_robots(
+        tmp_path_factory.mktemp("fleet"), city, city.route(city.planner.every_street()), 3,
+        scans=3, lidar=replace(HDL_64E, columns=120), odometry=Odometry(yaw=1.0), oncoming=20.0,
+    )  # fmt: skip
+
+
+def test_every_second_robot_drives_the_other_way(fleet: list[Path]) -> None:
+    assert [folder.name for folder in fleet] == ["robot_a", "robot_b", "robot_c"]
+    one, other, third = (sensors(folder) for folder in fleet)
+    assert np.array_equal(one, third)
+    city = City.build(seed=3, metres=600.0)
+    back = city.route(city.planner.every_street()).reversed().poses(np.arange(0.5, 3.0), 1.73)
+    assert other == pytest.approx(back, abs=1e-6)
+
+
+def test_no_two_robots_see_the_same(fleet: list[Path]) -> None:
+    one, third = ((fleet[index] / "velodyne" / "000000.bin").read_bytes() for index in (0, 2))
+    assert one != third
+
+
+def test_odometry_stands_beside_the_truth(fleet: list[Path]) -> None:
+    for folder in fleet:
+        true, believed = open_drive(folder), KittiOdometry(folder, ODOMETRY_FILE)
+        assert believed.poses[0] == pytest.approx(true.poses[0])
+        assert np.abs(believed.poses[-1] - true.poses[-1]).max() > 1e-3
+        assert believed.poses[-1, :3, 3] == pytest.approx(true.poses[-1, :3, 3], abs=0.5)
+    one, third = ((fleet[index] / ODOMETRY_FILE).read_text() for index in (0, 2))
+    assert one != third
+
+
+def test_nothing_is_driven_before_all_can_be(tmp_path: Path) -> None:
+    city = City.build(seed=3, metres=600.0)
+    route = city.route(city.planner.every_street())
+    (tmp_path / "robot_b").mkdir()
+    (tmp_path / "robot_b" / "notes.txt").write_text("mine")
+    with pytest.raises(FileExistsError, match="robot_b is not empty"):
+        several_robots(tmp_path, city, route, 2, scans=2)
+    with pytest.raises(ValueError, match="too short"):
+        several_robots(tmp_path / "long", city, route, 2, scans=5000)
+    with pytest.raises(ValueError, match="1 to 26 robots"):
+        several_robots(tmp_path / "many", city, route, 27)
+    assert {path.name for path in tmp_path.rglob("*")} == {"robot_b", "notes.txt"}

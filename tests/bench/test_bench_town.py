@@ -1,0 +1,16 @@
+from pathlib import Path
+
+import pytest
+
+from bench.town import bench
+
+
+def test_figures_are_of_what_was_driven(tmp_path: Path) -> None:
+    report = bench(tmp_path, metres=600.0, scans=6, spacing=0.5)
+    assert report["scans"] == len(list((tmp_path / "velodyne").iterdir())) == 6
+    assert report["street_metres"] >= 600.0
+    assert report["whole_scans"] == int(report["route_metres"] / 0.5)
+    assert report["segments_per_frame"] > 5
+    assert report["megabytes_per_scan"] == pytest.approx(0.95, abs=0.2)
+    minutes = report["whole_scans"] * report["simulation_seconds_per_scan"] / 60
+    assert report["whole_simulation_minutes"] == pytest.approx(minutes, abs=0.1)

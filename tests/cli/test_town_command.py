@@ -1,0 +1,105 @@
+"""`placecell town`: large towns on the command line."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner, Result
+
+from cli import app
+from segments.drives import open_drive
+from town import ODOMETRY_FILE, read_origin
+
+
+def run(*words: str | Path | float, status: int = 0) -> Result:
+    result = CliRunner().invoke(app, ["town", *(str(word) for word in words)])
+    assert result.exit_code == status, result.output
+    return result
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two robots, a scan every eight metres of a few columns, all streets of a kilometre."""
+    folder = tmp_path_factory.mktemp("large")
+    run(
+        *(folder / "drives", "--metres", 1000, "--spacing", 8, "--columns", 32),
+        *("--pairs", 3, "--pair-metres", 80, "--rain", 5),
+        *("--picture", folder / "plan.png", "--json", folder / "figures.json"),
+    )
+    return folder
+
+
+def test_both_drive_all_streets(folder: Path) -> None:
+    figures = json.loads((folder / "figures.json").read_text())
+    assert 1000 <= figures["street_metres"] < 1100
+    drives = [open_drive(folder / "drives" / name) for name in ("robot_a", "robot_b")]
+    for drive in drives:
+        assert len(drive) == figures["scans"][drive.folder.name]
+        assert drive.path_length() == pytest.approx(figures["route_metres"], rel=0.05)
+        assert (drive.folder / ODOMETRY_FILE).exists()
+
+
+def test_pairs_are_written(folder: Path) -> None:
+    pairs = json.loads((folder / "drives" / "pairs.json").read_text())
+    assert pairs["drives"] == ["robot_a", "robot_b"]
+    assert len(pairs["overlapping"]) == len(pairs["apart"]) == 3
+    for pair in pairs["overlapping"]:
+        a, b = (folder / "drives" / name for name in pairs["drives"])
+        places = [
+            (read_origin(drive) @ open_drive(drive).poses)[first : last + 1, :2, 3]
+            for drive, (first, last) in ((a, pair["scans_a"]), (b, pair["scans_b"]))
+        ]
+        nearest = np.linalg.norm(places[0][:, None] - places[1][None], axis=2).min()
+        assert nearest < 7.0
+        assert np.shape(pair["b_to_a"]) == (4, 4)
+
+
+def test_the_picture_is_drawn(folder: Path) -> None:
+    assert (folder / "plan.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("route", "metres"), [("wander:60", 60), ("loop:200:2", 400), ("0,0:0,1", 50)]
+)
+def test_routes(tmp_path: Path, route: str, metres: float) -> None:
+    result = run(
+        *(tmp_path, "--metres", 700, "--route", route, "--robots", 1, "--scans", 2),
+        *("--columns", 16, "--lane", 0),
+    )
+    figures = json.loads(result.output.splitlines()[-1])
+    assert metres <= figures["route_metres"] < metres + 400
+    assert figures["scans"] == {"robot_a": 2}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--robots", 3], "--robots needs a large town: give --metres too"),
+        (["--rain", 3], "--rain needs a large town"),
+        (["--pairs", 1], "--pairs needs a large town"),
+        (["--metres", 0], "m of streets"),
+        (["--metres", "nan"], "m of streets"),
+        (["--metres", 1e9], "m of streets"),
+        (["--metres", 700, "--route", "nowhere"], "--route is all"),
+        (["--metres", 700, "--route", "loop:x"], "--route is all"),
+        (["--metres", 700, "--route", "loop:100:0"], "one lap or more"),
+        (["--metres", 700, "--route", "0,0:99,0"], "no crossing"),
+        (["--metres", 700, "--pairs", 1, "--robots", 1], "--pairs needs two robots"),
+        (["--metres", 700, "--pairs", 1], "no two stretches of the drives that are 100 m apart"),
+        (["--metres", 700, "--pairs", 1, "--pair-metres", 9e9], "has no stretch of"),
+        (["--metres", 700, "--scans", 9999], "too short for 9999 scans"),
+    ],
+)
+def test_errors_are_a_line_that_says_what_is_wrong(
+    tmp_path: Path, words: list[str | float], said: str
+) -> None:
+    result = run(tmp_path / "drives", *words, status=1)
+    assert said in " ".join(result.output.split())
+    assert not (tmp_path / "drives").exists()
+
+
+def test_help_teaches() -> None:
+    shown = " ".join(run("--help").output.split())
+    assert "--metres 5000" in shown
+    assert "poses_odometry.txt" in shown

@@ -1,0 +1,244 @@
+"""Pairs of maps of one town, with a chosen overlap or with none, to test how maps are aligned.
+
+A map is a stretch of a drive. Two drives through all streets of a town so give as many pairs as are
+wanted, and their segments are cut out but once.
+"""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from segments.types import Bool, Float64, Int64
+from town.city import City
+from town.drive import levelled, scan_distances
+from town.lidar import HDL_64E
+from town.network import OWN
+from town.route import Route
+
+SAME_STREET = 7.0
+"""Scans of two drives nearer to one another than this are in the same street, metres."""
+
+APART = 100.0
+"""Maps that share nothing were seen from so far apart, metres: each reaches 40 m."""
+
+TOLERANCE = 0.02
+"""An overlap is that which was wanted, give or take, or half a scan."""
+
+TRIES = 100
+"""Stretches of the first drive that are looked at for one pair, at most."""
+
+COMPARED = 5
+"""Pairs of which the one that looks most alike is taken."""
+
+FARTHEST = 5000.0
+"""Origins of the maps' frames lie up to so far from the drives' worlds' on x and y, metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Traversal:
+    """A drive, as far as it matters here.
+
+    Attributes:
+        poses: (n, 4, 4) sensor to town.
+        origin: (4, 4) the drive's world to town.
+    """
+
+    poses: Float64
+    origin: Float64
+
+    @classmethod
+    def of(cls, route: Route, scans: int, spacing: float, height: float = HDL_64E.height) -> Self:
+        """Of the drive that `write_drive` writes, driven or not."""
+        poses = route.poses(scan_distances(scans, spacing), height)
+        return cls(poses, levelled(poses[0]))
+
+    @property
+    def places(self) -> Float64:
+        """Where the sensor was, town frame: (n, 2)."""
+        return np.asarray(self.poses[:, :2, 3])
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two stretches of two drives.
+
+    Attributes:
+        scans_a, scans_b: first and last scan of each, both included.
+        overlap: share of b's scans that were taken in a's streets.
+        look_alike: share of b's scans where the same identical houses stand as in a street of a's.
+        frame_a, frame_b: (4, 4) world of each drive to the frame of its map: any heading,
+            kilometres away.
+        b_to_a: (4, 4) map b's frame to map a's, in truth.
+    """
+
+    scans_a: tuple[int, int]
+    scans_b: tuple[int, int]
+    overlap: float
+    look_alike: float
+    frame_a: Float64
+    frame_b: Float64
+    b_to_a: Float64
+
+    def as_dict(self) -> dict[str, object]:
+        """Plain values for JSON."""
+        return {
+            "scans_a": self.scans_a,
+            "scans_b": self.scans_b,
+            "overlap": round(self.overlap, 3),
+            "look_alike": round(self.look_alike, 3),
+            "frame_a": self.frame_a.tolist(),
+            "frame_b": self.frame_b.tolist(),
+            "b_to_a": self.b_to_a.tolist(),
+        }
+
+
+def draw_pairs(
+    city: City, a: Traversal, b: Traversal, count: int, metres: float, seed: int = 0
+) -> tuple[list[Pair], list[Pair]]:
+    """Pairs of maps: so many with an overlap of 10% to 100%, in even steps, and as many with none.
+
+    Half of those with none are chosen for streets that look alike.
+
+    Args:
+        a, b: two drives through the town.
+        metres: that each map's robot has driven.
+
+    Raises:
+        ValueError: the drives are too short for it, or too near one another.
+    """
+    if count < 1:
+        raise ValueError(f"there must be one pair or more, not {count}")
+    drawer = Drawer.of(city, a, b, metres, np.random.default_rng([seed, 10]))
+    overlapping = [drawer.overlapping(float(share)) for share in np.linspace(0.1, 1.0, count)]
+    apart = [drawer.apart(alike=number % 2 == 0) for number in range(count)]
+    return overlapping, apart
+
+
+@dataclass(frozen=True)
+class Drawer:
+    """Draws pairs of stretches.
+
+    Attributes:
+        a, b: the drives.
+        designs_a, designs_b: of the houses at each of their scans.
+        scans_a, scans_b: of a stretch.
+        rng: decides.
+    """
+
+    a: Traversal
+    b: Traversal
+    designs_a: Int64
+    designs_b: Int64
+    scans_a: int
+    scans_b: int
+    rng: np.random.Generator
+
+    @classmethod
+    def of(
+        cls, city: City, a: Traversal, b: Traversal, metres: float, rng: np.random.Generator
+    ) -> Self:
+        """For stretches of so many metres.
+
+        Raises:
+            ValueError: a drive is too short for it.
+        """
+        return cls(
+            a,
+            b,
+            city.designs_at(a.places),
+            city.designs_at(b.places),
+            scans_in(a, metres),
+            scans_in(b, metres),
+            rng,
+        )
+
+    def overlapping(self, share: float) -> Pair:
+        """A pair of which the second has this share in common with the first.
+
+        Raises:
+            ValueError: none was found.
+        """
+        for _ in range(TRIES):
+            first_a, distance = self._stretch_of_a()
+            shared = means(distance <= SAME_STREET, self.scans_b)
+            fitting = np.flatnonzero(np.abs(shared - share) <= max(TOLERANCE, 0.51 / self.scans_b))
+            if len(fitting):
+                first_b = int(self.rng.choice(fitting))
+                return self._pair(first_a, first_b, float(shared[first_b]))
+        raise ValueError(f"found no two stretches of the drives that share {share:.0%}")
+
+    def apart(self, alike: bool) -> Pair:
+        """A pair that shares nothing.
+
+        Args:
+            alike: take the one that looks most alike, of several.
+
+        Raises:
+            ValueError: none was found.
+        """
+        found = []
+        for _ in range(TRIES):
+            first_a, distance = self._stretch_of_a()
+            clear = np.flatnonzero(means(distance <= APART, self.scans_b) == 0)
+            if len(clear):
+                likeness = self._likeness(first_a)[clear]
+                best = likeness.argmax() if alike else self.rng.integers(len(clear))
+                found.append((float(likeness[best]), first_a, int(clear[best])))
+            if len(found) == (COMPARED if alike else 1):
+                break
+        if not found:
+            raise ValueError(f"found no two stretches of the drives that are {APART:.0f} m apart")
+        _, first_a, first_b = max(found)
+        return self._pair(first_a, first_b, 0.0)
+
+    def _stretch_of_a(self) -> tuple[int, Float64]:
+        """Where a random one begins, and how far each scan of b is from it, metres."""
+        first = int(self.rng.integers(len(self.a.poses) - self.scans_a + 1))
+        tree = cKDTree(self.a.places[first : first + self.scans_a])
+        return first, tree.query(self.b.places)[0]
+
+    def _likeness(self, first_a: int) -> Float64:
+        """Of each stretch of b, the share of its scans where a's identical houses stand too."""
+        designs = self.designs_a[first_a : first_a + self.scans_a]
+        alike = (self.designs_b != OWN) & np.isin(self.designs_b, designs)
+        return means(alike, self.scans_b)
+
+    def _pair(self, first_a: int, first_b: int, overlap: float) -> Pair:
+        frame_a, frame_b = self._frame(), self._frame()
+        b_in_town = self.b.origin @ np.linalg.inv(frame_b)
+        return Pair(
+            scans_a=(first_a, first_a + self.scans_a - 1),
+            scans_b=(first_b, first_b + self.scans_b - 1),
+            overlap=overlap,
+            look_alike=float(self._likeness(first_a)[first_b]),
+            frame_a=frame_a,
+            frame_b=frame_b,
+            b_to_a=frame_a @ np.linalg.inv(self.a.origin) @ b_in_town,
+        )
+
+    def _frame(self) -> Float64:
+        heading = self.rng.uniform(-np.pi, np.pi)
+        frame = np.eye(4)
+        frame[:2, :2] = [[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]]
+        frame[:3, 3] = self.rng.uniform(-1, 1, size=3) * (FARTHEST, FARTHEST, 50.0)
+        return frame
+
+
+def scans_in(drive: Traversal, metres: float) -> int:
+    """Scans of a drive in so many metres.
+
+    Raises:
+        ValueError: it is too short.
+    """
+    driven = np.linalg.norm(np.diff(drive.places, axis=0), axis=1).sum()
+    if not 0 < metres <= driven:
+        raise ValueError(f"a drive of {driven:.0f} m has no stretch of {metres} m")
+    return max(1, round(metres / float(driven) * (len(drive.poses) - 1)))
+
+
+def means(flags: Bool, window: int) -> Float64:
+    """Share of true flags in each window of so many: (flags - window + 1,)."""
+    sums = np.concatenate([[0], np.cumsum(flags)])
+    return np.asarray((sums[window:] - sums[:-window]) / window)

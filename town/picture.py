@@ -1,0 +1,53 @@
+"""A plan of a large town, with the drives through it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from segments.drives.kitti_odometry import KittiOdometry
+from town.city import City
+from town.drive import read_origin
+from town.network import DESIGNS, OWN
+from town.odometry import ODOMETRY_FILE
+from town.route import Route
+
+
+def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> None:
+    """Draw the streets, those of identical houses in colours, the route and the odometry.
+
+    Args:
+        file: PNG.
+        route: of the first robot.
+        drives: whose odometry is drawn, where they have one.
+    """
+    figure = Figure(figsize=(7, 7), layout="constrained")
+    axes = figure.add_subplot()
+    network = city.network
+    colours = {OWN: "0.75"} | {design: f"C{design + 1}" for design in range(DESIGNS)}
+    for line, design in zip(network.lines(), network.designs.tolist(), strict=True):
+        axes.plot(*line.T, color=colours[design], linewidth=6, solid_capstyle="round", alpha=0.6)
+    lane = route.lane()
+    axes.plot(*lane.T, color="black", linewidth=0.8, label="route of robot A")
+    axes.plot(*lane[0], "o", color="black", markersize=5)
+    for number, drive in enumerate(drives):
+        if (drive / ODOMETRY_FILE).exists():
+            believed = read_origin(drive) @ KittiOdometry(drive, ODOMETRY_FILE).poses
+            axes.plot(
+                *believed[:, :2, 3].T, ":", color=f"C{number}", label=f"odometry of {drive.name}"
+            )
+    axes.set(aspect="equal", xlabel="metres")
+    axes.set_title(title(city, route), fontsize="medium")
+    figure.legend(loc="outside lower center", ncols=3, fontsize="small")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, dpi=100)
+
+
+def title(city: City, route: Route) -> str:
+    """What the picture shows."""
+    alike = np.mean(city.network.designs != OWN)
+    return (
+        f"Town {city.seed}: {city.network.metres():,.0f} m of streets, {alike:.0%} lined by "
+        f"identical houses\n(a colour a design); the route is {route.length():,.0f} m long"
+    )

@@ -1,0 +1,61 @@
+"""Rows of identical houses: places that look alike."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from town.block import LOT_DEPTH, SceneObject, Site, boundary, kerbside
+from town.house import house
+from town.mesh import Mesh
+from town.plan import Frontage
+from town.terrain import Terrain
+
+
+@dataclass(frozen=True, slots=True)
+class Terrace:
+    """One house, and how it is set down again and again.
+
+    Attributes:
+        house: in its own frame (see `town.house`).
+        width: of it along the street, metres.
+        gap: to the next, metres.
+        setback: of its front behind the pavement, metres.
+        pavement: its width, metres.
+    """
+
+    house: Mesh
+    width: float
+    gap: float
+    setback: float
+    pavement: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator) -> Self:
+        """A random design."""
+        width = float(rng.uniform(8.0, 12.0))
+        return cls(
+            house=house(rng, width, depth=float(rng.uniform(7.5, 9.0))),
+            width=width,
+            gap=float(rng.uniform(1.0, 2.5)),
+            setback=float(rng.uniform(0.4, 3.5)),
+            pavement=float(rng.uniform(2.4, 3.6)),
+        )
+
+    def furnish(
+        self, frontage: Frontage, terrain: Terrain, rng: np.random.Generator
+    ) -> Iterator[SceneObject]:
+        """The row along one side of a block.
+
+        The houses are the same, exactly and in equal steps; their hedges and fences, and what
+        stands at the kerb, are not.
+        """
+        site = Site(frontage, terrain)
+        x = self.pavement + 1.0
+        while x + self.width < frontage.length - self.pavement - LOT_DEPTH:
+            yield site.place("house", self.house, x, self.pavement + self.setback)
+            if self.setback > 2.0:
+                yield from boundary(rng, self.width, x, self.pavement, site)
+            x += self.width + self.gap
+        yield from kerbside(rng, frontage.length, site)
