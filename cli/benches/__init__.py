@@ -4,6 +4,7 @@ import typer
 
 from cli.benches.describe import describe
 from cli.benches.ladder import ladder
+from cli.benches.localize import localize
 from cli.benches.maps import maps
 from cli.benches.serve import serve
 from cli.benches.soak import soak
@@ -15,4 +16,5 @@ bench.command()(serve)
 bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
+bench.command()(localize)
 bench.command()(town)

@@ -74,7 +74,9 @@ def test_a_place_has_a_pose() -> None:
     assert best.pose is not None
     assert (best.map, best.frame, best.probability, best.score) == ("yard", "f", 0.97, 7.5)
     # A turn of 73.7 degrees: cosine 0.28, sine 0.96.
-    expected = [[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]]
+    expected = np.array(
+        [[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=np.float64
+    )
     np.testing.assert_allclose(best.pose.matrix, expected, atol=1e-12)
     np.testing.assert_allclose(best.pose.apply([1.0, 0, 0]), [10.28, 20.96, 1])
     np.testing.assert_allclose(best.pose.apply([[1.0, 0, 0]]), [[10.28, 20.96, 1]])
@@ -122,7 +124,7 @@ def test_it_takes_one_kind_of_query() -> None:
     with client_of(lambda _: httpx.Response(500)) as client:
         for arguments in ({}, {"segments": [CLOUD]}, {"description": DESCRIBED, "sensors": CLOUD}):
             with pytest.raises(ValueError, match="either"):
-                client.localize(**arguments)  # type: ignore[arg-type]
+                client.localize(**arguments)
 
 
 def test_centroids_are_checked_before_they_are_sent() -> None:
