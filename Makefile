@@ -4,7 +4,7 @@ DRIVE ?=
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 
-.PHONY: demo serve test lint format install clean help
+.PHONY: demo serve test lint format install peers clean help
 
 help:  ## Show this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -40,5 +40,13 @@ install: .venv/development.stamp  ## What the tests need, torch included
 	$(PIP) --no-build-isolation --editable ./client --editable '.[development]'
 	touch $@
 
+# What we are compared with pins NumPy and more otherwise than we do.
+peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench peers'
+
+.venv-peers/stamp: bench/peers/requirements.txt
+	$(PYTHON) -m venv .venv-peers
+	.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --requirement $<
+	touch $@
+
 clean:  ## Remove the environment and what the tools left
-	rm -rf .venv .mypy_cache .pytest_cache .ruff_cache .coverage
+	rm -rf .venv .venv-peers .mypy_cache .pytest_cache .ruff_cache .coverage

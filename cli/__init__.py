@@ -11,6 +11,7 @@ from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
 from cli.fit_confidence import fit_confidence
 from cli.keys import keys
+from cli.maps import maps
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -38,3 +39,4 @@ app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)
 app.command()(keys)
+app.add_typer(maps, name="maps")

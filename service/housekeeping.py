@@ -4,9 +4,10 @@ Layers are folded, the cache is renewed, long histories are shortened, and what 
 back to the disk. At whatever point it is killed, nothing of it is missed.
 """
 
+import ctypes
 import logging
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from threading import Event, Thread
 
@@ -92,6 +93,8 @@ class Housekeeper:
             content = self._maps.fold(stored)
             if content is not None:
                 self._cache.save(stored.head, content)
+            del content
+            release_memory()
         if self._has_long_log(stored):
             self._shorten(stored)
 
@@ -123,3 +126,9 @@ class Housekeeper:
             file = encode(version_of(history, oldest).content())
         self._maps.compact(head, oldest, file)
         logger.info("map %r: versions before %d were let go", head.name, oldest)
+
+
+def release_memory() -> None:
+    """Give what was freed back to the system: of a large map that was folded glibc keeps much."""
+    with suppress(OSError, AttributeError):  # another system, or another library
+        ctypes.CDLL("libc.so.6").malloc_trim(0)

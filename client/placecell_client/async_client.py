@@ -133,10 +133,13 @@ class AsyncClient(Caller):
         *,
         robot: str | None = None,
         create: bool = False,
+        deduplicate: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """`Client.edit_map`."""
-        return await self._send(self._calls.edit_map(name, delta, robot, create, if_match))
+        return await self._send(
+            self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+        )
 
     async def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """`Client.reserve_ids`."""

@@ -152,11 +152,14 @@ class Calls:
         delta: Delta | bytes,
         robot: str | None,
         create: bool,
+        deduplicate: bool,
         if_match: str | None,
     ) -> Call[Written]:
         """`POST /maps/{map}/segments`."""
         data = encode_delta(delta) if isinstance(delta, Delta) else delta
-        path = _path(name, "/segments", robot=robot, create="true" if create else None)
+        asked = {"create": create, "deduplicate": deduplicate}
+        flags = {flag: "true" for flag, wanted in asked.items() if wanted}
+        path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
         return self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
 

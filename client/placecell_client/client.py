@@ -190,6 +190,7 @@ class Client(Caller):
         *,
         robot: str | None = None,
         create: bool = False,
+        deduplicate: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """Add, replace and remove segments, all or none; returns when it is safely on disk.
@@ -202,12 +203,15 @@ class Client(Caller):
             delta: what to do, its `since` and `until` 0; or its file.
             robot: whose segments may be removed, beside those of the changed segments' robots.
             create: make the map if there is none.
+            deduplicate: do not store again what is within half a metre of a stored segment and
+                looks the same; only note that it was seen. Other views of it are stored.
             if_match: ETag of the version that the delta is for, or `*` for any.
 
         Raises:
             MapFileError: the delta is not valid.
         """
-        return self._send(self._calls.edit_map(name, delta, robot, create, if_match))
+        call = self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+        return self._send(call)
 
     def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """Ids for new segments of a map, that nobody else is given: uint32 (count,), ascending."""

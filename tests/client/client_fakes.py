@@ -23,6 +23,7 @@ SUMMARY = {
 }  # fmt: skip
 WRITTEN = {
     "map": "yard", "sequence": 4, "etag": "e-4", "segments": 20, "changed": 2, "removed": 1,
+    "repeats": 0,
     "later": "field",
 }  # fmt: skip
 VERSION = {

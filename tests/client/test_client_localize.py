@@ -74,9 +74,7 @@ def test_a_place_has_a_pose() -> None:
     assert best.pose is not None
     assert (best.map, best.frame, best.probability, best.score) == ("yard", "f", 0.97, 7.5)
     # A turn of 73.7 degrees: cosine 0.28, sine 0.96.
-    expected = np.array(
-        [[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=np.float64
-    )
+    expected = np.array([[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]])
     np.testing.assert_allclose(best.pose.matrix, expected, atol=1e-12)
     np.testing.assert_allclose(best.pose.apply([1.0, 0, 0]), [10.28, 20.96, 1])
     np.testing.assert_allclose(best.pose.apply([[1.0, 0, 0]]), [[10.28, 20.96, 1]])

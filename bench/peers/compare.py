@@ -1,0 +1,81 @@
+"""Peers in turn on the same queries."""
+
+import os
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from bench.peers.exchange import read_answers
+from bench.peers.frames import Stretch, write_map, write_queries
+from bench.peers.runner import REFINED
+from bench.peers.score import score
+from segments.extraction import Progress, silent
+from training.evaluation import machine
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def compare(
+    mapped: Sequence[Stretch],
+    asking: Sequence[Stretch],
+    peers: Sequence[str],
+    python: Path,
+    folder: Path,
+    *,
+    refine: bool = True,
+    most: int | None = None,
+    seed: int = 0,
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Ask all peers, score them; the report as `placecell bench peers` writes it.
+
+    Args:
+        python: interpreter of the peers' environment.
+        folder: for the local maps and the answers.
+        refine: also report each peer with its poses refined.
+        most: queries, spread evenly; all unless given.
+        seed: of the queries' headings.
+
+    Raises:
+        ValueError: there is no such environment, or a peer failed.
+    """
+    if not python.is_file():
+        raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
+    poses = write_map(folder, mapped, progress)
+    truth = write_queries(folder, asking, most, seed, progress)
+    rows = []
+    for name in peers:
+        ask(name, folder, python, refine=refine)
+        for row in [name, name + REFINED] if refine else [name]:
+            peer, answers = read_answers(folder / "answers" / f"{row}.jsonl", len(truth))
+            rows.append(score(peer, answers, truth))
+    parameters = mapped[0].parameters
+    return {
+        "rows": rows,
+        "map_drive": mapped[0].drive.folder.name,
+        "query_drive": asking[0].drive.folder.name,
+        "map_frames": len(poses),
+        "queries": len(truth),
+        "protocol": parameters.protocol,
+        "accumulated_scans": parameters.accumulated_scans,
+        "frame_step": parameters.frame_step,
+        "local_map_radius": parameters.local_map_radius,
+        "seed": seed,
+        "machine": machine(),
+    }
+
+
+def ask(name: str, folder: Path, python: Path, *, refine: bool) -> None:
+    """Run a peer in its environment.
+
+    Raises:
+        ValueError: it failed.
+    """
+    words = [name, folder, folder / "answers", "--refine" if refine else "--no-refine"]
+    command = [str(word) for word in (python, "-m", "bench.peers.runner", *words)]
+    # Of ours it sees the code alone, none of the packages.
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
+    done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=False)
+    if done.returncode:
+        raise ValueError(f"{name}: ended with status {done.returncode}; what it said stands above")
