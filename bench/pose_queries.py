@@ -149,7 +149,7 @@ def origin_of(folder: Path) -> Float64:
 
 
 def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:
-    """Maps of one model side by side, each shifted by so many metres (3,)."""
+    """Maps of one model side by side, each shifted by so many metres (3,); core columns alone."""
     count = sum(map(len, maps))
     frames = np.cumsum([0, *(len(each.frame_times) for each in maps)])
     return replace(
@@ -159,6 +159,7 @@ def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:
             [each.centroids + shift for each, shift in zip(maps, shifts, strict=True)]
         ),
         ids=np.arange(count, dtype=np.uint32),
+        robots=maps[0].robots[:1],
         robot=np.zeros(count, dtype=np.uint16),
         frame_index=np.concatenate(
             [each.frame_index + first for each, first in zip(maps, frames[:-1], strict=True)]
@@ -168,4 +169,8 @@ def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:
             [each.frame_positions + shift for each, shift in zip(maps, shifts, strict=True)]
         ),
         frame_orientations=np.concatenate([each.frame_orientations for each in maps]),
+        extents=None,
+        points=None,
+        views=None,
+        seen=None,
     )

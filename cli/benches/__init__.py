@@ -6,6 +6,7 @@ from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
 from cli.benches.ladder import ladder
+from cli.benches.localize import localize
 from cli.benches.maps import maps
 from cli.benches.peers import peers
 from cli.benches.powerloss import powerloss
@@ -20,6 +21,7 @@ bench.command()(serve)
 bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
+bench.command()(localize)
 bench.command()(town)
 bench.command()(views)
 bench.command()(peers)
