@@ -69,7 +69,7 @@ def localise(
             f"{parameters.least_segments} or more are needed.",
         )
     voted = most_voted(correspondences, parameters)
-    guesses = evidence.guesses() if evidence else []
+    guesses = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
     hypotheses = find_hypotheses(voted, parameters, guesses)
     if not hypotheses:
         return _unknown("inconsistent", "No place in the map has the segments as they lie here.")
