@@ -101,7 +101,7 @@ def judge(
     detail = ""
     if rival >= parameters.ambiguous:
         reason = "ambiguous"
-        detail = f"Another place fits {rival:.0%} as well."
+        detail = f"Another place has {rival:.0%} of the best one's score."
     elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
         reason = "inconsistent"
         detail = f"The {len(best)} segments that agree do not tell the direction."
