@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 
 from bench.local import Local
 from bench.pose_queries import Pair, PoseQuery, joined, random_frame
-from bench.poses import RIGHT, reliability_of
+from bench.pose_report import RIGHT, reliability_of
 from segments.extraction import Progress, silent
 from segments.localisation import Confidence, LocalisationParameters, Pose
 from segments.localisation.confidence import FEATURES

@@ -30,7 +30,11 @@ with atheris.instrument_imports(include=["placecell_client", "service.packing", 
     from pydantic import ValidationError
 
     from service import packing
-    from service.packed_schemas import PackedDescribeRequest, PackedMatchRequest
+    from service.packed_schemas import (
+        PackedDescribeRequest,
+        PackedLocalizeRequest,
+        PackedMatchRequest,
+    )
     from service.problems import Problem, invalid
     from service.settings import Limits
 
@@ -41,8 +45,8 @@ LIMITS = Limits()
 
 
 def read_msgpack(data: bytes) -> None:
-    """A body, as `/describe` or `/match` would take it."""
-    schema = PackedMatchRequest if len(data) % 2 else PackedDescribeRequest
+    """A body, as `/describe`, `/match` or `/localize` would take it."""
+    schema = (PackedDescribeRequest, PackedMatchRequest, PackedLocalizeRequest)[len(data) % 3]
     try:
         schema.model_validate(packing.unpack(data, LIMITS))
     except Problem:
@@ -79,6 +83,7 @@ def seeds() -> dict[str, list[bytes]]:
         {"segments": [segment, segment], "origin": [1.0, 2.0, 3.0]},
         {"segments": [segment], "maps": ["yard"], "k": 3},
         {"model_id": "m", "codes": bytes(64), "k": 1, "maps": ["a", "b"]},
+        {"model_id": "m", "codes": bytes(64), "centroids": bytes(48), "session": "s"},
     ]
     small = CompactMap(
         model_id="m",

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from segments.localisation.candidates import Candidates
 from segments.localisation.parameters import LocalisationParameters
+from segments.segments import compiled
 from segments.types import Float64, Int64
 
 
@@ -66,6 +66,11 @@ def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Co
     rows = candidates.rows[queries, columns]
     targets = candidates.places[queries, columns]
     belief = beliefs[queries, columns]
+    if len(belief) > parameters.most_candidates:
+        likeliest = np.lexsort((rows, -belief))[: parameters.most_candidates]
+        queries, rows, targets, belief = (
+            each[likeliest] for each in (queries, rows, targets, belief)
+        )
     places = number_places(rows, targets, parameters.same_place)
     # Best first within each pair of query and place; ties by row.
     order = np.lexsort((rows, -belief, places, queries))
@@ -92,32 +97,41 @@ def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Co
 def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
     """Number of the place that each row belongs to, int64 (m,).
 
-    Rows, from one corner of the map on, take along all within the radius that belong to no place
-    yet.
+    Rows, from one end of the map on, begin a place unless they are within the radius of one that
+    did.
 
     Args:
         rows: int64 (m,), may hold a row more than once.
         centroids: float64 (m, 3), of the rows, metres.
         radius: metres.
     """
-    distinct, first, inverse = np.unique(rows, return_index=True, return_inverse=True)
-    if not len(distinct):
-        return np.zeros(0, dtype=np.int64)
+    _, first, inverse = np.unique(rows, return_index=True, return_inverse=True)
     points = centroids[first]
-    order = np.lexsort(points.T)
-    points = points[order]
-    near = cKDTree(points).query_pairs(radius, output_type="ndarray")
-    near = near[np.lexsort((near[:, 1], near[:, 0]))]
-    ends = np.searchsorted(near[:, 0], np.arange(len(points)), side="right")
-    numbers = np.arange(len(points))
-    leads = np.ones(len(points), dtype=bool)
-    start = 0
-    for lead, end in enumerate(ends.tolist()):
-        if leads[lead] and end > start:
-            followers = near[start:end, 1]
-            followers = followers[leads[followers]]
-            numbers[followers], leads[followers] = lead, False
-        start = end
+    order = np.lexsort(points.T[::-1])
+    numbers = np.empty(len(points), dtype=np.int64)
+    _lead(points[order], radius, numbers)
     places = np.empty(len(points), dtype=np.int64)
     places[order] = numbers
     return places[inverse]
+
+
+@compiled
+def _lead(points: Float64, radius: float, numbers: Int64) -> None:
+    """Fill numbers: of each point, in the order of x, the first leader within the radius."""
+    leaders = np.empty(len(points), dtype=np.int64)
+    count = begin = 0
+    for point in range(len(points)):
+        while begin < count and points[point, 0] - points[leaders[begin], 0] >= radius:
+            begin += 1
+        numbers[point] = -1
+        for place in range(begin, count):
+            squared = 0.0
+            for axis in range(3):
+                squared += (points[point, axis] - points[leaders[place], axis]) ** 2
+            if squared < radius * radius:
+                numbers[point] = place
+                break
+        if numbers[point] < 0:
+            leaders[count] = point
+            numbers[point] = count
+            count += 1

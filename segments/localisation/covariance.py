@@ -41,7 +41,7 @@ def covariance_of(
     freedom = max(3 * weights.sum() - len(columns), 1.0)
     variance = weights @ (leftover**2).sum(axis=1) / freedom
     variance = max(variance, parameters.least_deviation**2) * parameters.overlap
-    # A turn of less than a millionth of a radian at a lever of metres is rounding.
+    # Singular but for rounding: the segments lie in one point, or on the axis of the turn.
     if np.linalg.eigvalsh(information)[0] < 1e-6 * information.max():
         return unknown
     carried = np.eye(6)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from segments.localisation.hypothesis import Hypothesis, same_place
 from segments.localisation.parameters import LocalisationParameters
 from segments.localisation.pose import Pose
+from segments.types import Float64
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +59,18 @@ class Evidence:
             total += fading * max(agreeing, default=0.0)
         return self.parameters.past_weight * total
 
-    def guesses(self) -> list[Pose]:
-        """Best poses of the past, the latest first: places to look at again."""
-        return [request.hypotheses[0][0] for request in reversed(self.past) if request.hypotheses]
+    def guesses(self, at: Float64) -> list[Pose]:
+        """Places to look at again: the best ones of the past, each once, the latest first.
+
+        Args:
+            at: a point (3,) in the midst of what the robot sees now, metres, in its frame.
+        """
+        places: list[Pose] = []
+        for request in reversed(self.past):
+            for pose, _ in request.hypotheses[:1]:
+                if not any(same_place(pose, other, at, self.parameters) for other in places):
+                    places.append(pose)
+        return places
 
 
 class History:

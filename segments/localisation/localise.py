@@ -69,7 +69,7 @@ def localise(
             f"{parameters.least_segments} or more are needed.",
         )
     voted = most_voted(correspondences, parameters)
-    guesses = evidence.guesses() if evidence else []
+    guesses = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
     hypotheses = find_hypotheses(voted, parameters, guesses)
     if not hypotheses:
         return _unknown("inconsistent", "No place in the map has the segments as they lie here.")
@@ -101,7 +101,7 @@ def judge(
     detail = ""
     if rival >= parameters.ambiguous:
         reason = "ambiguous"
-        detail = f"Another place fits {rival:.0%} as well."
+        detail = f"Another place has {rival:.0%} of the best one's score."
     elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
         reason = "inconsistent"
         detail = f"The {len(best)} segments that agree do not tell the direction."

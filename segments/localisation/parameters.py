@@ -16,6 +16,8 @@ class LocalisationParameters:
     """Rows of the map whose centroids lie closer than this are views of one segment."""
     unlikely: float = 0.01
     """Share of a query's belief that is no better than chance, and so weighs next to nothing."""
+    most_candidates: int = 20_000
+    """Candidates of all queries; of more, the likeliest."""
     most: int = 3_000
     """Correspondences that are compared pair by pair; voting chooses them where there are more."""
     vote_yaw: float = 5.0

@@ -8,16 +8,16 @@ import pytest
 from scipy import stats
 
 from bench.pose_queries import Pair, PoseQuery, joined, random_frame
-from bench.poses import (
+from bench.pose_report import (
     Outcome,
     bounds,
-    outcome_of,
     precision_recall,
     reliability_of,
     report,
     shares,
     until_localised,
 )
+from bench.poses import outcome_of
 from segments.localisation import Pose, localise
 from tests.client.map_builders import random_map
 from tests.segments.localisation.scene_builders import scene

@@ -145,3 +145,34 @@ def test_the_order_of_queries_makes_no_difference() -> None:
     np.testing.assert_array_equal(one.rows, two.rows)
     np.testing.assert_allclose(one.weights, two.weights, rtol=1e-12)
     np.testing.assert_array_equal(one.queries, order[two.queries])
+
+
+def test_of_too_many_candidates_the_likeliest_are_taken() -> None:
+    places = [[(10.0 * i, 0.0, 0.0) for i in range(6)]]
+    given = candidates(places, [[0.1, 0.9, 0.3, 0.8, 0.2, 0.7]])
+    found = correspond(given, LocalisationParameters(most_candidates=3))
+    assert sorted(found.target[:, 0].tolist()) == [10, 30, 50]
+
+
+def test_a_map_in_one_point_is_one_place() -> None:
+    """Each of its segments is near each other one: there are 50 million pairs of them."""
+    points = np.random.default_rng(1).normal(scale=0.01, size=(10_000, 3))
+    assert set(number_places(np.arange(10_000), points, 1.0).tolist()) == {0}
+
+
+def test_places_do_not_depend_on_how_rows_are_numbered() -> None:
+    random = np.random.default_rng(2)
+    points = random.uniform(0, 12, (300, 3))
+    order = random.permutation(300)
+    one = number_places(np.arange(300), points, 1.0)
+    other = number_places(np.arange(300), points[order], 1.0)
+    np.testing.assert_array_equal(one[order], other)
+    # Two of one place are at most two radii apart, and their leader is within one of each.
+    apart = np.linalg.norm(points[:, None] - points, axis=2)
+    assert apart[one[:, None] == one].max() < 2
+    # Two leaders are never closer than the radius.
+    by_x = np.lexsort(points.T[::-1])
+    _, first = np.unique(one[by_x], return_index=True)
+    leads = by_x[first]
+    among = apart[np.ix_(leads, leads)] + 9 * np.eye(len(leads))
+    assert among.min() >= 1

@@ -43,13 +43,14 @@ def test_requests_add_up_to_a_number_that_is_bounded() -> None:
     assert len(history.at(100.1).past) == 4
 
 
-def test_guesses_are_the_best_of_the_past_the_latest_first() -> None:
+def test_guesses_are_the_best_places_of_the_past_the_latest_first() -> None:
     history = History(PARAMETERS)
     history.add(100.0, [hypothesis(0, 20), hypothesis(50, 8)])
     history.add(101.0, [])
     history.add(102.0, [hypothesis(7, 9)])
-    guesses = history.at(102.0).guesses()
-    assert [pose.translation[0] for pose in guesses] == [7, 0]
+    history.add(102.5, [hypothesis(8, 9)])
+    guesses = history.at(103.0).guesses(np.zeros(3))
+    assert [pose.translation[0] for pose in guesses] == [8, 0]  # 7 m is the place of 8 m
 
 
 def test_what_was_known_before_decides_between_two_places() -> None:

@@ -1,0 +1,171 @@
+"""The figures of localisation: how many poses are right, and whether their probabilities are true.
+
+A pose is right within 1 m and 3 degrees of the truth, where the robot is. It is wrong but sure if
+its probability is 0.9 or more and it is off by more than 3 m or 10 degrees.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from segments.types import Bool, Float64
+
+RIGHT = (1.0, 3.0)
+OFF = (3.0, 10.0)
+"""Metres and degrees."""
+
+SURE = 0.9
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a query.
+
+    Attributes:
+        reason: why it was not localised; empty if it was.
+        probability: of the best hypothesis, localised or not.
+        metres, degrees: that its pose is off at the sensor; infinite without one.
+        normalised: squared error of position and yaw by the stated covariance, a chi-square of
+            four degrees of freedom were it exact; NaN if it was not localised.
+        milliseconds: from descriptors to the pose.
+        driven: metres on the way so far.
+        mapped: whether the mapping robot was near by.
+    """
+
+    reason: str
+    probability: float
+    metres: float
+    degrees: float
+    normalised: float
+    milliseconds: float
+    driven: float
+    mapped: bool
+
+    @property
+    def localised(self) -> bool:
+        """Whether a pose was told."""
+        return not self.reason
+
+    @property
+    def right(self) -> bool:
+        """Whether the best hypothesis is right, told or not."""
+        return self.metres <= RIGHT[0] and self.degrees <= RIGHT[1]
+
+    @property
+    def wrong_but_sure(self) -> bool:
+        """Whether the robot was misled."""
+        off = self.metres > OFF[0] or self.degrees > OFF[1]
+        return self.localised and off and self.probability >= SURE
+
+
+def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """All figures. Shares are of the queries within the map; those beyond it stand apart."""
+    within = [each for each in outcomes if each.mapped]
+    beyond = [each for each in outcomes if not each.mapped]
+    told = [each for each in within if each.localised]
+    milliseconds = [each.milliseconds for each in outcomes]
+    normalised = [each.normalised for each in told if each.right]
+    p50, p99 = (round(float(np.percentile(milliseconds, at)), 2) for at in (50, 99))
+    return {
+        **shares(within),
+        "reasons": reasons(within),
+        "median_position_error_m": median([each.metres for each in told]),
+        "median_yaw_error_deg": median([each.degrees for each in told]),
+        "p50_ms": p50,
+        "p99_ms": p99,
+        "beyond_the_map": shares(beyond) | {"reasons": reasons(beyond)},
+        "precision_recall": precision_recall(within),
+        "reliability": reliability(outcomes),
+        "covariance_ratio": median(normalised, stats.chi2.median(4)),
+        "metres_until_localised": until_localised(within),
+    }
+
+
+def shares(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """How many were right, wrong and unknown, with 95% bounds (Clopper and Pearson)."""
+    counts = {
+        "localised_right": sum(each.localised and each.right for each in outcomes),
+        "wrong_but_sure": sum(each.wrong_but_sure for each in outcomes),
+        "not_localised": sum(not each.localised for each in outcomes),
+    }
+    n = len(outcomes)
+    return {
+        "queries": n,
+        **{name: round(count / n, 5) if n else None for name, count in counts.items()},
+        "counts": counts,
+        "bounds_95": {name: bounds(count, n) for name, count in counts.items()},
+    }
+
+
+def bounds(count: int, n: int) -> list[float]:
+    """95% bounds of a share, exact."""
+    low = stats.beta.ppf(0.025, count, n - count + 1) if count else 0.0
+    high = stats.beta.ppf(0.975, count + 1, n - count) if count < n else 1.0
+    return [round(float(low), 5), round(float(high), 5)]
+
+
+def reasons(outcomes: Sequence[Outcome]) -> dict[str, int]:
+    """How often each reason was told."""
+    told = sorted(each.reason for each in outcomes if each.reason)
+    return {reason: told.count(reason) for reason in dict.fromkeys(told)}
+
+
+def precision_recall(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
+    """Of those told with a probability or more: how many are right, and of all, how many so."""
+    rows = []
+    for at in (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995):
+        told = [each for each in outcomes if each.localised and each.probability >= at]
+        right = sum(each.right for each in told)
+        if told:
+            rows.append(
+                {
+                    "probability": at,
+                    "precision": round(right / len(told), 5),
+                    "recall": round(right / len(outcomes), 5),
+                }
+            )
+    return rows
+
+
+def reliability(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
+    """Stated against true probability of the best hypothesis, told or not."""
+    stated = np.array([each.probability for each in outcomes])
+    right = np.array([each.right for each in outcomes], dtype=bool)
+    return reliability_of(stated, right)
+
+
+def reliability_of(stated: Float64, right: Bool) -> list[dict[str, float]]:
+    """By tenths, the last of them finer."""
+    edges = np.array([*np.arange(0, 1, 0.1), 0.95, 0.99])
+    place = np.searchsorted(edges, stated, side="right") - 1
+    return [
+        {
+            "stated": round(float(stated[place == bin_].mean()), 4),
+            "right": round(float(right[place == bin_].mean()), 4),
+            "count": int((place == bin_).sum()),
+        }
+        for bin_ in np.unique(place)
+    ]
+
+
+def until_localised(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
+    """Metres driven until a pose is right and sure, switched on at each query in turn."""
+    good = [each.localised and each.right and each.probability >= SURE for each in outcomes]
+    metres = []
+    for start, first in enumerate(outcomes):
+        later = next((i for i in range(start, len(good)) if good[i]), None)
+        if later is not None:
+            metres.append(outcomes[later].driven - first.driven)
+    return {
+        "median": median(metres),
+        "p95": round(float(np.percentile(metres, 95)), 2) if metres else None,
+        "never": len(outcomes) - len(metres),
+    }
+
+
+def median(values: Sequence[float], by: float = 1.0) -> float | None:
+    """Rounded; None of nothing."""
+    return round(float(np.median(values)) / by, 4) if len(values) else None
