@@ -31,7 +31,7 @@ from bench.peers.exchange import (
 PEERS: dict[str, dict[str, Any]] = {
     "scan-context": {},
     "map-closures": {},
-    "map-closures-fine": {"density_map_resolution": 0.1},
+    "map-closures-level": {"density_map_resolution": 0.1, "level": True},
     "kiss-matcher": {},
     "kiss-matcher-3": {"candidates": 3},
     "kiss-matcher-map": {"candidates": 0},

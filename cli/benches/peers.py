@@ -96,17 +96,15 @@ def print_rows(report: dict[str, Any]) -> None:
     from rich.table import Table
 
     typer.echo(
-        f"{report['queries']} queries of {report['query_drive']} in a map of "
+        f"{report['rows'][0]['queries']} queries of {report['query_drive']} in a map of "
         f"{report['map_frames']} frames of {report['map_drive']}, {report['accumulated_scans']} "
         f"scans each, within {report['local_map_radius']:.0f} m"
     )
-    table = Table(
-        "peer", "right", "wrong but sure", "not localised", "m", "deg", "p50 ms", "p99 ms"
-    )
+    table = Table("", "right", "wrong", "unknown", "m", "deg", "p50 ms", "p99 ms")
     for row in report["rows"]:
         table.add_row(
             row["name"],
-            *(f"{row[key]:.1%}" for key in ("localised_right", "wrong_but_sure", "not_localised")),
+            *(percent(row[key]) for key in ("localised_right", "wrong_but_sure", "not_localised")),
             *(
                 "-" if row[key] is None else f"{row[key]:.2f}"
                 for key in ("median_position_error_m", "median_yaw_error_deg")
@@ -115,3 +113,8 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['p99_ms']:.0f}",
         )
     Console().print(table)
+
+
+def percent(value: float | None) -> str:
+    """A share for people to read."""
+    return "-" if value is None else f"{value:.1%}"
