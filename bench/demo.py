@@ -51,8 +51,13 @@ def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> t
     return robots[0], robots[1]
 
 
-def robots_of_drive(folder: Path, progress: Progress) -> tuple[Robot, Robot]:
+def robots_of_drive(
+    folder: Path, progress: Progress, every: int | None = None
+) -> tuple[Robot, Robot]:
     """One drive as two robots: its odd blocks are the map, its even blocks ask.
+
+    Args:
+        every: a frame every so many scans, as `Parameters.for_drive`.
 
     Raises:
         ValueError: the drive stands still, so that it has no second block.
@@ -62,7 +67,7 @@ def robots_of_drive(folder: Path, progress: Progress) -> tuple[Robot, Robot]:
     if not even:
         raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
     shortest = min(map(len, odd + even))
-    parameters = PROTOCOL_V1.for_drive(len(drive)).for_block(shortest)
+    parameters = PROTOCOL_V1.for_drive(len(drive), every).for_block(shortest)
 
     def robot(name: str, blocks: Sequence[range]) -> Robot:
         recordings = [record(drive, parameters, block, progress) for block in blocks]

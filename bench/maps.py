@@ -6,22 +6,19 @@ writes meanwhile.
 
 import asyncio
 import tempfile
-import threading
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import faiss
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client, Delta, Description, encode
+from placecell_client import Client, Description, encode
 
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import Content, Views, map_of
+from bench.map_writers import MAP, Plan, rebuilding, writing
 from bench.serve import address_of, percentiles
 from bench.server import running_service
 from bench.soak import look
@@ -32,38 +29,6 @@ from segments.types import Int64
 from service.bodies import MSGPACK
 from training.evaluation import machine
 from training.figure import figure
-
-MAP = "site"
-OTHER = "other"
-
-
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """What is measured.
-
-    Attributes:
-        sizes: segments of the map.
-        queries: of a request.
-        asked: queries whose answers are checked.
-        k: candidates a query.
-        rate: requests a second.
-        seconds: of each phase.
-        upserts: segments a second that are written meanwhile, in tenths of it.
-        upload: segments of the map that is uploaded meanwhile, every `upload_seconds`.
-        upload_seconds: between uploads.
-        starts: of the service, from its cache; the median counts.
-    """
-
-    sizes: tuple[int, ...] = (10_000, 100_000, 1_000_000)
-    queries: int = 50
-    asked: int = 1_000
-    k: int = 10
-    rate: float = 10.0
-    seconds: float = 60.0
-    upserts: int = 1_000
-    upload: int = 10_000
-    upload_seconds: float = 10.0
-    starts: int = 3
 
 
 def bench(
@@ -108,10 +73,15 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
         cached.unlink()
     row["start_rebuild_s"] = round(_start(data, 1) - row["start_empty_s"], 3)
     with running_service(data) as address, Client(address, timeout=120) as client:
-        with _writing(client, views, plan, len(content.codes), seed) as written:
+        with writing(client, views, plan, len(content.codes), seed) as written:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
-        row |= written | {"memory_mb_after_writes": round(look(address)["resident_mb"] - empty, 1)}
+        row |= written
+        with rebuilding(client, views, data, len(content.codes), seed) as rebuilt:
+            busy = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"rebuilding_match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
+        row["rebuilds"] = len(rebuilt)
+        row["memory_mb_after_writes"] = round(look(address)["resident_mb"] - empty, 1)
     return row
 
 
@@ -174,54 +144,6 @@ async def _asked(address: str, content: Content, plan: Plan, folder: Path) -> di
     if not good.all():
         raise RuntimeError(f"/match was answered {set(outcome.statuses)}")
     return {key: spent or 0.0 for key, spent in percentiles(np.array(outcome.milliseconds)).items()}
-
-
-@contextmanager
-def _writing(
-    client: Client, views: Views, plan: Plan, count: int, seed: int
-) -> Iterator[dict[str, Any]]:
-    """Upsert and upload until the block ends; then the figures are filled in."""
-    done, written = threading.Event(), dict[str, Any]()
-    random = np.random.default_rng(seed)
-    fresh = views.draw(plan.upload, 1, seed + 1).codes
-    others = [encode(map_of(np.roll(fresh, shift, 0), views.manifest, "bob")) for shift in (0, 1)]
-    fewer = plan.upserts // 10
-
-    def upsert(number: int) -> None:
-        # Half of them are there already, half are new.
-        ids = np.unique(random.integers(count, size=fewer // 2))
-        ids = np.append(ids, count + number * fewer + np.arange(fewer - len(ids)))
-        drawn = map_of(fresh[random.integers(len(fresh), size=fewer)], views.manifest, "ann")
-        changed = replace(drawn, ids=ids.astype(np.uint32))
-        client.edit_map(MAP, Delta(changed, np.zeros(0, np.uint32)))
-
-    def upload(number: int) -> None:
-        client.put_map(OTHER, others[number % 2], if_match="*" if number else None)
-
-    def regularly(name: str, work: Callable[[int], None], seconds: float) -> None:
-        started = time.perf_counter()
-        spent: list[float] = []
-        while not done.is_set():
-            due = time.perf_counter()
-            work(len(spent))
-            spent.append(1e3 * (time.perf_counter() - due))
-            # Late ones are made up for: the rate is that of the plan, or what the service bears.
-            done.wait(max(0.0, started + len(spent) * seconds - time.perf_counter()))
-        written[f"{name}s_a_second"] = round(len(spent) / (time.perf_counter() - started), 3)
-        written[f"{name}_ms"] = percentiles(np.array(spent))
-
-    with ThreadPoolExecutor(2) as pool:
-        works = [
-            pool.submit(regularly, "upsert", upsert, 0.1),
-            pool.submit(regularly, "upload", upload, plan.upload_seconds),
-        ]
-        try:
-            yield written
-        finally:
-            done.set()
-        for work in works:
-            work.result()
-    written["upserted_segments_a_second"] = round(fewer * written["upserts_a_second"])
 
 
 def _start(data: Path, times: int) -> float:

@@ -3,15 +3,27 @@
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
-from placecell_client import Client, CompactMap
+from numpy.typing import ArrayLike
+from placecell_client import Client, CompactMap, Description, Info
 from scipy.spatial.transform import Rotation
 
 from segments.drives import Drive
 from segments.recording import Recording
 from segments.segments import Segments
 from segments.types import Float64
+
+
+class Describing(Protocol):
+    """What describes segments: a client, or the service's parts in this process."""
+
+    def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
+        """As `Client.describe`."""
+
+    def info(self) -> Info:
+        """As `Client.info`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +54,7 @@ class Robot:
         """Points (n, 3) of the drive's world, in the common frame."""
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
-    def build_map(self, client: Client, frame: str) -> CompactMap:
+    def build_map(self, client: Describing, frame: str) -> CompactMap:
         """Have the service describe each frame's segments; keep those that are no duplicates."""
         codes, centroids, frame_index = [], [], []
         scans: list[int] = []

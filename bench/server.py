@@ -4,57 +4,100 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+
+STOP_SECONDS = 20.0
+"""After which a service that was told to stop is killed."""
+
+
+class Service:
+    """A process of `placecell serve`."""
+
+    def __init__(
+        self,
+        data_dir: Path,
+        *options: str,
+        environment: Mapping[str, str] | None = None,
+        tracer: Sequence[str] = (),
+    ) -> None:
+        """Start it; `address` waits until it is there.
+
+        Args:
+            data_dir: where it keeps the maps, and the log `service.log`.
+            options: further ones of `placecell serve`.
+            environment: further variables.
+            tracer: what stands before the command.
+        """
+        command = [sys.executable, "-m", "cli", "serve", "--port", "0", "--data-dir", str(data_dir)]
+        data_dir.mkdir(parents=True, exist_ok=True)
+        self._log_file = data_dir / "service.log"
+        self._logged = self._log_file.stat().st_size if self._log_file.exists() else 0
+        with self._log_file.open("a") as log:
+            self.process = subprocess.Popen(
+                [*tracer, *command, *options],
+                stdout=subprocess.PIPE,
+                stderr=log,
+                text=True,
+                # Nobody watches whether it is ready.
+                env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0"} | dict(environment or {}),
+            )
+
+    def address(self) -> str:
+        """Where it listens, such as http://127.0.0.1:8123, as soon as it does; to be asked once.
+
+        Raises:
+            RuntimeError: it did not start; the message holds what it said.
+        """
+        said = []
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            said.append(line)
+            match = re.search(r"http://[\w.:\[\]-]+", line)
+            if match:
+                return match[0]
+        self.process.wait()
+        raise RuntimeError(f"the service did not start: {''.join(said)}{self.log()}")
+
+    def log(self) -> str:
+        """What it wrote to its log since it was started."""
+        return self._log_file.read_bytes()[self._logged :].decode(errors="replace")
+
+    def kill(self) -> None:
+        """As `kill -9`: it has no time for anything."""
+        self.process.kill()
+        self._end()
+
+    def stop(self) -> None:
+        """As SIGTERM: what is in flight is answered."""
+        self.process.terminate()
+        try:
+            self.process.wait(timeout=STOP_SECONDS)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+        self._end()
+
+    def _end(self) -> None:
+        self.process.wait()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
 
 
 @contextmanager
 def running_service(
-    data_dir: Path, *options: str, environment: Mapping[str, str] | None = None
+    data_dir: Path,
+    *options: str,
+    environment: Mapping[str, str] | None = None,
+    tracer: Sequence[str] = (),
 ) -> Iterator[str]:
-    """Run `placecell serve` until the block ends; yields its address, such as http://127.0.0.1:8123.
-
-    Args:
-        data_dir: where it keeps the maps.
-        options: further ones of `placecell serve`.
-        environment: further variables.
+    """Run `placecell serve` until the block ends; yields its address. Arguments as of `Service`.
 
     Raises:
         RuntimeError: it did not start; the message holds what it said.
     """
-    command = [sys.executable, "-m", "cli", "serve", "--port", "0", "--data-dir", str(data_dir)]
-    log_file = data_dir / "service.log"
-    data_dir.mkdir(parents=True, exist_ok=True)
-    with log_file.open("w") as log:
-        process = subprocess.Popen(
-            [*command, *options],
-            stdout=subprocess.PIPE,
-            stderr=log,
-            text=True,
-            # Nobody watches whether it is ready.
-            env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0"} | dict(environment or {}),
-        )
+    service = Service(data_dir, *options, environment=environment, tracer=tracer)
     try:
-        yield _address(process, log_file)
+        yield service.address()
     finally:
-        process.terminate()
-        try:
-            process.wait(timeout=20)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
-
-
-def _address(process: "subprocess.Popen[str]", log_file: Path) -> str:
-    said = []
-    assert process.stdout is not None
-    for line in process.stdout:
-        said.append(line)
-        match = re.search(r"http://[\w.:\[\]-]+", line)
-        if match:
-            return match[0]
-    process.wait()
-    raise RuntimeError(f"the service did not start: {''.join(said)}{log_file.read_text()}")
+        service.stop()

@@ -7,8 +7,11 @@ from cli.benches import bench
 from cli.config import config
 from cli.demo import demo
 from cli.evaluate import evaluate
+from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
+from cli.fit_confidence import fit_confidence
 from cli.keys import keys
+from cli.maps import maps
 from cli.prepare import prepare
 from cli.serve import serve
 from cli.study import study
@@ -27,6 +30,8 @@ app.command()(town)
 app.command()(prepare)
 app.command()(train)
 app.command()(evaluate)
+app.command()(evaluate_poses)
+app.command()(fit_confidence)
 app.command()(experiments)
 app.command()(study)
 app.command()(ablations)
@@ -34,3 +39,4 @@ app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)
 app.command()(keys)
+app.add_typer(maps, name="maps")

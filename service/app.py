@@ -9,16 +9,16 @@ from fastapi import FastAPI
 from service import openapi, problems
 from service.account import Account
 from service.limits import BodyLimit
-from service.routes import describe, health, maps, match, models, segments, versions
+from service.routes import describe, health, localize, maps, match, models, segments, versions
 from service.settings import Settings
 from service.state import State, open_state
 
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
-Send the segments of a scan, get their descriptors, or the segments of stored maps that look like
-them. Coordinates are metres in a z-up frame. `/describe` and `/match` speak JSON and, with the same
-meaning and arrays as blobs, `application/msgpack`. Every error is `application/problem+json` (RFC
-9457).
+Send the segments of a scan, get their descriptors, the segments of stored maps that look like them,
+or the robot's place in a map. Coordinates are metres in a z-up frame. `/describe`, `/match` and
+`/localize` speak JSON and, with the same meaning and arrays as blobs, `application/msgpack`. Every
+error is `application/problem+json` (RFC 9457).
 """
 
 
@@ -51,7 +51,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)
-    for module in (describe, match, maps, segments, versions, models, health):
+    for module in (describe, match, localize, maps, segments, versions, models, health):
         app.include_router(module.router)
     return app
 

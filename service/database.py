@@ -120,10 +120,11 @@ class Database:
         with self._writing, _translated(self.path):
             return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
 
-    def integrity(self) -> list[str]:
-        """What SQLite finds wrong with the file, if anything."""
+    def integrity(self, table: str = "") -> list[str]:
+        """What SQLite finds wrong with the file, or with one table and its indices, if anything."""
+        part = f"({table})" if table else ""
         with self.snapshot() as connection:
-            found = [str(row[0]) for row in connection.execute("PRAGMA integrity_check")]
+            found = [str(row[0]) for row in connection.execute(f"PRAGMA integrity_check{part}")]
         return [] if found == ["ok"] else found
 
     def _check(self, version: int) -> None:
@@ -202,6 +203,9 @@ def _translated(path: Path) -> Iterator[None]:
     """SQLite's errors as the store's own."""
     try:
         yield
+    except UnicodeDecodeError as error:
+        # A schema was altered: SQLite quotes it in a message that Python cannot read.
+        raise StoreError("damaged", f"{path}: its schema was altered; {ADVICE}") from error
     except sqlite3.Error as error:
         name = getattr(error, "sqlite_errorname", "")
         # Extended codes begin with the one they belong to.

@@ -4,9 +4,10 @@ Layers are folded, the cache is renewed, long histories are shortened, and what 
 back to the disk. At whatever point it is killed, nothing of it is missed.
 """
 
+import ctypes
 import logging
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from threading import Event, Thread
 
@@ -74,14 +75,12 @@ class Housekeeper:
         for stored in self._maps.all():
             if self._stopped.is_set():
                 return
-            try:
+            with _told(f"map {stored.name!r}"):
                 self._care(stored)
-            except Exception:
-                # A thread that ends would be missed by nobody until the disk is full.
-                logger.exception("housekeeping failed at map %r", stored.name)
-        self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
-        self._changes.forget()
-        self._maps.store.give_back()
+        with _told("the data directory"):
+            self._changes.forget()
+            self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
+            self._maps.store.give_back()
 
     def _work(self) -> None:
         while not self._stopped.wait(self._bounds.seconds):
@@ -92,6 +91,8 @@ class Housekeeper:
             content = self._maps.fold(stored)
             if content is not None:
                 self._cache.save(stored.head, content)
+            del content
+            release_memory()
         if self._has_long_log(stored):
             self._shorten(stored)
 
@@ -123,3 +124,18 @@ class Housekeeper:
             file = encode(version_of(history, oldest).content())
         self._maps.compact(head, oldest, file)
         logger.info("map %r: versions before %d were let go", head.name, oldest)
+
+
+@contextmanager
+def _told(where: str) -> Iterator[None]:
+    """What fails is told; a thread that ended would be missed by nobody until the disk is full."""
+    try:
+        yield
+    except Exception:
+        logger.exception("housekeeping failed at %s", where)
+
+
+def release_memory() -> None:
+    """Give what was freed back to the system: of a large map that was folded glibc keeps much."""
+    with suppress(OSError, AttributeError):  # another system, or another library
+        ctypes.CDLL("libc.so.6").malloc_trim(0)

@@ -19,7 +19,7 @@ from placecell_client.map_edit import (
     with_optional,
 )
 
-from segments.types import Bool, Int64, UInt32
+from segments.types import Bool, Float64, Int64, UInt32
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +101,19 @@ class Layers:
         return apply(
             take(self.base, base[~self.gone[base]]), Delta(recent, np.zeros(0, dtype=np.uint32))
         )
+
+    def about(self, places: Float64, metres: float) -> CompactMap:
+        """The segments within a box that holds these places, (p, 3), and so many metres more."""
+        if not len(places):
+            return self.take(self.recent.ids[:0])
+        low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
+
+        def inside(layer: CompactMap) -> Bool:
+            return np.asarray(((layer.centroids >= low) & (layer.centroids <= high)).all(axis=1))
+
+        base = take(self.base, inside(self.base) & ~self.gone)
+        recent = take(self.recent, inside(self.recent))
+        return apply(base, Delta(recent, np.zeros(0, dtype=np.uint32)))
 
     def column(self, name: str, rows: Int64) -> NDArray[Any]:
         """Values of a column that every map has, at rows of the map, of any shape."""

@@ -10,9 +10,11 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
 from service.bodies import JSON, MSGPACK
+from service.localise_schemas import LocalizeRequest
 from service.packed_schemas import (
     PackedDescribeRequest,
     PackedDescribeResponse,
+    PackedLocalizeRequest,
     PackedMatchRequest,
 )
 from service.problems import ProblemBody
@@ -21,9 +23,11 @@ from service.schemas import DescribeRequest, MatchRequest
 _REFERENCE = "#/components/schemas/{model}"
 _SCHEMAS: tuple[type[BaseModel], ...] = (
     DescribeRequest,
+    LocalizeRequest,
     MatchRequest,
     PackedDescribeRequest,
     PackedDescribeResponse,
+    PackedLocalizeRequest,
     PackedMatchRequest,
     ProblemBody,
 )

@@ -4,9 +4,10 @@
 """
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from placecell_client.compact_map import COORDINATE_LIMIT
 from pydantic import (
     BaseModel,
@@ -19,7 +20,8 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
-from segments.types import Float32, Int8
+from segments.types import Float32, Float64, Int8
+from service.localise_schemas import LocalizeQuery
 from service.schemas import (
     DescriptorsResponse,
     Point,
@@ -27,8 +29,6 @@ from service.schemas import (
     Request,
     ScanRequest,
 )
-
-POINT_BYTES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,15 +39,26 @@ class Pairs:
 
 
 def _points(blob: object) -> Float32:
-    """The points of a blob, float32 (n, 3): one look at all, none at each.
+    """The points of a blob, float32 (n, 3)."""
+    return np.asarray(_coordinates(blob, np.dtype("<f4")), np.float32)
+
+
+def _centroids(blob: object) -> Float64:
+    """The centroids of a blob, float64 (n, 3)."""
+    return np.asarray(_coordinates(blob, np.dtype("<f8")), np.float64)
+
+
+def _coordinates(blob: object, kind: "np.dtype[np.floating[Any]]") -> "NDArray[np.floating[Any]]":
+    """The points of a blob, (n, 3): one look at all, none at each.
 
     Raises:
         ValueError: it holds no such points; the place and the words are those of JSON.
     """
     data = _bin(blob)
-    if len(data) % POINT_BYTES:
-        raise ValueError(f"{len(data)} bytes, not a multiple of {POINT_BYTES}: x, y, z as float32")
-    points = np.frombuffer(data, "<f4").reshape(-1, 3)
+    size = 3 * kind.itemsize
+    if len(data) % size:
+        raise ValueError(f"{len(data)} bytes, not a multiple of {size}: x, y, z as {kind.name}")
+    points = np.frombuffer(data, kind).reshape(-1, 3)
     # Written so that NaN fails too.
     if not (
         points.max(initial=0) <= COORDINATE_LIMIT and points.min(initial=0) >= -COORDINATE_LIMIT
@@ -84,6 +95,7 @@ def _out_of_range(place: tuple[int, int], value: float) -> ValidationError:
 
 _BLOB = WithJsonSchema({"type": "string", "format": "binary"})
 PointsBlob = Annotated[Float32, PlainValidator(_points), _BLOB]
+CentroidsBlob = Annotated[Float64, PlainValidator(_centroids), _BLOB]
 CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
 
 
@@ -122,6 +134,10 @@ class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
 
 class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
     """`MatchRequest` as msgpack; codes: int8, one query after the other."""
+
+
+class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):
+    """`LocalizeRequest` as msgpack; codes as there, centroids: float64, little-endian: x, y, z."""
 
 
 class PackedDescriptor(BaseModel):

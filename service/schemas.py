@@ -192,6 +192,9 @@ class WrittenOut(BaseModel):
     segments: int = Field(description="In the map after it.")
     changed: int = Field(description="Segments added or replaced.")
     removed: int = Field(description="Segments removed.")
+    repeats: int = Field(
+        0, description="Segments that were not stored, for they were seen before (`deduplicate`)."
+    )
 
 
 class IdsOut(BaseModel):

@@ -88,6 +88,12 @@ class Limits(BaseModel):
         allow_inf_nan=False,
         description="Seconds in which a map must have come and been stored.",
     )
+    sessions: int = Field(
+        default=10_000,
+        ge=1,
+        description="Sessions of `/localize` that are remembered, for seconds; of more, the one "
+        "that has been silent longest is forgotten.",
+    )
     connections: int = Field(
         default=1_000, ge=1, description="Open at once; further ones are closed."
     )

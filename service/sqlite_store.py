@@ -12,7 +12,7 @@ from typing import Any
 
 import filelock
 
-from service.database import Database, sync_folder
+from service.database import ADVICE, Database, sync_folder
 from service.map_store import (
     IDS,
     Commit,
@@ -81,6 +81,13 @@ class SqliteMapStore:
         """
         self._folder = data_dir
         self._database = Database(data_dir / FILE, VERSION, SCHEMA)
+        try:
+            # No mark tells whether a map's name was altered; and the table is small.
+            if wrong := self._database.integrity("maps"):
+                raise StoreError("damaged", f"{data_dir / FILE}: {wrong[0]}; {ADVICE}")
+        except StoreError:
+            self.close()
+            raise
 
     @classmethod
     @contextmanager
@@ -257,7 +264,7 @@ class SqliteHistory:
         for sha256, data in self._connection.execute(
             "SELECT sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
         ):
-            if hashlib.sha256(data).hexdigest() != sha256:
+            if not isinstance(data, bytes) or hashlib.sha256(data).hexdigest() != sha256:
                 raise self._damaged("base")
             parts.append(data)
         if sum(map(len, parts)) != self._head.base_bytes:
@@ -273,7 +280,7 @@ class SqliteHistory:
             (self._row, after, until),
         ):
             commit, sequence = _commit(columns), sequence + 1
-            if blob is None or mark_of(before, sequence, blob) != commit.mark:
+            if not isinstance(blob, bytes) or mark_of(before, sequence, blob) != commit.mark:
                 raise self._damaged(f"version {sequence}")
             yield commit, blob
             before = commit.mark

@@ -21,6 +21,7 @@ from service.metrics import Metrics
 from service.models import Models
 from service.preconditions import Preconditions
 from service.quotas import Quotas
+from service.sessions import Sessions
 from service.settings import Settings
 from service.sqlite_store import SqliteMapStore
 from service.timing import Timing
@@ -45,6 +46,7 @@ class State:
         maps: stored and searchable.
         changes: of maps, for robots that keep a copy.
         keys: who may do what.
+        sessions: what robots' last requests for their place found.
         desk: takes in requests for recognition.
         uploads: takes in maps.
         edits: takes in edits of maps.
@@ -59,6 +61,7 @@ class State:
     maps: Maps
     changes: Changes
     keys: Keys
+    sessions: Sessions
     desk: Desk
     uploads: Desk
     edits: Desk
@@ -128,6 +131,7 @@ def open_state(settings: Settings) -> Iterator[State]:
             maps=maps,
             changes=changes,
             keys=keys,
+            sessions=Sessions(limits.sessions),
             desk=Desk(
                 limits.requests, limits.deadline, limits.body_seconds, limits.body_bytes, gauge
             ),

@@ -12,10 +12,14 @@ STAGES = (
     "queue",
     "infer",
     "search",
+    "verify",
     "encode",
     "commit",
 )
-"""All steps that there are, in order; `look`: what stands around each segment."""
+"""All steps that there are, in order.
+
+`look`: what stands around each segment; `verify`: from candidates to a pose.
+"""
 
 
 class Timing:

@@ -1,14 +1,16 @@
 """Writes to maps, each for one request: what is asked, whether it may be, and what it did."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from placecell_client import CompactMap, Delta, encode
-from placecell_client.map_edit import delta_between
+from placecell_client.map_edit import apply, delta_between, take
 
+from segments.types import UInt32
 from service.keys import Holder
-from service.layers import robots_of
+from service.layers import Layers, robots_of
+from service.living import NONE, RADIUS, SAME_VIEW, Sighting, sighting
 from service.map_store import OutOfIdsError
 from service.maps import Maps, unknown
 from service.models import Models
@@ -28,12 +30,14 @@ class Written:
         changed: segments added or replaced.
         removed: segments removed.
         is_new: whether there was no such map before.
+        repeats: segments that were not stored, for they were seen before.
     """
 
     stored: StoredMap
     changed: int
     removed: int
     is_new: bool = False
+    repeats: int = 0
 
 
 Check = Callable[[CompactMap, Delta], None]
@@ -69,14 +73,17 @@ class Writer:
             delta = _leading(stored, content)
             return self._commit(stored, delta, "put", replaces=True)
 
-    def edit(self, name: str, data: bytes, robot: str | None, create: bool) -> Written:
+    def edit(
+        self, name: str, data: bytes, robot: str | None, create: bool, deduplicate: bool
+    ) -> Written:
         """Add, replace and remove segments, all or none.
 
         Args:
             name: of the map.
             data: a delta file.
-            robot: whose segments may be removed; the key's, or those of the changed segments.
+            robot: whose segments may be removed, beside the key's and those of changed segments.
             create: make the map if there is none.
+            deduplicate: do not store again what is seen again.
         """
         edit = edit_of(data, self.models)
         owners = {robot, self.holder.key.robot, *edit.changed.robots} - {None}
@@ -87,10 +94,17 @@ class Writer:
 
         with self.maps.writing(name):
             stored = self.maps.find(name) if create else self.maps.get(name)
+            layers = stored.layers if stored is not None else Layers.of(take(edit.changed, NONE))
+            check_joins(edit.changed, name, layers.base)
+            seen = self._sighting(edit, layers) if deduplicate else None
+            if seen is not None:
+                edit = replace(edit, changed=seen.changed)
             if stored is None:
-                return self._create(name, edit.changed, "edit")
-            check_joins(edit.changed, name, stored.layers.base)
-            return self._commit(stored, edit, "edit", check)
+                written = self._create(name, edit.changed, "edit")
+            else:
+                refreshed = seen.refreshed if seen is not None else NONE
+                written = self._commit(stored, edit, "edit", check, refreshed)
+            return replace(written, repeats=seen.repeats if seen is not None else 0)
 
     def restore(self, name: str, sequence: int) -> Written:
         """Make a map again what it was."""
@@ -158,6 +172,15 @@ class Writer:
         except OutOfIdsError as error:
             raise Problem(409, "out-of-ids", f"Map {name!r}: {error}.") from error
 
+    def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
+        upload, model = edit.changed, self.models.named(edit.changed.model_id)
+        there = layers.about(upload.centroids, RADIUS)
+        stored = apply(there, Delta(layers.take(upload.ids), NONE))
+        # What the edit removes was not seen again.
+        stored = take(stored, ~np.isin(stored.ids, edit.removed))
+        same_view = SAME_VIEW * model.manifest.pair_threshold / model.manifest.quantiser.step
+        return sighting(upload, stored, model.manifest.quantiser, same_view)
+
     def _create(self, name: str, content: CompactMap, operation: str) -> Written:
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
@@ -170,12 +193,15 @@ class Writer:
         asked: Delta,
         operation: str,
         check: Check = lambda *_: None,
+        refreshed: UInt32 = NONE,
         replaces: bool = False,
     ) -> Written:
         before, delta = stored.layers.effect_of(asked)
         if not stored.layers.is_changed_by(delta):
             return Written(stored, 0, 0)
-        self.holder.check_robots(robots_of(before) + robots_of(delta.changed))
+        # To have seen another's segment again is not to write it.
+        for content in (before, delta.changed):
+            self.holder.check_robots(robots_of(take(content, ~np.isin(content.ids, refreshed))))
         if replaces:
             self.conditions.check_replaces(stored.tag)
         else:

@@ -37,16 +37,17 @@ def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> N
             axes.plot(
                 *believed[:, :2, 3].T, ":", color=f"C{number}", label=f"odometry of {drive.name}"
             )
-    axes.set(aspect="equal", xlabel="metres", title=title(city, route))
-    axes.legend(loc="upper right", fontsize="small")
+    axes.set(aspect="equal", xlabel="metres")
+    axes.set_title(title(city, route), fontsize="medium")
+    figure.legend(loc="outside lower center", ncols=3, fontsize="small")
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=100)
 
 
 def title(city: City, route: Route) -> str:
-    """What the picture shows, in a line."""
+    """What the picture shows."""
     alike = np.mean(city.network.designs != OWN)
     return (
-        f"Town {city.seed}: {city.network.metres():,.0f} m of streets, {alike:.0%} of them of "
-        f"identical houses (coloured); route {route.length():,.0f} m"
+        f"Town {city.seed}: {city.network.metres():,.0f} m of streets, {alike:.0%} lined by "
+        f"identical houses\n(a colour a design); the route is {route.length():,.0f} m long"
     )

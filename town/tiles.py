@@ -1,7 +1,7 @@
 """What is near the sensor: tiles of a large town, built when they come into reach."""
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -34,10 +34,8 @@ class Tiles:
             build: makes the tile of a column and row.
             reach: how far the sensor sees, metres.
         """
-        self._boxes = boxes
-        self._reach = reach
         self._tile = lru_cache(KEPT_TILES)(build)
-        self._scene = lru_cache(KEPT_SCENES)(self._scene_of_cell)
+        self._scene = lru_cache(KEPT_SCENES)(partial(scene_of_cell, boxes, self._tile, reach))
 
     def around(self, place: Float64) -> Scene:
         """A scene that holds all that a sensor at this place (2,) can reach, town frame."""
@@ -48,9 +46,18 @@ class Tiles:
         """How many tiles have been built so far, again and again counted."""
         return self._tile.cache_info().misses
 
-    def _scene_of_cell(self, column: int, row: int) -> Scene:
-        low = CELL * np.array([column, row])
-        gaps = np.maximum(low - self._boxes[:, :, 1], self._boxes[:, :, 0] - (low + CELL))
-        distance = np.linalg.norm(np.maximum(gaps, 0), axis=2)
-        near = np.argwhere(distance <= self._reach + SLACK).tolist()
-        return Scene(Mesh.joined(self._tile(*tile) for tile in near))
+
+def scene_of_cell(
+    boxes: Float64, tile: Callable[[int, int], Mesh], reach: float, column: int, row: int
+) -> Scene:
+    """The scene of one square, of the tiles that can be reached from anywhere in it.
+
+    Args:
+        boxes, tile, reach: as `Tiles` has them.
+        column, row: of the square.
+    """
+    low = CELL * np.array([column, row])
+    gaps = np.maximum(low - boxes[:, :, 1], boxes[:, :, 0] - (low + CELL))
+    distance = np.linalg.norm(np.maximum(gaps, 0), axis=2)
+    near = np.argwhere(distance <= reach + SLACK).tolist()
+    return Scene(Mesh.joined(tile(*place) for place in near))

@@ -2,13 +2,18 @@
 
 import typer
 
+from cli.benches.crash import crash
 from cli.benches.describe import describe
+from cli.benches.fleet import fleet
 from cli.benches.ladder import ladder
+from cli.benches.localize import localize
 from cli.benches.maps import maps
 from cli.benches.peers import peers
+from cli.benches.powerloss import powerloss
 from cli.benches.serve import serve
 from cli.benches.soak import soak
 from cli.benches.town import town
+from cli.benches.views import views
 
 bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
 bench.command()(describe)
@@ -16,5 +21,10 @@ bench.command()(serve)
 bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
+bench.command()(localize)
 bench.command()(town)
+bench.command()(views)
 bench.command()(peers)
+bench.command()(crash)
+bench.command()(powerloss)
+bench.command()(fleet)

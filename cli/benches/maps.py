@@ -32,8 +32,9 @@ def maps(
     with the difference that two real segments of one group have.
     """
     from bench.map_content import Views
-    from bench.maps import Plan, draw
+    from bench.map_writers import Plan
     from bench.maps import bench as run
+    from bench.maps import draw
     from segments.extractor import load_extractor
     from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 

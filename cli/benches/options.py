@@ -31,6 +31,7 @@ Kept = Annotated[
     ),
 ]
 Seed = Annotated[int, typer.Option(help="Of the town, and of everything that is drawn.")]
+Drawn = Annotated[int, typer.Option("--seed", help="Of everything that is drawn.")]
 
 
 def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 20) -> "Recording":

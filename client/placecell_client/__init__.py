@@ -3,6 +3,13 @@
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
 from placecell_client.errors import ServiceError
+from placecell_client.localisation import (
+    Hypothesis,
+    Inliers,
+    Localisation,
+    Localisations,
+    Pose,
+)
 from placecell_client.map_copy import ChangesPage, MapCopy
 from placecell_client.map_delta import Delta, decode_delta, encode_delta
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
@@ -27,13 +34,18 @@ __all__ = [
     "CompactMap",
     "Delta",
     "Description",
+    "Hypothesis",
     "Info",
+    "Inliers",
     "ItemError",
+    "Localisation",
+    "Localisations",
     "MapCopy",
     "MapFileError",
     "MapSummary",
     "MapVersion",
     "Matches",
+    "Pose",
     "Retries",
     "ServiceError",
     "Skipped",

@@ -16,6 +16,7 @@ from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
 from placecell_client.calls import Call
 from placecell_client.errors import ServiceError
+from placecell_client.localisation import Localisations, Motion
 from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
@@ -94,6 +95,22 @@ class AsyncClient(Caller):
         """`Client.match`."""
         return await self._send(self._calls.match(description, segments, sensors, maps, k))
 
+    async def localize(
+        self,
+        description: Description | None = None,
+        *,
+        segments: Sequence[ArrayLike] | None = None,
+        sensors: ArrayLike | None = None,
+        maps: Sequence[str] | None = None,
+        k: int = 25,
+        motion: Motion = "yaw",
+        session: str | None = None,
+    ) -> Localisations:
+        """`Client.localize`."""
+        return await self._send(
+            self._calls.localize(description, segments, sensors, maps, k, motion, session)
+        )
+
     async def maps(self) -> tuple[MapSummary, ...]:
         """`Client.maps`."""
         return await self._send(self._calls.maps())
@@ -116,10 +133,13 @@ class AsyncClient(Caller):
         *,
         robot: str | None = None,
         create: bool = False,
+        deduplicate: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """`Client.edit_map`."""
-        return await self._send(self._calls.edit_map(name, delta, robot, create, if_match))
+        return await self._send(
+            self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+        )
 
     async def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """`Client.reserve_ids`."""

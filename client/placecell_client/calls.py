@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from placecell_client import map_delta, map_file, reading
 from placecell_client.answer import Answer
+from placecell_client.localisation import Localisations, Motion
 from placecell_client.map_copy import ChangesPage
 from placecell_client.map_delta import Delta, encode_delta
 from placecell_client.map_file import CompactMap, decode, encode
@@ -22,7 +23,14 @@ from placecell_client.results import (
     Matches,
     Written,
 )
-from placecell_client.wire import MEDIA_TYPES, Encoding, codes_of, dumps, segments_of
+from placecell_client.wire import (
+    MEDIA_TYPES,
+    Encoding,
+    centroids_of,
+    codes_of,
+    dumps,
+    segments_of,
+)
 
 T = TypeVar("T")
 
@@ -81,13 +89,10 @@ class Calls:
         k: int,
     ) -> Call[Matches]:
         """`POST /match`."""
-        body: dict[str, Any] = {"k": k}
-        if maps is not None:
-            body["maps"] = list(maps)
+        body = _asked(maps, k)
         if description is not None and segments is None and sensors is None:
-            rows = [row for row in range(len(description.codes)) if row not in description.errors]
-            codes = codes_of(description.codes[rows], self.encoding)
-            body |= {"model_id": description.model_id, "codes": codes}
+            rows = _usable(description)
+            body |= self._codes(description, rows)
             return self._post(
                 "/match", body, lambda answer: reading.matches_of(answer, description, rows)
             )
@@ -95,6 +100,34 @@ class Calls:
             body |= segments_of(segments, sensors, self.encoding)
             count = len(segments)
             return self._post("/match", body, lambda answer: reading.matches(answer, count))
+        raise ValueError("give either a description, or segments and sensors")
+
+    def localize(
+        self,
+        description: Description | None,
+        segments: Sequence[ArrayLike] | None,
+        sensors: ArrayLike | None,
+        maps: Sequence[str] | None,
+        k: int,
+        motion: Motion,
+        session: str | None,
+    ) -> Call[Localisations]:
+        """`POST /localize`."""
+        body = _asked(maps, k) | {"motion": motion}
+        if session is not None:
+            body["session"] = session
+        if description is not None and segments is None and sensors is None:
+            rows = _usable(description)
+            centroids = centroids_of(description.centroids[rows], self.encoding)
+            body |= self._codes(description, rows) | {"centroids": centroids}
+            return self._post(
+                "/localize",
+                body,
+                lambda answer: reading.localisations_of(answer, description, rows),
+            )
+        if description is None and segments is not None and sensors is not None:
+            body |= segments_of(segments, sensors, self.encoding)
+            return self._post("/localize", body, reading.localisations)
         raise ValueError("give either a description, or segments and sensors")
 
     def maps(self) -> Call[tuple[MapSummary, ...]]:
@@ -119,11 +152,14 @@ class Calls:
         delta: Delta | bytes,
         robot: str | None,
         create: bool,
+        deduplicate: bool,
         if_match: str | None,
     ) -> Call[Written]:
         """`POST /maps/{map}/segments`."""
         data = encode_delta(delta) if isinstance(delta, Delta) else delta
-        path = _path(name, "/segments", robot=robot, create="true" if create else None)
+        asked = {"create": create, "deduplicate": deduplicate}
+        flags = {flag: "true" for flag, wanted in asked.items() if wanted}
+        path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
         return self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
 
@@ -186,10 +222,25 @@ class Calls:
             headers["Content-Encoding"] = "gzip"
         return Call(method, path, read, headers, data)
 
+    def _codes(self, description: Description, rows: list[int]) -> dict[str, Any]:
+        """The part of a body that holds codes."""
+        codes = codes_of(description.codes[rows], self.encoding)
+        return {"model_id": description.model_id, "codes": codes}
+
     def _post(self, path: str, body: dict[str, Any], read: Callable[[Answer], T]) -> Call[T]:
         media_type = MEDIA_TYPES[self.encoding]
         headers = {"Content-Type": media_type, "Accept": media_type}
         return Call("POST", path, read, headers, dumps(body, self.encoding))
+
+
+def _asked(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
+    """The part of a body that says where to look."""
+    return {"k": k} if maps is None else {"k": k, "maps": list(maps)}
+
+
+def _usable(description: Description) -> list[int]:
+    """Rows that have a descriptor."""
+    return [row for row in range(len(description.codes)) if row not in description.errors]
 
 
 def _path(name: str, way: str = "", **query: object) -> str:

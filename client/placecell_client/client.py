@@ -15,6 +15,7 @@ from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
 from placecell_client.calls import Call
 from placecell_client.errors import ServiceError
+from placecell_client.localisation import Localisations, Motion
 from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
@@ -124,6 +125,36 @@ class Client(Caller):
         """
         return self._send(self._calls.match(description, segments, sensors, maps, k))
 
+    def localize(
+        self,
+        description: Description | None = None,
+        *,
+        segments: Sequence[ArrayLike] | None = None,
+        sensors: ArrayLike | None = None,
+        maps: Sequence[str] | None = None,
+        k: int = 25,
+        motion: Motion = "yaw",
+        session: str | None = None,
+    ) -> Localisations:
+        """Where in the maps the robot is; in each that can be said of, with how sure that is.
+
+        Args:
+            description: all segments around the robot, as `describe` gave them, or
+            segments: their points, with
+            sensors: as for `describe`.
+            maps: names; all maps of the service's model unless said.
+            k: candidates a segment, at most.
+            motion: `yaw`, for gravity is known, or `se3`.
+            session: an id that this robot alone uses, for requests whose segments are all in its
+                one odometry frame: those of the last seconds support each other.
+
+        Raises:
+            ValueError: neither or both kinds of query, or arrays that do not fit.
+        """
+        return self._send(
+            self._calls.localize(description, segments, sensors, maps, k, motion, session)
+        )
+
     def maps(self) -> tuple[MapSummary, ...]:
         """The stored maps, by name."""
         return self._send(self._calls.maps())
@@ -159,6 +190,7 @@ class Client(Caller):
         *,
         robot: str | None = None,
         create: bool = False,
+        deduplicate: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """Add, replace and remove segments, all or none; returns when it is safely on disk.
@@ -171,12 +203,15 @@ class Client(Caller):
             delta: what to do, its `since` and `until` 0; or its file.
             robot: whose segments may be removed, beside those of the changed segments' robots.
             create: make the map if there is none.
+            deduplicate: do not store again what is within half a metre of a stored segment and
+                looks the same; only note that it was seen. Other views of it are stored.
             if_match: ETag of the version that the delta is for, or `*` for any.
 
         Raises:
             MapFileError: the delta is not valid.
         """
-        return self._send(self._calls.edit_map(name, delta, robot, create, if_match))
+        call = self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+        return self._send(call)
 
     def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """Ids for new segments of a map, that nobody else is given: uint32 (count,), ascending."""

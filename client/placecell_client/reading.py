@@ -5,6 +5,7 @@ service makes it.
 """
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from placecell_client import map_delta, map_file
 from placecell_client.answer import Answer
+from placecell_client.localisation import Localisations, localisation_of
 from placecell_client.map_copy import ChangesPage
 from placecell_client.map_delta import decode_delta
 from placecell_client.results import (
@@ -76,7 +78,7 @@ def matches(answer: Answer, count: int) -> Matches:
         ),
         errors=_errors(items),
         searched=tuple(content["searched"]),
-        skipped=tuple(Skipped(item["map"], item["model_id"]) for item in content["skipped"]),
+        skipped=_skipped(content),
     )
 
 
@@ -88,6 +90,33 @@ def matches_of(answer: Answer, description: Description, rows: list[int]) -> Mat
         queries[row] = candidates
     errors = description.errors | {rows[index]: error for index, error in found.errors.items()}
     return Matches(found.model_id, tuple(queries), errors, found.searched, found.skipped)
+
+
+def localisations(answer: Answer) -> Localisations:
+    """Of `POST /localize` with segments."""
+    content = _content(answer)
+    return Localisations(
+        model_id=content["model_id"],
+        maps=tuple(localisation_of(item) for item in content["localisations"]),
+        errors={
+            item["query"]: ItemError(
+                item["error"]["type"], item["error"]["title"], item["error"]["detail"]
+            )
+            for item in content["unusable"]
+        },
+        skipped=_skipped(content),
+    )
+
+
+def localisations_of(answer: Answer, description: Description, rows: list[int]) -> Localisations:
+    """Of `POST /localize` with these rows of a description, by the description's own indices."""
+    found = localisations(answer)
+    own = np.array(rows, dtype=np.int64)
+    maps = [
+        replace(each, inliers=replace(each.inliers, queries=own[each.inliers.queries]))
+        for each in found.maps
+    ]
+    return replace(found, maps=tuple(maps), errors=description.errors)
 
 
 def summaries(answer: Answer) -> tuple[MapSummary, ...]:
@@ -158,6 +187,10 @@ def _items(items: list[dict[str, Any]], count: int) -> list[dict[str, Any]]:
     if len(items) != count:
         raise ValueError(f"The answer has {len(items)} results for {count} segments")
     return items
+
+
+def _skipped(content: dict[str, Any]) -> tuple[Skipped, ...]:
+    return tuple(Skipped(item["map"], item["model_id"]) for item in content["skipped"])
 
 
 def _errors(items: list[dict[str, Any]]) -> dict[int, ItemError]:

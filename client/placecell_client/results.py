@@ -142,6 +142,7 @@ class Written:
         segments: in the map after it.
         changed: segments added or replaced; 0 also if the write had been done before.
         removed: segments removed.
+        repeats: segments that were not stored, for they were seen before.
     """
 
     map: str
@@ -150,6 +151,7 @@ class Written:
     segments: int
     changed: int
     removed: int
+    repeats: int
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "Written":

@@ -86,6 +86,20 @@ def codes_of(codes: NDArray[np.int8], encoding: Encoding) -> list[list[int]] | b
     return rows
 
 
+def centroids_of(centroids: NDArray[np.float64], encoding: Encoding) -> list[list[float]] | bytes:
+    """Centroids (q, 3) as they stand in a body.
+
+    Raises:
+        ValueError: one is not finite.
+    """
+    if not np.isfinite(centroids).all():
+        raise ValueError("a centroid is not finite")
+    if encoding == "msgpack":
+        return np.ascontiguousarray(centroids, dtype="<f8").tobytes()
+    rows: list[list[float]] = centroids.tolist()
+    return rows
+
+
 def row_of(values: list[float] | bytes, dtype: str) -> NDArray[Any]:
     """An array of an answer, of a list or of a blob with elements of this type."""
     if isinstance(values, bytes):

@@ -33,6 +33,7 @@ def outcome_of(written: Written) -> WrittenOut:
         segments=len(stored),
         changed=written.changed,
         removed=written.removed,
+        repeats=written.repeats,
     )
 
 

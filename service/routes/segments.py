@@ -65,6 +65,14 @@ async def edit_segments(
         ),
     ] = None,
     create: Annotated[bool, Query(description="Make the map if there is none.")] = False,
+    deduplicate: Annotated[
+        bool,
+        Query(
+            description="Do not store a segment again that was seen before: where one is within "
+            "half a metre and looks the same, or there are enough views of it, only note when it "
+            "was last seen (`seen`). Other views of it are stored, and share its `views`."
+        ),
+    ] = False,
 ) -> Response:
     """All of them or none; when the answer comes, they are on disk and survive a power cut.
 
@@ -74,7 +82,7 @@ async def edit_segments(
     """
     holder.check_write(name)
     async with state.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
-        written = await state.store(writer.edit, name, body.content, robot, create)
+        written = await state.store(writer.edit, name, body.content, robot, create, deduplicate)
     timing.lap("commit")
     tell_written(request, state, "edit", written)
     return JSONResponse(

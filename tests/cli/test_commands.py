@@ -10,6 +10,7 @@ from typer.testing import CliRunner, Result
 
 from cli import app
 from segments.drives import open_drive
+from segments.localisation import Confidence
 from segments.manifest import Manifest
 from tests.segments.segment_builders import write_raw
 from tests.segments.test_kitti_raw import record, unit_at_the_sensor
@@ -328,3 +329,60 @@ def test_config_tells_every_setting_and_its_source(
     assert "prot" in run("config", status=1).output
     monkeypatch.setenv("PLACECELL_CONFIG", str(tmp_path / "absent.toml"))
     assert "no file" in run("config", status=1).output
+
+
+POSES = {
+    *("queries", "localised_right", "wrong_but_sure", "not_localised", "median_position_error_m"),
+    *("median_yaw_error_deg", "p50_ms", "p99_ms", "precision_recall", "reliability", "bounds_95"),
+    *("metres_until_localised", "model_id", "protocol", "machine", "seed", "beyond_the_map"),
+}
+
+
+def test_evaluate_poses_writes_the_contract(workshop: Path, tmp_path: Path) -> None:
+    drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
+    file, plot = tmp_path / "poses.json", tmp_path / "poses.png"
+    result = run("evaluate-poses", *drives, "--json", file, "--plot", plot)
+    assert "localised right" in result.output
+    report = json.loads(file.read_text())
+    assert set(report) >= POSES
+    assert (report["map_drive"], report["query_drive"]) == ("robot_a", "robot_b")
+    assert report["queries"] + report["beyond_the_map"]["queries"] == 40
+    # The default model finds its way through a town that it has not seen.
+    assert report["localised_right"] > 0.5
+    assert report["wrong_but_sure"] == 0
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    # What it finds does not depend on the robot's own frame.
+    run("evaluate-poses", *drives, "--json", file, "--seed", 1)
+    assert json.loads(file.read_text())["localised_right"] == report["localised_right"]
+
+
+def test_evaluate_poses_by_blocks_in_a_session(workshop: Path, tmp_path: Path) -> None:
+    file = tmp_path / "poses.json"
+    drive = workshop / "drives" / "robot_b"
+    words = ("--session", "--motion", "se3", "--model", "eigenvalue")
+    run("evaluate-poses", drive, *words, "--json", file)
+    report = json.loads(file.read_text())
+    assert report["blocks"]
+    assert report["session"]
+    assert report["motion"] == "se3"
+    assert report["model_id"].startswith("eigenvalue")
+    assert report["beyond_the_map"]["queries"] == 0
+
+
+def test_evaluate_poses_says_what_is_wrong(workshop: Path) -> None:
+    drive = workshop / "drives" / "robot_a"
+    assert "nowhere" in run("evaluate-poses", "nowhere", status=1).output
+    assert "se2" in run("evaluate-poses", drive, "--motion", "se2", status=1).output
+
+
+def test_the_probability_is_fitted_anew(tmp_path: Path) -> None:
+    file = tmp_path / "confidence.json"
+    words = ("--town", 1, "--town", 2, "--scans", 20, "--model", "eigenvalue")
+    result = run("fit-confidence", *words, "-o", file)
+    assert "Brier" in result.output
+    fitted = Confidence.load(file)
+    assert 0 < fitted.highest < 1
+    content = json.loads(file.read_text())
+    assert content["fitted_on"]["towns"] == [1, 2]
+    assert content["held_out"]["reliability"]
+    assert "two or more" in run("fit-confidence", "--town", 1, "-o", file, status=1).output

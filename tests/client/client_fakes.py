@@ -23,6 +23,7 @@ SUMMARY = {
 }  # fmt: skip
 WRITTEN = {
     "map": "yard", "sequence": 4, "etag": "e-4", "segments": 20, "changed": 2, "removed": 1,
+    "repeats": 0,
     "later": "field",
 }  # fmt: skip
 VERSION = {
@@ -50,6 +51,14 @@ MATCHED = {
     "searched": ["yard"],
     "skipped": [],
 }
+POSE = {"translation": [10.0, 20.0, 1.0], "rotation": [0.0, 0.0, 0.6, 0.8], "yaw": 1.287}
+PLACE = {
+    "map": "yard", "frame": "f", "localised": True, "reason": None, "detail": "",
+    "probability": 0.97, "pose": POSE, "covariance": [[0.01, 0, 0, 0]] * 4, "score": 7.5,
+    "inliers": [{"query": 0, "id": 9, "residual": 0.25}],
+    "others": [{"pose": POSE, "score": 2.5, "inliers": 3}], "later": "field",
+}  # fmt: skip
+LOCALISED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
 
 
 def packed(content: object) -> httpx.Response:

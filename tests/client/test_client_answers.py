@@ -18,6 +18,7 @@ from tests.client.client_fakes import (
     CANDIDATE,
     DESCRIBED,
     INFO,
+    LOCALISED,
     MATCHED,
     MSGPACK,
     SUMMARY,
@@ -35,6 +36,7 @@ CALLS: dict[str, tuple[Call, httpx.Response]] = {
     "info": (lambda client: client.info(), httpx.Response(200, json=INFO)),
     "describe": (lambda client: client.describe([CLOUD], np.zeros(3)), packed(DESCRIBED)),
     "match": (lambda client: client.match(DESCRIPTION), packed(MATCHED)),
+    "localize": (lambda client: client.localize(DESCRIPTION), packed(LOCALISED)),
     "maps": (lambda client: client.maps(), httpx.Response(200, json={"maps": [SUMMARY]})),
     "put_map": (
         lambda client: client.put_map("yard", random_map()),
@@ -44,7 +46,7 @@ CALLS: dict[str, tuple[Call, httpx.Response]] = {
     "get_map_file": (lambda client: client.get_map_file("yard"), httpx.Response(200)),
     "delete_map": (lambda client: client.delete_map("yard"), httpx.Response(204)),
 }
-READING = ["info", "describe", "match", "maps", "put_map"]
+READING = ["info", "describe", "match", "localize", "maps", "put_map"]
 
 
 def error_of(call: str, response: httpx.Response) -> ServiceError:

@@ -8,11 +8,20 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from placecell_client import AsyncClient, Client, Delta, Description, encode, encode_delta
+from placecell_client import (
+    AsyncClient,
+    Client,
+    Delta,
+    Description,
+    Localisations,
+    encode,
+    encode_delta,
+)
 
 from tests.client.client_fakes import (
     DESCRIBED,
     INFO,
+    LOCALISED,
     MATCHED,
     SUMMARY,
     VERSION,
@@ -46,9 +55,9 @@ def test_both_have_the_same_methods() -> None:
     constructors = [list(inspect.signature(kind).parameters) for kind in (Client, AsyncClient)]
     assert constructors[0] == constructors[1]
     assert set(public(Client)) == {
-        "close", "info", "describe", "match", "maps", "put_map", "edit_map", "reserve_ids",
-        "pull", "changes", "get_map", "get_map_file", "versions", "restore_map", "age_map",
-        "compact_map", "delete_map",
+        "close", "info", "describe", "match", "localize", "maps", "put_map", "edit_map",
+        "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
+        "age_map", "compact_map", "delete_map",
     }  # fmt: skip
 
 
@@ -60,6 +69,7 @@ ANSWERS = {
     ("GET", "/info"): httpx.Response(200, json=INFO),
     ("POST", "/describe"): packed(DESCRIBED),
     ("POST", "/match"): packed(MATCHED),
+    ("POST", "/localize"): packed(LOCALISED),
     ("GET", "/maps"): httpx.Response(200, json={"maps": [SUMMARY]}),
     ("PUT", "/maps/yard"): httpx.Response(201, json=SUMMARY),
     ("GET", "/maps/yard"): FILE,
@@ -89,6 +99,10 @@ def plain(result: Any) -> Any:
             result.model_id, result.codes.tolist(), result.descriptors.tolist(),
             result.centroids.tolist(), result.errors,
         ]  # fmt: skip
+    if isinstance(result, Localisations):
+        (found,) = result.maps
+        assert found.pose is not None
+        return [found.map, found.pose.matrix.tolist(), found.inliers.ids.tolist(), result.skipped]
     return encode(result) if hasattr(result, "frame_times") else result
 
 
@@ -111,6 +125,8 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
             client.info(),
             client.match(described, maps=["yard"], k=3),
             client.match(segments=[CLOUD], sensors=[1.0, 2.0, 3.0]),
+            client.localize(described, maps=["yard"], motion="se3", session="s"),
+            client.localize(segments=[CLOUD], sensors=[1.0, 2.0, 3.0], k=7),
             client.maps(),
             client.put_map("yard", MAP),
             client.get_map("yard"),
@@ -127,7 +143,7 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
         ]
         told.append(([plain(result) for result in results], seen))
     assert told[0] == told[1]
-    assert len(told[0][1]) == 17
+    assert len(told[0][1]) == 19
 
 
 def test_maps_are_compressed_if_asked() -> None:

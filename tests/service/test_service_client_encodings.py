@@ -1,5 +1,6 @@
 """The client gets the same from the service in both encodings, and MSGPACK.md is the service's."""
 
+from dataclasses import replace
 from typing import Any
 
 import httpx
@@ -57,6 +58,31 @@ def test_both_encodings_say_the_same(clients: list[Client], shift: Any, dtype: t
     by_segments = [client.match(segments=clouds, sensors=SENSORS + shift) for client in clients]
     assert by_segments[0] == by_segments[1]
     assert by_segments[0].queries == by_codes[0].queries
+
+
+@pytest.mark.parametrize("shift", [np.zeros(3), FAR])
+def test_both_encodings_find_the_same_place(clients: list[Client], shift: Any) -> None:
+    clouds = [cloud(seed) for seed in range(30)] + [cloud(30)[:2]]
+    described = clients[0].describe(clouds, np.zeros(3))
+    good = [row for row in range(31) if row not in described.errors]
+    stored = map_of(described.codes[good], described.model_id, first_id=500)
+    clients[0].put_map("own", replace(stored, centroids=described.centroids[good].round(2)))
+    moved = [points + shift for points in clouds]
+    here = [client.describe(moved, shift) for client in clients]
+    answers = [
+        *(client.localize(each) for client, each in zip(clients, here, strict=True)),
+        *(client.localize(segments=moved, sensors=shift, maps=["own"]) for client in clients),
+    ]
+    for answer in answers:
+        assert set(answer.errors) == {30}
+        assert answer.best is not None
+        assert answer.best.map == "own"
+        assert answer.best.pose is not None
+        at = answer.best.pose.apply(shift)
+        np.testing.assert_allclose(at, np.zeros(3), atol=0.02)
+        np.testing.assert_array_equal(answer.best.inliers.ids - 500, answer.best.inliers.queries)
+        deviation = np.sqrt(np.diag(answer.best.covariance_at(shift)))
+        assert (deviation < 0.2).all()
 
 
 def test_map_coordinates_lose_nothing(clients: list[Client]) -> None:

@@ -119,10 +119,11 @@ def test_the_description_is_complete(service: Any) -> None:
 
 def test_the_examples_of_the_description_run(service: Any) -> None:
     document = service.get("/openapi.json").json()
-    for path in ("/describe", "/match"):
+    for path in ("/describe", "/match", "/localize"):
         content = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
         schema = document["components"]["schemas"][content["schema"]["$ref"].rpartition("/")[2]]
         for example in schema["examples"]:
             response = service.post(path, json=example)
             assert response.status_code == 200, response.text
-            assert response.json().get("descriptors", response.json().get("queries"))
+            answer = response.json()
+            assert path == "/localize" or answer.get("descriptors", answer.get("queries"))

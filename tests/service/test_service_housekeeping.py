@@ -213,7 +213,10 @@ def test_what_fails_is_told_and_tried_again(
         with monkeypatch.context() as patched, caplog.at_level(logging.ERROR):
             patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "full")))
             keeper.look()
-        assert "housekeeping failed at map 'site'" in caplog.text
+            assert "housekeeping failed at map 'site'" in caplog.text
+            patched.setattr(state.maps.store, "give_back", lambda: 1 / 0)
+            keeper.look()
+            assert "housekeeping failed at the data directory" in caplog.text
         assert service.get("/maps/site").status_code == 200
         keeper.look()
 

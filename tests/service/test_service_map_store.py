@@ -307,6 +307,22 @@ def test_a_cut_database_does_not_open(folder: Path) -> None:
         assert store.verify() == []
 
 
+def test_a_backup_made_meanwhile_is_a_database(
+    store: SqliteMapStore, folder: Path, tmp_path: Path
+) -> None:
+    head = grown(store)
+    with behind(folder) as connection, closing(sqlite3.connect(tmp_path / FILE)) as copy:
+        connection.backup(copy)
+    after = store.append(head, b"later", NOTE, 0)
+    with SqliteMapStore.owned(tmp_path) as restored:
+        assert restored.heads() == [head]
+        assert restored.verify() == []
+        # From there the two are different maps, though they count the same.
+        other = restored.append(head, b"otherwise", NOTE, 0)
+    assert other.sequence == after.sequence
+    assert other.mark != after.mark
+
+
 def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
     folder.mkdir(parents=True)
     (folder / FILE).write_bytes(b"rubbish" * 1_000)

@@ -50,7 +50,14 @@ def test_segments_are_added_replaced_and_removed_at_once(
     told = response.json()
     assert response.headers["etag"] == f'"{told.pop("etag")}"' == service.get(yard).headers["etag"]
     assert response.headers["etag"] != before
-    assert told == {"map": "yard", "sequence": 2, "segments": 10, "changed": 4, "removed": 2}
+    assert told == {
+        "map": "yard",
+        "sequence": 2,
+        "segments": 10,
+        "changed": 4,
+        "removed": 2,
+        "repeats": 0,
+    }
     assert ids_of(service, yard) == [101, 102, 104, 105, 106, 107, 108, 109, 110, 111]
     codes = decode(service.get(yard).content).codes
     np.testing.assert_array_equal(codes[-4:], random_codes(4, 7))

@@ -1,0 +1,175 @@
+"""Fit what a pose's probability follows from: `placecell fit-confidence`.
+
+Two robots drive each town, the same streets in opposite directions. Each frame of one is asked in
+the other's map, whole and as a few of its segments; in the map of all towns side by side; and in
+another town's map, where no answer is right.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from bench.local import Local
+from bench.pose_queries import Pair, PoseQuery, joined, random_frame
+from bench.poses import RIGHT, reliability_of
+from segments.extraction import Progress, silent
+from segments.localisation import Confidence, LocalisationParameters, Pose
+from segments.localisation.confidence import FEATURES
+from segments.types import Bool, Float64, Int64
+from training.evaluation import machine
+
+FEW = (6, 8, 12, 20)
+"""Segments that are drawn of a frame, each in turn."""
+
+APART = 3_000.0
+"""Metres between the towns of the joined map."""
+
+K = 25
+"""Candidates a segment."""
+
+PENALTY = 1.0
+"""Of the squared weights."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cases:
+    """Best hypotheses of queries.
+
+    Attributes:
+        features: float64 (n, features).
+        right: bool (n,).
+        towns: int64 (n,), where each query is from.
+    """
+
+    features: Float64
+    right: Bool
+    towns: Int64
+
+
+def fit(
+    pairs: Sequence[Pair], model: Path, seed: int = 0, *, progress: Progress = silent
+) -> dict[str, Any]:
+    """Fit the logistic model; the content of `confidence.json`.
+
+    How well it holds is told of towns that it was not fitted on, each left out in turn.
+
+    Args:
+        pairs: two or more towns.
+        model: folder of the extractor.
+    """
+    with Local.open(model) as local:
+        cases = ask(pairs, local, seed, progress)
+        model_id = local.model.id
+    held_out = np.zeros(len(cases.right))
+    for town in np.unique(cases.towns):
+        rest, here = cases.towns != town, cases.towns == town
+        held_out[here] = logistic(cases.features[rest], cases.right[rest], 1.0).probabilities(
+            cases.features[here]
+        )
+    # Laplace's rule of succession: of so many that were as sure, so many were wrong.
+    sure = held_out >= 0.99
+    highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
+    fitted = logistic(cases.features, cases.right, highest)
+    return {
+        "features": list(FEATURES),
+        "model": asdict(fitted),
+        "fitted_on": {
+            "towns": len(pairs),
+            "scans": [len(pair.mapper.drive) for pair in pairs],
+            "model_id": model_id,
+            "cases": len(cases.right),
+            "right": int(cases.right.sum()),
+            "k": K,
+            "seed": seed,
+            "machine": machine(),
+        },
+        "held_out": {
+            "reliability": reliability_of(np.minimum(held_out, highest), cases.right),
+            "brier": round(float(np.mean((held_out - cases.right) ** 2)), 5),
+        },
+    }
+
+
+def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
+    """Logistic regression with a small ridge (Hastie et al., *Statistical Learning*, section 4.4).
+
+    Args:
+        features: float64 (n, features).
+        right: bool (n,).
+        highest: probability that is told.
+    """
+    means, deviations = features.mean(axis=0), features.std(axis=0)
+    standard = np.column_stack([(features - means) / deviations, np.ones(len(features))])
+    signs = np.where(right, 1.0, -1.0)
+
+    def loss(weights: Float64) -> tuple[float, Float64]:
+        margins = signs * (standard @ weights)
+        ridge = PENALTY * np.append(weights[:-1], 0.0)
+        pull = -signs / (1 + np.exp(np.clip(margins, -500, 500)))
+        value = np.logaddexp(0.0, -margins).sum() + 0.5 * ridge @ weights
+        return float(value), np.asarray(standard.T @ pull + ridge)
+
+    found = minimize(loss, np.zeros(standard.shape[1]), jac=True, method="L-BFGS-B").x
+    return Confidence(
+        tuple(means.tolist()),
+        tuple(deviations.tolist()),
+        tuple(found[:-1].tolist()),
+        float(found[-1]),
+        highest,
+    )
+
+
+def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> Cases:
+    """Each robot of each pair in the map of the other, and elsewhere."""
+    random = np.random.default_rng(seed)
+    frame = random_frame(seed)
+    both = [*pairs, *(pair.swapped() for pair in pairs)]
+    maps = [pair.mapper.build_map(local, "town") for pair in both]
+    shifts = [np.array([APART * index, 0.0, 0.0]) for index in range(len(pairs))]
+    names = [f"map-{index}" for index in range(len(both))]
+    for name, compact in zip(names, maps, strict=True):
+        local.put_map(name, compact)
+    # Never both maps of a town: its robot would find its own.
+    for way in range(2):
+        half = maps[way * len(pairs) : (way + 1) * len(pairs)]
+        local.put_map(f"joined-{way}", joined(half, shifts))
+    features, right, towns = [], [], []
+    for index in progress(range(len(both)), len(both), "asking"):
+        town, way = index % len(pairs), index // len(pairs)
+        elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
+        for query in both[index].queries(local, frame):
+            there = Pose(np.eye(3), shifts[town]).after(query.truth)
+            asked = [
+                (query, names[index], query.truth),
+                (query, elsewhere, None),
+                *((each, names[index], query.truth) for each in parts(query, random)),
+                *((each, f"joined-{way}", there) for each in (query, *parts(query, random, (12,)))),
+            ]
+            for each, name, truth in asked:
+                found, _ = local.localise(
+                    each.codes, each.centroids, name, K, LocalisationParameters()
+                )
+                if found.best is not None and found.features is not None:
+                    features.append(found.features)
+                    right.append(truth is not None and near(found.best.pose, truth, query.sensor))
+                    towns.append(town)
+    return Cases(np.array(features), np.array(right), np.array(towns))
+
+
+def parts(
+    query: PoseQuery, random: np.random.Generator, sizes: Sequence[int] = FEW
+) -> Iterator[PoseQuery]:
+    """The same query with a few of its segments."""
+    for size in sizes:
+        if size < len(query.codes):
+            yield query.some(np.sort(random.choice(len(query.codes), size, replace=False)))
+
+
+def near(pose: Pose, truth: Pose, sensor: Float64) -> bool:
+    """Whether a pose is right."""
+    metres, angle = pose.difference(truth, sensor)
+    return metres <= RIGHT[0] and bool(np.degrees(angle) <= RIGHT[1])

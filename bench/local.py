@@ -1,0 +1,106 @@
+"""The service's parts in this process: what its routes call, called without HTTP between."""
+
+import asyncio
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import ArrayLike
+from placecell_client import CompactMap, Description, Info, ItemError, encode
+
+from segments.localisation import Localisation, LocalisationParameters
+from segments.localisation.evidence import Evidence
+from segments.manifest import Manifest
+from segments.types import Float64, Int8
+from service.describer import Scan
+from service.keys import ANYONE
+from service.locating import localise_in
+from service.models import Model
+from service.preconditions import Preconditions
+from service.settings import Settings
+from service.state import State, open_state
+from service.timing import Timing
+from service.writer import Writer
+
+
+class Local:
+    """A model at work, and maps in a folder that goes when the block ends."""
+
+    def __init__(self, state: State, runner: asyncio.Runner) -> None:
+        self._state = state
+        self._runner = runner
+
+    @classmethod
+    @contextmanager
+    def open(cls, model: Path) -> "Iterator[Local]":
+        """With the model of a folder.
+
+        Raises:
+            ModelError: the folder holds no usable model.
+        """
+        Manifest.load(model)
+        with tempfile.TemporaryDirectory(prefix="placecell-local-") as folder:
+            settings = Settings(
+                data_dir=Path(folder), models_dir=model.resolve().parent, model=model.name
+            )
+            with asyncio.Runner() as runner, open_state(settings) as state:
+                yield cls(state, runner)
+
+    @property
+    def model(self) -> Model:
+        """That describes."""
+        return self._state.models.default
+
+    def info(self) -> Info:
+        """As `/info`, but for the limits."""
+        manifest = self.model.manifest
+        model = {"preprocessing": manifest.preprocessing}
+        return Info("", manifest.model_id, model, {}, 0)
+
+    def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
+        """As `/describe`."""
+        scan = Scan(
+            np.concatenate(segments, dtype=np.float64),
+            np.array([len(np.asarray(cloud)) for cloud in segments]),
+            np.asarray(sensors, dtype=np.float64),
+        )
+        describer, timing = self.model.describer, Timing()
+        described = self._runner.run(describer.describe(describer.prepare(scan, timing), timing))
+        good = [index for index, row in enumerate(described.rows) if isinstance(row, int)]
+        manifest = self.model.manifest
+        codes = np.zeros((len(segments), manifest.code_bytes), dtype=np.int8)
+        descriptors = np.full((len(segments), manifest.dimension), np.nan, dtype=np.float32)
+        centroids = np.full((len(segments), 3), np.nan)
+        codes[good], descriptors[good] = described.codes, described.descriptors
+        centroids[good] = described.centroids
+        errors = {
+            index: ItemError(row.error.type, row.error.title, row.error.detail)
+            for index, row in enumerate(described.rows)
+            if not isinstance(row, int)
+        }
+        return Description(manifest.model_id, codes, descriptors, centroids, errors)
+
+    def put_map(self, name: str, compact_map: CompactMap) -> int:
+        """As `PUT /maps/{map}`; the bytes of its file."""
+        data = encode(compact_map)
+        state = self._state
+        Writer(state.maps, state.models, ANYONE, Preconditions()).put(name, data)
+        return len(data)
+
+    def localise(
+        self,
+        codes: Int8,
+        centroids: Float64,
+        name: str,
+        k: int,
+        parameters: LocalisationParameters,
+        evidence: Evidence | None = None,
+    ) -> tuple[Localisation, float]:
+        """As `/localize` from codes in one map; and the milliseconds that it took."""
+        started = perf_counter()
+        stored = self._state.maps.get(name)
+        found = localise_in(codes, centroids, self.model, stored, k, parameters, Timing(), evidence)
+        return found, 1e3 * (perf_counter() - started)

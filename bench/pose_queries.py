@@ -1,0 +1,176 @@
+"""Queries with known answers: what a robot sees, described, and where it truly is in a map."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+from placecell_client import CompactMap
+from scipy.spatial import cKDTree
+
+from bench.demo import robots_of_drive
+from bench.local import Local
+from bench.robot import Robot, clouds
+from segments.drives import open_drive
+from segments.extraction import Progress, record, silent
+from segments.localisation import Pose
+from segments.parameters import PROTOCOL_V1
+from segments.types import Float64, Int8, Int64
+
+MAPPED_METRES = 10.0
+"""A query is within the map if the mapping robot was as near as this."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseQuery:
+    """What a robot asks at one moment.
+
+    Attributes:
+        time: seconds.
+        metres: driven so far.
+        codes: int8 (n, code bytes), of all segments that it sees.
+        centroids: float64 (n, 3), theirs, metres, in the robot's frame.
+        sensor: float64 (3,), where it is, in its own frame.
+        truth: from the robot's frame to the map's.
+        mapped: whether the mapping robot was near by.
+    """
+
+    time: float
+    metres: float
+    codes: Int8
+    centroids: Float64
+    sensor: Float64
+    truth: Pose
+    mapped: bool
+
+    def some(self, chosen: Int64) -> Self:
+        """Of these segments alone."""
+        return replace(self, codes=self.codes[chosen], centroids=self.centroids[chosen])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pair:
+    """A robot that has made a map, and one that asks where it is.
+
+    Attributes:
+        mapper, asker: the robots.
+        blocks: whether both are one, on alternate blocks of its way.
+    """
+
+    mapper: Robot
+    asker: Robot
+    blocks: bool
+
+    @classmethod
+    def of(
+        cls,
+        map_folder: Path,
+        query_folder: Path | None = None,
+        every: int | None = None,
+        progress: Progress = silent,
+    ) -> Self:
+        """From two drives of a town, or from alternate blocks of one drive.
+
+        Args:
+            every: a frame every so many scans, as `Parameters.for_drive`.
+
+        Raises:
+            ValueError: no common frame of the two is known, or a drive stands still.
+        """
+        if query_folder is None:
+            mapper, asker = robots_of_drive(map_folder, progress, every)
+            return cls(mapper, asker, blocks=True)
+        origins = [origin_of(folder) for folder in (map_folder, query_folder)]
+        robots = []
+        for folder, origin in zip((map_folder, query_folder), origins, strict=True):
+            drive = open_drive(folder)
+            recording = record(drive, PROTOCOL_V1.for_drive(len(drive), every), progress=progress)
+            robots.append(Robot(folder.name, drive, [recording], origin))
+        return cls(robots[0], robots[1], blocks=False)
+
+    def swapped(self) -> Self:
+        """The other way round."""
+        return replace(self, mapper=self.asker, asker=self.mapper)
+
+    def queries(self, local: Local, frame: Pose) -> Iterator[PoseQuery]:
+        """What the other robot asks, frame by frame.
+
+        Args:
+            frame: from the drive's world to the robot's own frame, which may be any.
+        """
+        drive = self.asker.drive
+        steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
+        metres = np.concatenate([[0.0], np.cumsum(steps)])
+        to_map = (
+            Pose.of_matrix(self.mapper.to_common)
+            .inverse()
+            .after(Pose.of_matrix(self.asker.to_common))
+        )
+        mapped = np.unique(np.concatenate([each.frames for each in self.mapper.recordings]))
+        positions = cKDTree(self.mapper.drive.poses[mapped, :3, 3])
+        for scan, segments, _ in self.asker.views():
+            described = local.describe(clouds(segments), segments.sensors)
+            good = np.isfinite(described.centroids).all(axis=1)
+            where = drive.poses[scan, :3, 3]
+            near, _ = positions.query(to_map.apply(where))
+            yield PoseQuery(
+                time=float(drive.times[scan]),
+                metres=float(metres[scan]),
+                codes=described.codes[good],
+                centroids=frame.apply(described.centroids[good]),
+                sensor=frame.apply(where),
+                truth=to_map.after(frame.inverse()),
+                mapped=self.blocks or bool(near <= MAPPED_METRES),
+            )
+
+
+def random_frame(seed: int) -> Pose:
+    """An odometry frame that knows nothing of the map's: any yaw, within a kilometre."""
+    random = np.random.default_rng(seed)
+    return Pose.of_yaw(random.uniform(-np.pi, np.pi), random.uniform(-1000, 1000, 3))
+
+
+def origin_of(folder: Path) -> Float64:
+    """From a drive's world to the frame of its town (4, 4).
+
+    Raises:
+        ValueError: the drive is of no town, so nobody knows where it lies to another.
+    """
+    from town import read_origin
+
+    try:
+        return read_origin(folder)
+    except FileNotFoundError as error:
+        raise ValueError(
+            f"{folder}: has no origin.txt, so it is not known where it lies to another drive; "
+            "give one drive alone, which is cut into blocks"
+        ) from error
+
+
+def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:
+    """Maps of one model side by side, each shifted by so many metres (3,); core columns alone."""
+    count = sum(map(len, maps))
+    frames = np.cumsum([0, *(len(each.frame_times) for each in maps)])
+    return replace(
+        maps[0],
+        codes=np.concatenate([each.codes for each in maps]),
+        centroids=np.concatenate(
+            [each.centroids + shift for each, shift in zip(maps, shifts, strict=True)]
+        ),
+        ids=np.arange(count, dtype=np.uint32),
+        robots=maps[0].robots[:1],
+        robot=np.zeros(count, dtype=np.uint16),
+        frame_index=np.concatenate(
+            [each.frame_index + first for each, first in zip(maps, frames[:-1], strict=True)]
+        ).astype(np.uint32),
+        frame_times=np.concatenate([each.frame_times for each in maps]),
+        frame_positions=np.concatenate(
+            [each.frame_positions + shift for each, shift in zip(maps, shifts, strict=True)]
+        ),
+        frame_orientations=np.concatenate([each.frame_orientations for each in maps]),
+        extents=None,
+        points=None,
+        views=None,
+        seen=None,
+    )

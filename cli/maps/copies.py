@@ -1,0 +1,85 @@
+"""`placecell maps push`, `pull` and `diff`: maps between files and a service."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.maps.connection import LOCAL, Name, Url, map_from, service
+
+_ETAG = ".etag"
+
+
+def push(
+    file: Annotated[Path, typer.Argument(help="A map file.")],
+    name: Annotated[str, typer.Argument(help="Of the map; the file's unless said.")] = "",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="In place of what is there, whoever wrote it.")
+    ] = False,
+    url: Url = LOCAL,
+) -> None:
+    """Store a map file; ends when it is safely on the service's disk.
+
+    Other content of that name is replaced only if its last version is the one that 'pull' wrote
+    beside the file, or with --replace.
+    """
+    with service(url) as client:
+        beside = _etag_of(file)
+        seen = beside.read_text().strip() if beside.is_file() else None
+        stored = client.put_map(
+            name or file.stem, file.read_bytes(), if_match="*" if replace else seen
+        )
+        if seen is not None:
+            beside.write_text(f"{stored.etag}\n")
+        typer.echo(f"{stored.name}: {stored.segments:,} segments, version {stored.sequence}")
+
+
+def pull(
+    name: Name,
+    file: Annotated[Path | None, typer.Argument(help="Where to; MAP.map unless said.")] = None,
+    url: Url = LOCAL,
+) -> None:
+    """Bring a map's file up to date; what it has already does not travel again.
+
+    The version is kept beside it (FILE.etag).
+    """
+    from placecell_client import MapCopy, decode, encode
+
+    with service(url) as client:
+        target = file or Path(f"{name}.map")
+        beside, copy = _etag_of(target), MapCopy(name)
+        if target.is_file() and beside.is_file():
+            copy = MapCopy(name, decode(target.read_bytes()), beside.read_text().strip())
+        before = copy.sequence
+        copy = client.pull(copy)
+        assert copy.content is not None
+        unfinished = target.with_name(target.name + ".unfinished")
+        unfinished.write_bytes(encode(copy.content))
+        # The version first is taken away: it must never be that of another file.
+        beside.unlink(missing_ok=True)
+        unfinished.replace(target)
+        beside.write_text(f"{copy.etag}\n")
+        typer.echo(f"{target}: {len(copy.content):,} segments, version {before} to {copy.sequence}")
+
+
+def diff(
+    old: Annotated[str, typer.Argument(help="A map file, a map, or a version: MAP@VERSION.")],
+    new: Annotated[str, typer.Argument(help="The same.")],
+    url: Url = LOCAL,
+) -> None:
+    """Tell what was added, changed and removed from one map to the other."""
+    import numpy as np
+    from placecell_client.map_edit import difference
+
+    with service(url) as client:
+        before, after = map_from(client, old), map_from(client, new)
+        changed, removed = difference(before, after)
+        replaced = int(np.isin(changed.ids, before.ids).sum())
+        typer.echo(
+            f"{len(changed) - replaced:,} added, {replaced:,} changed, {len(removed):,} removed, "
+            f"{len(before) - replaced - len(removed):,} the same"
+        )
+
+
+def _etag_of(file: Path) -> Path:
+    return file.with_name(file.name + _ETAG)

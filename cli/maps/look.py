@@ -1,0 +1,108 @@
+"""`placecell maps list`, `show` and `verify`: what there is, and whether it is whole."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cli.maps.connection import LOCAL, Name, Url, service
+from cli.sources import clear_errors, fail
+
+if TYPE_CHECKING:
+    from placecell_client import CompactMap
+
+
+def list_maps(url: Url = LOCAL) -> None:
+    """List the maps, and whose segments they hold."""
+    from rich.console import Console
+    from rich.table import Table
+
+    with service(url) as client:
+        table = Table("map", "segments", "version", "kB", "robots", "model")
+        for one in client.maps():
+            robots = ", ".join(f"{robot} {count:,}" for robot, count in one.robots.items())
+            size = f"{one.bytes / 1000:,.0f}"
+            table.add_row(
+                one.name, f"{one.segments:,}", str(one.sequence), size, robots, one.model_id
+            )
+    Console().print(table)
+
+
+def show(
+    name: Name,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw it from above into this PNG.")
+    ] = None,
+    limit: Annotated[int, typer.Option(min=1, help="Versions to list, at most.")] = 20,
+    url: Url = LOCAL,
+) -> None:
+    """Show a map's versions, newest first: who did what, when."""
+    from rich.console import Console
+    from rich.table import Table
+
+    with service(url) as client:
+        table = Table("version", "when (UTC)", "who", "what", "changed", "removed")
+        for one in client.versions(name, limit):
+            when = datetime.fromtimestamp(one.time, UTC).strftime("%Y-%m-%d %H:%M:%S")
+            counts = f"{one.changed:,}", f"{one.removed:,}"
+            table.add_row(str(one.sequence), when, one.author, one.operation, *counts)
+        Console().print(table)
+        if plot:
+            draw(client.get_map(name), plot)
+
+
+def draw(compact_map: "CompactMap", file: Path) -> None:
+    """A map from above, each robot in a colour, as a PNG."""
+    from training.figure import figure
+
+    with figure(file, size=7) as (axes,):
+        for index, robot in enumerate(compact_map.robots):
+            x, y, _ = compact_map.centroids[compact_map.robot == index].T
+            axes.plot(x, y, ".", markersize=2, label=f"{robot}: {len(x):,} segments")
+        axes.plot(*compact_map.frame_positions[:, :2].T, "k,", label="sensor")
+        axes.set(aspect="equal", xlabel="x, metres", ylabel="y, metres")
+        axes.legend(loc="best", fontsize=8)
+
+
+def verify(
+    paths: Annotated[
+        list[Path],
+        typer.Argument(help="Map files, delta files, or the data folder of a stopped service."),
+    ],
+) -> None:
+    """See whether files and stored maps are whole; ends with status 1 if one is not."""
+    from placecell_client import MapFileError, decode, decode_delta
+
+    bad = 0
+    for path in paths:
+        with clear_errors():
+            found = []
+            if path.is_dir():
+                found = _wrong_with(path)
+            else:
+                data = path.read_bytes()
+                try:
+                    (decode_delta if b"placecell-delta" in data[:4096] else decode)(data)
+                except MapFileError as error:
+                    found = [str(error)]
+        for wrong in found or ["whole"]:
+            typer.echo(f"{path}: {wrong}")
+        bad += bool(found)
+    if bad:
+        raise typer.Exit(1)
+
+
+def _wrong_with(data_dir: Path) -> list[str]:
+    from service.map_store import StoreError, StoreLockedError
+    from service.sqlite_store import FILE, SqliteMapStore
+
+    if not (data_dir / FILE).is_file():
+        raise ValueError(f"{data_dir}: holds no {FILE}")
+    try:
+        with SqliteMapStore.owned(data_dir) as store:
+            return store.verify()
+    except StoreLockedError as error:
+        fail(f"{error}: stop it first")
+    except StoreError as error:
+        return [str(error)]

@@ -1,0 +1,176 @@
+"""Where a robot is, as the service answers it."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from placecell_client.results import ItemError, Skipped
+
+Motion = Literal["yaw", "se3"]
+"""What of the pose is sought: yaw and translation, for gravity is known; or all six degrees."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pose:
+    """A rigid transform from the robot's frame, that of the request, to a map's.
+
+    Attributes:
+        translation: float64 (3,), metres.
+        rotation: float64 (4,), unit quaternion x, y, z, w.
+        yaw: radians, -pi to pi: where the x axis points, seen from above.
+    """
+
+    translation: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    yaw: float
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """As a transform (4, 4)."""
+        x, y, z, w = self.rotation
+        matrix = np.eye(4)
+        matrix[:3, :3] = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+        matrix[:3, 3] = self.translation
+        return matrix
+
+    def apply(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Points (n, 3) of the robot's frame, or one (3,), in the map's."""
+        matrix = self.matrix
+        return np.asarray(np.asarray(points) @ matrix[:3, :3].T + matrix[:3, 3])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inliers:
+    """The segments that agree with a pose, n of them.
+
+    Attributes:
+        queries: int64 (n,), indices of the segments that were asked about.
+        ids: int64 (n,), of the map's segments that they were found as.
+        residuals: float64 (n,), metres between the two, by the pose.
+    """
+
+    queries: NDArray[np.int64]
+    ids: NDArray[np.int64]
+    residuals: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.queries)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hypothesis:
+    """Another place where the robot may be.
+
+    Attributes:
+        pose: it would have there.
+        score: evidence for it, to be compared with others of the same request.
+        inliers: how many segments agree with it.
+    """
+
+    pose: Pose
+    score: float
+    inliers: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Localisation:
+    """What one map says of the robot's place.
+
+    Attributes:
+        map: the map's name.
+        frame: name of its frame.
+        pose: of the robot's frame in the map's; None if the robot is not localised.
+        reason: why it is not: `too-few-segments`, `inconsistent` or `ambiguous`; None if it is.
+        detail: the reason in words.
+        probability: that the best hypothesis is right, within 1 m and 3 degrees.
+        covariance: of the pose, float64 (4, 4): x, y, z, yaw, or (6, 6): x, y, z and about x, y, z;
+            along the map's axes, of the frame's origin. None without a pose.
+        score: evidence for the pose.
+        inliers: the segments that agree with it.
+        others: the second-best hypothesis; without a pose, the best one first.
+    """
+
+    map: str
+    frame: str
+    pose: Pose | None
+    reason: str | None
+    detail: str
+    probability: float
+    covariance: NDArray[np.float64] | None
+    score: float
+    inliers: Inliers
+    others: tuple[Hypothesis, ...]
+
+    def covariance_at(self, point: ArrayLike) -> NDArray[np.float64]:
+        """Covariance (3, 3) of where the pose takes a point (3,), such as the sensor: metres^2.
+
+        Raises:
+            ValueError: the robot is not localised.
+        """
+        if self.pose is None or self.covariance is None:
+            raise ValueError(f"not localised in {self.map!r}: {self.reason}")
+        x, y, z = self.pose.matrix[:3, :3] @ np.asarray(point, dtype=np.float64)
+        turned = np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
+        moved = np.column_stack([np.eye(3), turned[:, 3 - (len(self.covariance) - 3) :]])
+        return np.asarray(moved @ self.covariance @ moved.T)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Localisations:
+    """What the maps say, the likeliest first.
+
+    Attributes:
+        model_id: of the model whose codes were compared.
+        maps: one each.
+        errors: by index, the segments that could not be used.
+        skipped: maps of other models.
+    """
+
+    model_id: str
+    maps: tuple[Localisation, ...]
+    errors: dict[int, ItemError]
+    skipped: tuple[Skipped, ...]
+
+    @property
+    def best(self) -> Localisation | None:
+        """The likeliest one with a pose; None if the robot is localised in no map."""
+        return next((each for each in self.maps if each.pose is not None), None)
+
+
+def localisation_of(item: dict[str, Any]) -> Localisation:
+    """From one of the service's answer."""
+    inliers = item["inliers"]
+    covariance = item["covariance"]
+    return Localisation(
+        map=item["map"],
+        frame=item["frame"],
+        pose=None if item["pose"] is None else _pose(item["pose"]),
+        reason=item["reason"],
+        detail=item["detail"],
+        probability=item["probability"],
+        covariance=None if covariance is None else np.array(covariance, dtype=np.float64),
+        score=item["score"],
+        inliers=Inliers(
+            np.array([each["query"] for each in inliers], dtype=np.int64),
+            np.array([each["id"] for each in inliers], dtype=np.int64),
+            np.array([each["residual"] for each in inliers], dtype=np.float64),
+        ),
+        others=tuple(
+            Hypothesis(_pose(each["pose"]), each["score"], each["inliers"])
+            for each in item["others"]
+        ),
+    )
+
+
+def _pose(item: dict[str, Any]) -> Pose:
+    return Pose(
+        np.array(item["translation"], dtype=np.float64).reshape(3),
+        np.array(item["rotation"], dtype=np.float64).reshape(4),
+        item["yaw"],
+    )

@@ -1,0 +1,115 @@
+"""Where in a map the robot is: the way from candidates to a pose, step by step."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from segments.localisation.candidates import Candidates
+from segments.localisation.confidence import Confidence, features_of, shipped
+from segments.localisation.correspondences import correspond
+from segments.localisation.evidence import Evidence
+from segments.localisation.hypothesis import Hypothesis, find_hypotheses
+from segments.localisation.parameters import LocalisationParameters
+from segments.localisation.pose import Pose
+from segments.localisation.voting import most_voted
+from segments.types import Float64
+
+Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
+
+PARAMETERS = LocalisationParameters()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Localisation:
+    """What is known of the robot's place in a map.
+
+    Attributes:
+        best: the best hypothesis, also where it is not good enough; None if there is none.
+        second: the best one at another place.
+        probability: that the best one is right: within a metre and three degrees.
+        reason: why the robot is not localised; None: it is.
+        detail: the reason in words; empty if it is localised.
+        features: that the probability follows from (`features_of`); None without a hypothesis.
+        hypotheses: all, best first, for later requests to look back at.
+    """
+
+    best: Hypothesis | None
+    second: Hypothesis | None
+    probability: float
+    reason: Reason | None
+    detail: str
+    features: Float64 | None
+    hypotheses: tuple[Hypothesis, ...]
+
+    @property
+    def pose(self) -> Pose | None:
+        """From the robot's frame to the map's; None if it is not localised."""
+        return self.best.pose if self.best is not None and self.reason is None else None
+
+
+def localise(
+    candidates: Candidates,
+    parameters: LocalisationParameters = PARAMETERS,
+    confidence: Confidence | None = None,
+    evidence: Evidence | None = None,
+) -> Localisation:
+    """Find the robot's frame in the map's.
+
+    Args:
+        candidates: what each of its segments may be.
+        confidence: gives the probability; the shipped one unless said.
+        evidence: what the robot's requests of the last seconds found.
+    """
+    correspondences = correspond(candidates, parameters)
+    if correspondences.usable < parameters.least_segments:
+        return _unknown(
+            "too-few-segments",
+            f"{correspondences.usable} segments have candidates in the map; "
+            f"{parameters.least_segments} or more are needed.",
+        )
+    voted = most_voted(correspondences, parameters)
+    guesses = evidence.guesses() if evidence else []
+    hypotheses = find_hypotheses(voted, parameters, guesses)
+    if not hypotheses:
+        return _unknown("inconsistent", "No place in the map has the segments as they lie here.")
+    return judge(hypotheses, correspondences.usable, parameters, confidence or shipped(), evidence)
+
+
+def judge(
+    hypotheses: list[Hypothesis],
+    usable: int,
+    parameters: LocalisationParameters,
+    confidence: Confidence,
+    evidence: Evidence | None = None,
+) -> Localisation:
+    """Decide whether the best hypothesis is good enough.
+
+    Args:
+        hypotheses: one or more, best first, each at another place.
+        usable: how many queries had candidates.
+    """
+    support = [evidence.support(each) if evidence else 0.0 for each in hypotheses]
+    totals = np.array([each.score for each in hypotheses]) + support
+    order = np.argsort(-totals, kind="stable").tolist()
+    best, total = hypotheses[order[0]], float(totals[order[0]])
+    second = hypotheses[order[1]] if len(order) > 1 else None
+    rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
+    features = features_of(best, total, rival, usable)
+    probability = confidence.probability(features)
+    reason: Reason | None = None
+    detail = ""
+    if rival >= parameters.ambiguous:
+        reason = "ambiguous"
+        detail = f"Another place fits {rival:.0%} as well."
+    elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
+        reason = "inconsistent"
+        detail = f"The {len(best)} segments that agree do not tell the direction."
+    elif probability < parameters.least_probability:
+        reason = "inconsistent"
+        detail = f"The best place, where {len(best)} of {usable} segments agree, is hardly likely."
+    return Localisation(best, second, probability, reason, detail, features, tuple(hypotheses))
+
+
+def _unknown(reason: Reason, detail: str) -> Localisation:
+    return Localisation(None, None, 0.0, reason, detail, None, ())

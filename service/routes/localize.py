@@ -1,0 +1,171 @@
+"""`/localize`: segments in, the robot's place out."""
+
+from typing import Any
+
+import numpy as np
+from fastapi import APIRouter, Request, Response
+from scipy.spatial.transform import Rotation
+
+from segments.localisation import Hypothesis, Localisation, LocalisationParameters, Pose
+from service.bodies import ENCODINGS, Body, answer_type, parse, render
+from service.keys import Holder
+from service.localise_schemas import LocalizeQuery, LocalizeRequest, LocalizeResponse
+from service.locating import localise_in
+from service.models import Model
+from service.openapi import body_of, packed_response
+from service.packed_schemas import PackedLocalizeRequest
+from service.problems import documented
+from service.queries import Asked, Queries, read_query
+from service.schemas import Failed
+from service.sessions import SessionKey
+from service.state import HolderOf, State, StateOf, TimingOf
+from service.stored_map import StoredMap
+from service.timing import Timing
+
+router = APIRouter(tags=["recognition"])
+
+Query = LocalizeQuery[Any, Any, Any]
+Told = dict[str, Any]
+"""As `LocalisationOut` says."""
+
+
+@router.post(
+    "/localize",
+    summary="Where in one map, some, or all the robot is",
+    response_model=LocalizeResponse,
+    responses=packed_response(LocalizeResponse)
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 504),
+    openapi_extra=body_of(LocalizeRequest, PackedLocalizeRequest),
+)
+async def localize(
+    request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+) -> Response:
+    """The pose of the robot's frame in each map's, or why it is not known, the likeliest first.
+
+    Send all segments around the robot, in one frame. In each map candidates of all segments are
+    looked for, as `/match` does, and those that lie to each other as the segments do tell the pose.
+    A place that fits nearly as well as the best one makes the answer *ambiguous*.
+    """
+    answer = answer_type(request)
+    async with state.desk.admit(request, ENCODINGS, timing) as body:
+        query, asked = await state.compute(_read, state, holder, body, timing)
+        request.state.model_id = asked.model_id
+        told: list[Told] = []
+        queries = await asked.queries(timing)
+        for (model, searched), own in zip(asked.scope.searched, queries, strict=True):
+            for stored in searched:
+                key = query.session and SessionKey(holder.name, query.session, stored.name)
+                work = (state, model, stored, own, query, key or None, timing)
+                told.append(await state.compute(_locate, *work))
+        content = await state.compute(_written, asked, queries, told, answer, timing)
+    return Response(content, media_type=answer)
+
+
+def _read(state: State, holder: Holder, body: Body, timing: Timing) -> tuple[Query, Asked]:
+    timing.lap("queue")
+    query = parse(LocalizeRequest, PackedLocalizeRequest, body, state.settings.limits)
+    centroids = None if query.centroids is None else np.array(query.centroids, np.float64)
+    return query, read_query(state, holder, query, timing, centroids)
+
+
+def _locate(
+    state: State,
+    model: Model,
+    stored: StoredMap,
+    own: Queries,
+    query: Query,
+    key: SessionKey | None,
+    timing: Timing,
+) -> Told:
+    timing.lap("queue")
+    assert own.centroids is not None
+    evidence = state.sessions.evidence(key) if key else None
+    found = localise_in(
+        own.codes,
+        own.centroids,
+        model,
+        stored,
+        query.k,
+        LocalisationParameters(model=query.motion),
+        timing,
+        evidence,
+    )
+    if key:
+        state.sessions.remember(key, found.hypotheses)
+    return _told(found, stored, own)
+
+
+def _told(found: Localisation, stored: StoredMap, own: Queries) -> Told:
+    """What one map says."""
+    best, pose = found.best, found.pose
+    inliers: list[Told] = []
+    if best is not None and pose is not None:
+        places = np.flatnonzero([isinstance(row, int) for row in own.rows])[best.queries]
+        ids = stored.layers.column("ids", best.rows)
+        inliers = [
+            {"query": query, "id": id_, "residual": residual}
+            for query, id_, residual in zip(
+                places.tolist(), ids.tolist(), best.residuals.tolist(), strict=True
+            )
+        ]
+    others = [found.second] if pose is not None else [best, found.second]
+    return {
+        "map": stored.name,
+        "frame": stored.frame,
+        "localised": pose is not None,
+        "reason": found.reason,
+        "detail": found.detail,
+        "probability": found.probability,
+        "pose": None if pose is None else _pose(pose),
+        "covariance": None if pose is None or best is None else best.covariance.tolist(),
+        "score": 0.0 if best is None else best.score,
+        "inliers": inliers,
+        "others": [_other(each) for each in others if each is not None],
+    }
+
+
+def _other(hypothesis: Hypothesis) -> Told:
+    return {
+        "pose": _pose(hypothesis.pose),
+        "score": hypothesis.score,
+        "inliers": len(hypothesis),
+    }
+
+
+def _pose(pose: Pose) -> Told:
+    rotation = Rotation.from_matrix(pose.rotation).as_quat(canonical=True)
+    return {
+        "translation": pose.translation.tolist(),
+        "rotation": rotation.tolist(),
+        "yaw": pose.yaw,
+    }
+
+
+def _written(
+    asked: Asked, queries: list[Queries], told: list[Told], answer: str, timing: Timing
+) -> bytes:
+    timing.lap("queue")
+    # What `LocalizeResponse` says, without its checks: the values are our own.
+    response = {
+        "model_id": asked.model_id,
+        "localisations": sorted(
+            told, key=lambda each: (not each["localised"], -each["probability"], each["map"])
+        ),
+        "unusable": [{"query": query, **failed.model_dump()} for query, failed in _failed(queries)],
+        "skipped": [
+            {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped
+        ],
+    }
+    content = render(response, answer)
+    timing.lap("encode")
+    return content
+
+
+def _failed(queries: list[Queries]) -> list[tuple[int, Failed]]:
+    """The segments that no model could use."""
+    by_query = enumerate(zip(*(own.rows for own in queries), strict=True))
+    return [
+        (query, rows[0])
+        for query, rows in by_query
+        if isinstance(rows[0], Failed) and all(isinstance(row, Failed) for row in rows)
+    ]

@@ -1,0 +1,75 @@
+"""Sessions: what each robot's last requests found, for its next one."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from threading import Lock
+from time import monotonic
+
+from segments.localisation import Hypothesis, LocalisationParameters
+from segments.localisation.evidence import Evidence, History
+
+
+@dataclass(frozen=True, slots=True)
+class SessionKey:
+    """Whose evidence it is: nobody's counts for another's.
+
+    Attributes:
+        holder: name of the key that the requests came with.
+        session: the id that the robot chose.
+        map: name of the map.
+    """
+
+    holder: str
+    session: str
+    map: str
+
+
+class Sessions:
+    """All sessions, those used last at the end. Safe to use from many threads.
+
+    Whoever has been silent longer than the memory is forgotten; of too many at once, who has been
+    silent longest.
+    """
+
+    def __init__(
+        self,
+        most: int,
+        parameters: LocalisationParameters | None = None,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """None yet.
+
+        Args:
+            most: sessions at once; a map counts as one of its own.
+            parameters: how long and how much is remembered.
+            clock: gives seconds that only grow.
+        """
+        self._most = most
+        self._parameters = parameters or LocalisationParameters()
+        self._clock = clock
+        self._lock = Lock()
+        self._by_key: OrderedDict[SessionKey, tuple[float, History]] = OrderedDict()
+
+    def __len__(self) -> int:
+        return len(self._by_key)
+
+    def evidence(self, key: SessionKey) -> Evidence | None:
+        """What the session's earlier requests say now; None if there is none."""
+        with self._lock:
+            now = self._clock()
+            known = self._by_key.get(key)
+            return known[1].at(now) if known is not None else None
+
+    def remember(self, key: SessionKey, hypotheses: Sequence[Hypothesis]) -> None:
+        """Add what a request found by itself."""
+        with self._lock:
+            now = self._clock()
+            _, history = self._by_key.pop(key, (now, History(self._parameters)))
+            history.add(now, hypotheses)
+            self._by_key[key] = now, history
+            while self._by_key:
+                oldest, (last, _) = next(iter(self._by_key.items()))
+                if len(self._by_key) <= self._most and now - last <= self._parameters.memory:
+                    break
+                del self._by_key[oldest]

@@ -1,0 +1,92 @@
+"""Short runs of the crasher, of power cuts and of a fleet, and that they see what is wrong."""
+
+import json
+import random
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+from shutil import which
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from bench import powerloss
+from bench.powerloss import Plan, replay
+from bench.recorded_run import RecordedRun, record
+from cli import app
+
+
+def report_of(file: Path, *words: str | float) -> dict[str, Any]:
+    """What `placecell bench` writes."""
+    result = CliRunner().invoke(app, ["bench", *map(str, words), "--json", str(file)])
+    assert result.exit_code == 0, result.output
+    content: dict[str, Any] = json.loads(file.read_text())
+    return content
+
+
+@pytest.mark.usefixtures("tiny")
+def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
+    report = report_of(tmp_path / "crash.json", "crash", "--kills", 5, "--seed", 1)
+    assert report["kills"] == 5
+    assert report["losses"] == report["half_seen"] == 0
+    assert report["wrong"] == []
+    assert report["writes_acknowledged"] > 10
+    assert report["versions_compared"] > 10
+    assert report["reads"] > 0
+    assert report["killed_during"]["start"] == 1
+    assert report["restart_seconds"]["max"] >= report["restart_seconds"]["p50"] > 0
+
+
+@pytest.mark.usefixtures("tiny")
+def test_robots_that_share_a_map_end_with_the_same(tmp_path: Path) -> None:
+    words = ("fleet", "--minutes", 0.1, "--clients", 8, "--seed", 1)
+    report = report_of(tmp_path / "fleet.json", *words)
+    assert report["robots_with_the_service_s_map"] == 8
+    assert report["map_is_the_union"] is True
+    assert report["ids_reserved_twice"] == 0
+    assert report["wrong"] == []
+    assert report["edits_acknowledged"] > 8
+    assert report["connections_cut"] > 0
+
+
+@pytest.fixture(scope="module")
+def recorded(tiny: None, tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
+    """A short run; skips where strace cannot watch one."""
+    if which("strace") is None:
+        pytest.skip("strace is not installed")
+    tried = subprocess.run(["strace", "-D", "true"], capture_output=True, text=True, check=False)
+    if tried.returncode:
+        pytest.skip(f"strace cannot watch a process here: {tried.stderr.strip()}")
+    return record(tmp_path_factory.mktemp("run"), writes=16, large=300, seed=1)
+
+
+PLAN = Plan(cuts=30)
+
+
+def test_nothing_is_lost_when_the_power_fails(recorded: RecordedRun, tmp_path: Path) -> None:
+    tally = replay(recorded, PLAN, random.Random(0), tmp_path / "left")
+    assert tally.told == []
+    assert {*tally.results} <= {"good", "landed"}
+    assert len(tally.found) > 15
+
+
+def test_what_is_not_synced_is_seen_to_be_lost(recorded: RecordedRun, tmp_path: Path) -> None:
+    """Else the cuts would show nothing."""
+    steps = [
+        step for step in recorded.steps if not (step.kind == "sync" and step.path.endswith("-wal"))
+    ]
+    careless = replace(recorded, steps=steps)
+    tally = replay(careless, PLAN, random.Random(0), tmp_path / "left")
+    assert tally.results["lost"] > 0
+    assert any("were acknowledged" in told for told in tally.told)
+
+
+def test_power_cuts_are_reported(
+    tmp_path: Path, recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(powerloss, "record", lambda *_: recorded)
+    report = report_of(tmp_path / "powerloss.json", "powerloss", "--writes", 16, "--cuts", 3)
+    assert report["writes"] == 16
+    assert report["power_cuts"] > 0
+    assert report["losses"] == report["half_seen"] == 0

@@ -1,0 +1,164 @@
+"""The figures of `evaluate-poses` by hand, and that drives without a common frame are refused."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from bench.pose_queries import Pair, PoseQuery, joined, random_frame
+from bench.poses import (
+    Outcome,
+    bounds,
+    outcome_of,
+    precision_recall,
+    reliability_of,
+    report,
+    shares,
+    until_localised,
+)
+from segments.localisation import Pose, localise
+from tests.client.map_builders import random_map
+from tests.segments.localisation.scene_builders import scene
+from tests.segments.segment_builders import pose, write_odometry
+
+
+def outcome(
+    metres: float = 0.1,
+    degrees: float = 0.1,
+    probability: float = 0.99,
+    reason: str = "",
+    driven: float = 0.0,
+    mapped: bool = True,
+) -> Outcome:
+    return Outcome(reason, probability, metres, degrees, 3.0, 5.0, driven, mapped)
+
+
+RIGHT = outcome()
+ASIDE = outcome(metres=2.0)
+"""Neither right nor off."""
+OFF = outcome(metres=30.0)
+TURNED = outcome(degrees=11.0)
+DOUBTFUL = outcome(metres=30.0, probability=0.6)
+UNKNOWN = outcome(metres=0.2, probability=0.4, reason="ambiguous")
+LOST = outcome(np.inf, np.inf, 0.0, "inconsistent")
+
+
+def test_what_is_right_wrong_but_sure_and_unknown() -> None:
+    told = shares([RIGHT, ASIDE, OFF, TURNED, DOUBTFUL, UNKNOWN, LOST, RIGHT])
+    assert told["queries"] == 8
+    assert told["counts"] == {"localised_right": 2, "wrong_but_sure": 2, "not_localised": 2}
+    assert told["localised_right"] == 0.25
+    # Not told, so nobody is misled.
+    assert not outcome(metres=30.0, reason="ambiguous").wrong_but_sure
+
+
+@pytest.mark.parametrize(
+    ("metres", "degrees", "right"),
+    [(1.0, 3.0, True), (1.01, 0.0, False), (0.0, 3.01, False)],
+)
+def test_right_is_within_a_metre_and_three_degrees(
+    metres: float, degrees: float, right: bool
+) -> None:
+    assert outcome(metres, degrees).right is right
+
+
+def test_bounds_are_those_of_the_binomial_distribution() -> None:
+    low, high = bounds(3, 50)
+    assert stats.binom.sf(2, 50, low) == pytest.approx(0.025, abs=1e-3)
+    assert stats.binom.cdf(3, 50, high) == pytest.approx(0.025, abs=1e-3)
+    # The rule of three, nearly: 1 - 0.025 ** (1 / n).
+    assert bounds(0, 3000) == pytest.approx([0, 0.00123], abs=1e-5)
+    assert bounds(4, 4)[1] == 1
+    assert bounds(0, 0) == [0, 1]
+
+
+def test_precision_and_recall_by_hand() -> None:
+    rows = {row["probability"]: row for row in precision_recall([RIGHT, OFF, DOUBTFUL, UNKNOWN])}
+    assert rows[0.5]["precision"] == pytest.approx(1 / 3, abs=1e-4)
+    assert rows[0.9]["precision"] == 0.5
+    assert rows[0.9]["recall"] == 0.25
+    assert 0.995 not in rows  # nobody was as sure
+
+
+def test_reliability_compares_stated_with_true() -> None:
+    stated = np.array([0.05, 0.15, 0.11, 0.97, 0.992, 1.0])
+    right = np.array([False, True, False, True, True, False])
+    assert reliability_of(stated, right) == [
+        {"stated": 0.05, "right": 0.0, "count": 1},
+        {"stated": 0.13, "right": 0.5, "count": 2},
+        {"stated": 0.97, "right": 1.0, "count": 1},
+        {"stated": 0.996, "right": 0.5, "count": 2},
+    ]
+
+
+def test_metres_until_localised_from_each_start() -> None:
+    way = [
+        outcome(metres=30, driven=0.0),
+        replace(UNKNOWN, driven=2.0),
+        replace(RIGHT, driven=5.0),
+        replace(LOST, driven=6.0),
+    ]
+    # 5 m, 3 m and none; from the last start never.
+    assert until_localised(way) == {"median": 3.0, "p95": 4.8, "never": 1}
+    assert until_localised([LOST]) == {"median": None, "p95": None, "never": 1}
+
+
+def test_queries_beyond_the_map_stand_apart() -> None:
+    told = report([RIGHT, RIGHT, LOST, outcome(mapped=False), replace(LOST, mapped=False)])
+    assert told["queries"] == 3
+    assert told["localised_right"] == pytest.approx(2 / 3, abs=1e-5)
+    assert told["beyond_the_map"]["queries"] == 2
+    assert told["reasons"] == {"inconsistent": 1}
+    assert told["median_position_error_m"] == 0.1
+    assert told["p50_ms"] == told["p99_ms"] == 5.0
+    assert told["covariance_ratio"] == pytest.approx(3 / stats.chi2.median(4), abs=1e-4)
+    assert sum(row["count"] for row in told["reliability"]) == 5
+
+
+def test_an_outcome_is_off_where_the_robot_is() -> None:
+    made = scene(1)
+    found = localise(made.candidates)
+    sensor = made.candidates.centroids.mean(axis=0)
+    told = outcome_of(found, query(made.pose, sensor), 5.0)
+    assert told.localised
+    assert told.metres < 0.2
+    assert 0 < told.normalised < 50
+    # A truth that lies 2 m to the east.
+    aside = Pose.of_yaw(0, np.array([2.0, 0, 0])).after(made.pose)
+    assert outcome_of(found, query(aside, sensor), 5.0).metres == pytest.approx(2, abs=0.2)
+    lost = localise(scene(2, found=0.0).candidates)
+    told = outcome_of(lost, query(made.pose, sensor), 5.0)
+    assert told.reason
+    assert np.isnan(told.normalised)
+
+
+def query(truth: Pose, sensor: np.ndarray) -> PoseQuery:
+    return PoseQuery(
+        0.0, 0.0, np.zeros((1, 2), np.int8), np.zeros((1, 3)), sensor, truth, mapped=True
+    )
+
+
+def test_a_robot_s_own_frame_is_any() -> None:
+    frames = [random_frame(seed) for seed in range(20)]
+    assert np.ptp([frame.yaw for frame in frames]) > 4
+    np.testing.assert_array_equal(random_frame(3).matrix, random_frame(3).matrix)
+
+
+def test_maps_are_joined_side_by_side() -> None:
+    one, other = random_map(), random_map(seed=2)
+    both = joined([one, other], [np.zeros(3), np.array([100.0, 0, 0])])
+    both.check()
+    assert len(both) == len(one) + len(other)
+    np.testing.assert_allclose(both.centroids[len(one) :], other.centroids + (100.0, 0, 0))
+    positions = both.frame_positions[both.frame_index]
+    expected = other.frame_positions[other.frame_index] + (100.0, 0, 0)
+    np.testing.assert_allclose(positions[len(one) :], expected)
+
+
+def test_two_recorded_drives_have_no_common_frame(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        write_odometry(tmp_path / name, [np.ones((9, 3))] * 2, [pose(), pose(1.0)])
+    with pytest.raises(ValueError, match=r"origin\.txt"):
+        Pair.of(tmp_path / "a", tmp_path / "b")

@@ -1,0 +1,123 @@
+"""`placecell maps` against a running service, as a person uses it."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta
+from placecell_client.map_edit import take
+from typer.testing import CliRunner, Result
+
+from bench.map_content import map_of
+from bench.server import running_service
+from cli import app
+from segments.manifest import Manifest
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def address(data_dir: Path) -> Iterator[str]:
+    with running_service(data_dir) as address:
+        yield address
+
+
+@pytest.fixture
+def yard() -> CompactMap:
+    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    codes = np.random.default_rng(0).integers(-128, 128, (300, manifest.code_bytes))
+    return map_of(codes.astype(np.int8), manifest, "ann")
+
+
+def run(*words: object) -> Result:
+    result: Result = CliRunner().invoke(app, ["maps", *map(str, words)])
+    return result
+
+
+def good(*words: object) -> str:
+    result = run(*words)
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def bad(*words: object) -> str:
+    result = run(*words)
+    assert result.exit_code == 1
+    assert "Traceback" not in result.output
+    return result.output
+
+
+def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+    monkeypatch.setenv("PLACECELL_URL", address)
+    file, copy = tmp_path / "yard.map", tmp_path / "copy.map"
+    file.write_bytes(encode(yard))
+    assert "yard: 300 segments, version 1" in good("push", file)
+    assert "300 segments, version 0 to 1" in good("pull", "yard", copy)
+    assert copy.read_bytes() == file.read_bytes()
+    assert "ann 300" in good("list")
+    with Client(address) as client:
+        gone = Delta(take(yard, np.arange(0)), np.arange(5, dtype=np.uint32))
+        client.edit_map("yard", gone, robot="ann")
+    assert "0 added, 0 changed, 5 removed, 295 the same" in good("diff", copy, "yard")
+    assert "5 added" in good("diff", "yard", "yard@1")
+    # Seen at version 1; so what was written since is not lost.
+    copy.write_bytes(encode(take(yard, np.arange(10))))
+    assert "412" in bad("push", copy, "yard")
+    copy.write_bytes(file.read_bytes())
+    assert "295 segments, version 1 to 2" in good("pull", "yard", copy)
+    assert decode(copy.read_bytes()).ids[0] == 5
+    copy.write_bytes(encode(take(yard, np.arange(10))))
+    assert "10 segments, version 3" in good("push", copy, "yard")
+    assert "version 3" in good("push", copy, "yard")
+    assert "428" in bad("push", file, "yard")
+    assert "version 4" in good("push", file, "yard", "--replace")
+    shown = good("show", "yard", "--plot", tmp_path / "yard.png")
+    assert [word in shown for word in ("put", "edit", "anyone")] == [True, True, True]
+    assert (tmp_path / "yard.png").read_bytes().startswith(b"\x89PNG")
+    assert "295 segments as in version 2, now version 5" in good("restore", "yard", 2)
+    assert "295 segments would go" in good(
+        "age", "yard", "--unseen-since", "2030-01-01", "--dry-run"
+    )
+    assert "0 segments removed" in good("age", "yard", "--unseen-since", "1990-01-01")
+    assert "version 4 is the oldest" in good("compact", "yard", "--keep", 2)
+    assert "410" in bad("diff", "yard", "yard@1")
+    assert CliRunner().invoke(app, ["maps", "delete", "yard"], input="n\n").exit_code == 1
+    assert "gone" in good("delete", "yard", "--yes")
+    assert "404" in bad("show", "yard")
+    assert "number" in bad("diff", "yard@x", "yard")
+
+
+def test_what_cannot_be_reached_is_told() -> None:
+    assert "placecell serve" in bad("list", "--url", "http://127.0.0.1:9")
+
+
+def test_files_and_folders_are_verified(
+    address: str, data_dir: Path, tmp_path: Path, yard: CompactMap
+) -> None:
+    whole, delta, cut = tmp_path / "a.map", tmp_path / "a.delta", tmp_path / "cut.map"
+    whole.write_bytes(encode(yard))
+    delta.write_bytes(encode_delta(Delta(yard, np.zeros(0, np.uint32))))
+    assert good("verify", whole, delta).count("whole") == 2
+    cut.write_bytes(whole.read_bytes()[:-1])
+    assert "cut" in bad("verify", whole, cut)
+    assert "holds no maps.sqlite" in bad("verify", tmp_path)
+    assert "stop it first" in bad("verify", data_dir)
+
+
+def test_a_stopped_services_folder_is_verified(tmp_path: Path, yard: CompactMap) -> None:
+    with running_service(tmp_path) as address, Client(address) as client:
+        client.put_map("yard", yard)
+        client.put_map("other", replace(yard, frame="elsewhere"))
+    assert "whole" in good("verify", tmp_path)
+    database = tmp_path / "maps.sqlite"
+    data = bytearray(database.read_bytes())
+    place = data.index(yard.codes[100].tobytes())
+    data[place] ^= 1
+    database.write_bytes(data)
+    assert "altered" in bad("verify", tmp_path)

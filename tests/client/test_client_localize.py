@@ -1,0 +1,134 @@
+"""`Client.localize`: what is sent, and what it gives."""
+
+import json
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from placecell_client import Description, ItemError, Pose
+
+from tests.client.client_fakes import LOCALISED, PLACE, client_of, packed
+
+CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
+UNUSABLE = ItemError("urn:x", "Too few points", "4 points")
+DESCRIBED = Description(
+    "m",
+    np.array([[0, 0], [3, 4], [5, 6]], np.int8),
+    np.zeros((3, 2), np.float32),
+    np.array([[np.nan] * 3, [1.0, 2, 3], [4, 5, 6]]),
+    {0: UNUSABLE},
+)
+
+
+def test_a_description_goes_with_its_centroids() -> None:
+    def answer(request: httpx.Request) -> httpx.Response:
+        assert request.url.path == "/localize"
+        assert json.loads(request.content) == {
+            "k": 25,
+            "motion": "yaw",
+            "maps": ["yard"],
+            "session": "ann-7",
+            "model_id": "m",
+            "codes": [[3, 4], [5, 6]],
+            "centroids": [[1, 2, 3], [4, 5, 6]],
+        }
+        inliers = [{"query": 1, "id": 9, "residual": 0.25}]
+        return httpx.Response(
+            200, json=LOCALISED | {"localisations": [PLACE | {"inliers": inliers}]}
+        )
+
+    with client_of(answer, encoding="json") as client:
+        found = client.localize(DESCRIBED, maps=["yard"], session="ann-7")
+    # By the description's own indices: the first could not be used.
+    assert found.maps[0].inliers.queries.tolist() == [2]
+    assert found.maps[0].inliers.ids.tolist() == [9]
+    assert found.maps[0].inliers.residuals.tolist() == [0.25]
+    assert len(found.maps[0].inliers) == 1
+    assert found.errors == {0: UNUSABLE}
+
+
+def test_in_msgpack_arrays_are_blobs() -> None:
+    sent: list[Any] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        import msgpack  # type: ignore[import-untyped]
+
+        sent.append(msgpack.unpackb(request.content))
+        return packed(LOCALISED)
+
+    with client_of(answer) as client:
+        client.localize(DESCRIBED)
+        client.localize(segments=[CLOUD], sensors=[1.0, 2.0, 3.0], motion="se3", k=5)
+    assert sent[0]["codes"] == bytes([3, 4, 5, 6])
+    assert np.frombuffer(sent[0]["centroids"], "<f8").tolist() == [1, 2, 3, 4, 5, 6]
+    assert "session" not in sent[0]
+    assert (sent[1]["motion"], sent[1]["k"], len(sent[1]["segments"])) == ("se3", 5, 1)
+
+
+def test_a_place_has_a_pose() -> None:
+    with client_of(lambda _: packed(LOCALISED)) as client:
+        found = client.localize(segments=[CLOUD], sensors=np.zeros(3))
+    best = found.best
+    assert best is found.maps[0]
+    assert best.pose is not None
+    assert (best.map, best.frame, best.probability, best.score) == ("yard", "f", 0.97, 7.5)
+    # A turn of 73.7 degrees: cosine 0.28, sine 0.96.
+    expected = np.array([[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]])
+    np.testing.assert_allclose(best.pose.matrix, expected, atol=1e-12)
+    np.testing.assert_allclose(best.pose.apply([1.0, 0, 0]), [10.28, 20.96, 1])
+    np.testing.assert_allclose(best.pose.apply([[1.0, 0, 0]]), [[10.28, 20.96, 1]])
+    assert best.others[0].score == 2.5
+    assert best.others[0].inliers == 3
+    assert found.errors == {}
+
+
+@pytest.mark.parametrize("size", [4, 6])
+def test_uncertainty_is_told_of_any_point(size: int) -> None:
+    """A turn of 0.1 rad about z moves a point 10 m east of the origin by 1 m to the north."""
+    covariance = np.diag([0.04, 0.04, 0.01, *[0.0] * (size - 4), 0.01])
+    flat = {"translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "yaw": 0.0}
+    place = PLACE | {"pose": flat, "covariance": covariance.tolist()}
+    with client_of(lambda _: packed(LOCALISED | {"localisations": [place]})) as client:
+        best = client.localize(DESCRIBED).best
+    assert best is not None
+    np.testing.assert_allclose(best.covariance_at([0, 0, 0]), np.diag([0.04, 0.04, 0.01]))
+    np.testing.assert_allclose(best.covariance_at([10, 0, 0]), np.diag([0.04, 1.04, 0.01]))
+    np.testing.assert_allclose(best.covariance_at([0, 10, 0]), np.diag([1.04, 0.04, 0.01]))
+
+
+def test_not_localised_is_no_pose() -> None:
+    nowhere = PLACE | {
+        "localised": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
+        "covariance": None, "inliers": [],
+    }  # fmt: skip
+    unusable = [{"query": 3, "error": {"type": "urn:x", "title": "t", "detail": "d"}}]
+    content = LOCALISED | {
+        "localisations": [nowhere], "unusable": unusable,
+        "skipped": [{"map": "old", "model_id": "n"}],
+    }  # fmt: skip
+    with client_of(lambda _: packed(content)) as client:
+        found = client.localize(segments=[CLOUD], sensors=np.zeros(3))
+    assert found.best is None
+    assert found.maps[0].reason == "ambiguous"
+    assert isinstance(found.maps[0].others[0].pose, Pose)
+    assert found.errors == {3: ItemError("urn:x", "t", "d")}
+    assert found.skipped[0].model_id == "n"
+    with pytest.raises(ValueError, match="ambiguous"):
+        found.maps[0].covariance_at([0, 0, 0])
+
+
+def test_it_takes_one_kind_of_query() -> None:
+    with client_of(lambda _: httpx.Response(500)) as client:
+        for arguments in ({}, {"segments": [CLOUD]}, {"description": DESCRIBED, "sensors": CLOUD}):
+            with pytest.raises(ValueError, match="either"):
+                client.localize(**arguments)
+
+
+def test_centroids_are_checked_before_they_are_sent() -> None:
+    broken = Description("m", DESCRIBED.codes, DESCRIBED.descriptors, np.full((3, 3), np.nan), {})
+    with (
+        client_of(lambda _: httpx.Response(500)) as client,
+        pytest.raises(ValueError, match="not finite"),
+    ):
+        client.localize(broken)

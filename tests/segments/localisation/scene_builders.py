@@ -1,0 +1,120 @@
+"""Made-up maps, and robots somewhere in them."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from segments.localisation import Candidates, Pose
+from segments.types import Float64, Int64
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A robot's view, what each segment may be, and where the robot truly is."""
+
+    candidates: Candidates
+    map: Float64
+    pose: Pose
+
+    def seen_from(self, move: Pose) -> "Scene":
+        """The same view, in another frame of the robot's."""
+        back = move.inverse()
+        centroids = move.apply(self.candidates.centroids)
+        return Scene(replace(self.candidates, centroids=centroids), self.map, self.pose.after(back))
+
+    def in_map(self, move: Pose) -> "Scene":
+        """The same map, in another frame of the map's."""
+        places = self.candidates.places
+        moved = move.apply(places.reshape(-1, 3)).reshape(places.shape)
+        return Scene(
+            replace(self.candidates, places=moved), move.apply(self.map), move.after(self.pose)
+        )
+
+
+def take(given: Candidates, order: Int64) -> Candidates:
+    """These queries, in this order."""
+    likely = given.probabilities
+    return Candidates(
+        given.centroids[order],
+        given.rows[order],
+        given.places[order],
+        given.distances[order],
+        None if likely is None else likely[order],
+    )
+
+
+def concatenate(one: Candidates, other: Candidates) -> Candidates:
+    """The queries of both."""
+    assert one.probabilities is not None
+    assert other.probabilities is not None
+    return Candidates(
+        np.concatenate([one.centroids, other.centroids]),
+        np.concatenate([one.rows, other.rows]),
+        np.concatenate([one.places, other.places]),
+        np.concatenate([one.distances, other.distances]),
+        np.concatenate([one.probabilities, other.probabilities]),
+    )
+
+
+def a_pose(random: np.random.Generator, reach: float = 500.0) -> Pose:
+    return Pose.of_yaw(random.uniform(-np.pi, np.pi), random.uniform(-reach, reach, 3))
+
+
+def any_rotation(random: np.random.Generator, reach: float = 500.0) -> Pose:
+    return Pose(Rotation.random(rng=random).as_matrix(), random.uniform(-reach, reach, 3))
+
+
+def street(random: np.random.Generator, length: float, count: int) -> Float64:
+    """Segments along both sides of a street, centroids (count, 3)."""
+    along = random.uniform(0, length, count)
+    across = random.choice([-1, 1], count) * random.uniform(4, 12, count)
+    return np.stack([along, across, random.uniform(0, 4, count)], axis=1)
+
+
+def scene(
+    seed: int,
+    segments: int = 30,
+    *,
+    found: float = 0.6,
+    noise: float = 0.2,
+    k: int = 10,
+    rows: int = 2_000,
+    pose: Pose | None = None,
+) -> Scene:
+    """A view of a part of a map.
+
+    Args:
+        found: share of the segments that have their own row among the candidates.
+        noise: of the centroids, standard deviation along each axis, metres.
+        k: candidates of each.
+        rows: of the map.
+        pose: of the robot's frame in the map's.
+    """
+    random = np.random.default_rng(seed)
+    where = pose or a_pose(random)
+    centroids = np.concatenate([street(random, 2_000.0, rows - segments)])
+    local = street(random, 70.0, segments) - (35.0, 0.0, 2.0)
+    world = np.concatenate([where.apply(local), where.apply(centroids)])
+    chosen = random.integers(0, rows, (segments, k))
+    right = random.uniform(size=segments) < found
+    chosen[right, 0] = np.flatnonzero(right)
+    seen = local + random.normal(scale=noise, size=local.shape)
+    return scene_of(seen, world, chosen, where, random)
+
+
+def scene_of(
+    centroids: Float64, rows: Float64, chosen: Int64, pose: Pose, random: np.random.Generator
+) -> Scene:
+    """A view whose segments have these candidates, the first of them the likeliest."""
+    n, k = chosen.shape
+    # No row is a candidate twice.
+    for query in range(n):
+        _, first = np.unique(chosen[query], return_index=True)
+        spare = np.setdiff1d(np.arange(len(rows)), chosen[query])
+        twice = np.setdiff1d(np.arange(k), first)
+        chosen[query, twice] = random.choice(spare, len(twice), replace=False)
+    probabilities = np.sort(random.uniform(0, 1, (n, k)), axis=1)[:, ::-1].copy()
+    return Scene(
+        Candidates(centroids, chosen, rows[chosen], 1 - probabilities, probabilities), rows, pose
+    )

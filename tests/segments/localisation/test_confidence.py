@@ -1,0 +1,67 @@
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from segments.localisation.confidence import FEATURES, FILE, Confidence, features_of, shipped
+from segments.localisation.hypothesis import Hypothesis
+from segments.localisation.pose import Pose
+
+MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99)
+
+
+def test_the_logistic_model_by_hand() -> None:
+    # 2 - (3 - 1) / 2 + 0.5 = 1.5
+    assert MODEL.probability(np.array([2.0, 3.0])) == pytest.approx(1 / (1 + np.exp(-1.5)))
+
+
+def test_it_is_never_surer_than_what_was_seen() -> None:
+    assert MODEL.probability(np.array([1e9, 0.0])) == 0.99
+    assert MODEL.probability(np.array([-1e9, 0.0])) == pytest.approx(0)
+
+
+def test_many_at_once() -> None:
+    features = np.array([[2.0, 3.0], [0.0, 0.0]])
+    alone = [MODEL.probability(each) for each in features]
+    assert MODEL.probabilities(features).tolist() == pytest.approx(alone)
+
+
+def test_features_by_hand() -> None:
+    source = np.array([[-3.0, 0, 5], [3, 0, 5], [0, 2, 5], [0, -2, 5]])
+    numbers = np.arange(4)
+    residuals = np.array([0.0, 0.0, 0.6, 0.8])
+    pose = Pose.of_yaw(0, np.zeros(3))
+    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals)
+    found = dict(zip(FEATURES, features_of(best, 10.0, 0.25, 16).tolist(), strict=True))
+    assert found == pytest.approx(
+        {
+            "score": np.log(10),
+            "margin": 0.75,
+            "inliers": np.log(4),
+            "share": 0.25,
+            "residual": 0.5,
+            "spread": np.log1p(np.sqrt(2)),  # 2 metres squared across, 4.5 along
+        }
+    )
+
+
+def test_what_is_shipped_was_fitted_and_held_against_other_towns() -> None:
+    content = json.loads(FILE.read_text())
+    assert content["fitted_on"]["cases"] > 1_000
+    assert len(content["fitted_on"]["towns"]) > 1
+    often = [row for row in content["held_out"]["reliability"] if row["count"] >= 50]
+    assert len(often) > 2
+    assert all(abs(row["stated"] - row["right"]) < 0.2 for row in often)
+    assert 0.9 < shipped().highest < 1
+    # More that agrees, and less that competes, is never worth less.
+    weights = dict(zip(FEATURES, shipped().weights, strict=True))
+    assert min(weights["score"], weights["margin"], weights["share"]) > 0
+
+
+def test_constants_of_other_features_are_refused(tmp_path: Path) -> None:
+    content = json.loads(FILE.read_text()) | {"features": ["luck"]}
+    file = tmp_path / "confidence.json"
+    file.write_text(json.dumps(content))
+    with pytest.raises(ValueError, match="luck"):
+        Confidence.load(file)

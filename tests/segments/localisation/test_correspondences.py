@@ -1,0 +1,147 @@
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from segments.localisation.candidates import Candidates
+from segments.localisation.correspondences import Correspondences, correspond, number_places
+from segments.localisation.parameters import LocalisationParameters
+from segments.types import Float64
+from tests.segments.localisation.scene_builders import take
+
+PARAMETERS = LocalisationParameters()
+
+
+def candidates(
+    places: Sequence[Sequence[tuple[float, float, float]]], probabilities: list[list[float]] | None
+) -> Candidates:
+    """Query i lies at (i, 0, 0); rows of the map are numbered by place, equal ones alike."""
+    targets = np.array(places, dtype=float)
+    n, k, _ = targets.shape
+    _, rows = np.unique(targets.reshape(-1, 3), axis=0, return_inverse=True)
+    return Candidates(
+        np.stack([np.arange(n), np.zeros(n), np.zeros(n)], axis=1).astype(float),
+        rows.reshape(n, k),
+        targets,
+        np.tile(np.arange(1.0, k + 1), (n, 1)),
+        None if probabilities is None else np.array(probabilities),
+    )
+
+
+def weight(share: float, claims: float = 1.0) -> float:
+    return float(np.log1p(share / (0.01 * claims)))
+
+
+def of_query(found: Correspondences, query: int) -> dict[float, float]:
+    """Weight by the place's x."""
+    mine = found.queries == query
+    return dict(zip(found.target[mine, 0].tolist(), found.weights[mine].tolist(), strict=True))
+
+
+def test_weights_by_hand() -> None:
+    found = correspond(candidates([[(0, 0, 0), (50, 0, 0)]], [[0.6, 0.2]]), PARAMETERS)
+    assert of_query(found, 0) == pytest.approx({0.0: weight(0.75), 50.0: weight(0.25)})
+    assert found.usable == 1
+
+
+def test_views_of_one_place_are_one_correspondence() -> None:
+    places = [[(0.0, 0, 0), (50, 0, 0), (0.9, 0, 0), (0, 0.5, 0)]]
+    found = correspond(candidates(places, [[0.1, 0.5, 0.3, 0.1]]), PARAMETERS)
+    # Told by the likeliest of them.
+    assert of_query(found, 0) == pytest.approx({0.9: weight(0.5), 50.0: weight(0.5)})
+
+
+def test_what_many_queries_claim_weighs_less() -> None:
+    lonely = [(100.0 * i, 0.0, 0.0) for i in (1, 2, 3)]
+    places = [[(0.0, 0.0, 0.0), place] for place in lonely]
+    found = correspond(candidates(places, [[0.5, 0.5]] * 3), PARAMETERS)
+    for query in range(3):
+        weights = of_query(found, query)
+        assert weights.pop(0.0) == pytest.approx(weight(0.5, claims=1.5))
+        assert list(weights.values()) == pytest.approx([weight(0.5)])
+
+
+def test_look_alikes_weigh_less() -> None:
+    alike = [[(100.0 * i, 0.0, 0.0) for i in range(10)]]
+    clear = of_query(correspond(candidates(alike, [[0.9] + [0.01] * 9]), PARAMETERS), 0)
+    vague = of_query(correspond(candidates(alike, [[0.9] * 10]), PARAMETERS), 0)
+    assert clear[0.0] > vague[0.0]
+
+
+def test_without_probabilities_distances_decide() -> None:
+    found = of_query(correspond(candidates([[(0, 0, 0), (50, 0, 0)]], None), PARAMETERS), 0)
+    near, far = np.exp(-0.5), np.exp(-2.0)  # at 1 and 2, and 1 is the usual nearest
+    assert found[0.0] == pytest.approx(weight(near / (near + far)))
+
+
+def test_equal_descriptors_have_no_distance() -> None:
+    given = candidates([[(0, 0, 0), (50, 0, 0)]], None)
+    same = Candidates(given.centroids, given.rows, given.places, np.zeros((1, 2)))
+    assert list(of_query(correspond(same, PARAMETERS), 0).values()) == [weight(0.5)] * 2
+
+
+NAN = float("nan")
+
+
+def test_what_is_no_number_is_left_out() -> None:
+    good = [(0.0, 0.0, 0.0), (50.0, 0.0, 0.0)]
+    places = [[(NAN, 0.0, 0.0), (50.0, 0.0, 0.0)], good, good]
+    given = candidates(places, [[0.5, 0.5], [NAN, 0.5], [0.5, 0.5]])
+    centroids: Float64 = given.centroids.copy()
+    centroids[2, 1] = np.inf
+    found = correspond(
+        Candidates(centroids, given.rows, given.places, given.distances, given.probabilities),
+        PARAMETERS,
+    )
+    assert found.usable == 2
+    assert found.queries.tolist() == [0, 1]
+    assert found.target[:, 0].tolist() == [50, 50]
+
+
+def test_no_candidates_are_no_correspondences() -> None:
+    for n, k in ((0, 3), (3, 0)):
+        none = Candidates(
+            np.zeros((n, 3)), np.zeros((n, k), np.int64), np.zeros((n, k, 3)), np.zeros((n, k))
+        )
+        found = correspond(none, PARAMETERS)
+        assert len(found) == found.usable == 0
+
+
+def test_arrays_that_do_not_fit_are_refused() -> None:
+    rows = np.zeros((2, 3), dtype=np.int64)
+    good = Candidates(
+        np.zeros((2, 3)), rows, np.zeros((2, 3, 3)), np.zeros((2, 3)), np.zeros((2, 3))
+    )
+    for name in ("centroids", "places", "distances", "probabilities"):
+        with pytest.raises(ValueError, match=name):
+            replace(good, **{name: np.zeros((2, 4))})  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="centroids"):
+        replace(good, rows=rows[0])
+
+
+def test_places_take_along_what_is_near() -> None:
+    points = np.array([[0.0, 0, 0], [0.6, 0, 0], [1.2, 0, 0], [9, 0, 0], [0.0, 0, 0]])
+    rows = np.array([7, 3, 5, 1, 7])
+    numbers = number_places(rows, points, 1.0)
+    # The second belongs to the first, so the third, within reach of it alone, stands by itself.
+    assert numbers[0] == numbers[1] == numbers[4]
+    assert len({numbers[0], numbers[2], numbers[3]}) == 3
+
+
+def test_the_order_of_queries_makes_no_difference() -> None:
+    random = np.random.default_rng(0)
+    n, k = 30, 8
+    rows = random.integers(0, 100, (n, k))
+    map_ = random.uniform(0, 60, (100, 3))
+    given = Candidates(
+        random.uniform(0, 60, (n, 3)), rows, map_[rows], random.uniform(size=(n, k)),
+        random.uniform(size=(n, k)),
+    )  # fmt: skip
+    order = random.permutation(n)
+    other = take(given, order)
+    one, two = correspond(given, PARAMETERS), correspond(other, PARAMETERS)
+    np.testing.assert_array_equal(one.source, two.source)
+    np.testing.assert_array_equal(one.rows, two.rows)
+    np.testing.assert_allclose(one.weights, two.weights, rtol=1e-12)
+    np.testing.assert_array_equal(one.queries, order[two.queries])

@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+
+from segments.localisation import LocalisationParameters, Pose, localise
+from segments.localisation.evidence import History
+from segments.localisation.hypothesis import Hypothesis
+from tests.segments.localisation.scene_builders import scene
+from tests.segments.localisation.test_localise import look_alikes
+
+PARAMETERS = LocalisationParameters(memory=10.0, half_life=3.0, past_weight=0.5, remembered=4)
+
+
+def hypothesis(x: float, score: float, yaw: float = 0.0) -> Hypothesis:
+    """At x metres along the map; its segments lie about the robot."""
+    source = np.array([[-10.0, 0, 0], [10, 0, 0], [0, 10, 0], [0, -10, 0]])
+    numbers = np.arange(4)
+    pose = Pose.of_yaw(yaw, np.array([x, 0.0, 0.0]))
+    return Hypothesis(pose, np.eye(4), score, numbers, numbers, source, np.zeros(4))
+
+
+def test_the_same_place_is_supported_and_another_is_not() -> None:
+    history = History(PARAMETERS)
+    history.add(100.0, [hypothesis(0, 20), hypothesis(50, 8), hypothesis(51, 6)])
+    now = history.at(100.0)
+    assert now.support(hypothesis(1, 5)) == pytest.approx(10)
+    assert now.support(hypothesis(52, 5)) == pytest.approx(4)  # the better of two counts
+    assert now.support(hypothesis(20, 5)) == 0
+    assert now.support(hypothesis(0, 5, yaw=0.5)) == 0
+
+
+def test_support_fades_and_is_forgotten() -> None:
+    history = History(PARAMETERS)
+    history.add(100.0, [hypothesis(0, 20)])
+    assert history.at(103.0).support(hypothesis(0, 5)) == pytest.approx(5)
+    assert history.at(109.9).past
+    assert not history.at(110.1).past
+
+
+def test_requests_add_up_to_a_number_that_is_bounded() -> None:
+    history = History(PARAMETERS)
+    for number in range(100):
+        history.add(100.0 + number / 1e3, [hypothesis(0, 20)])
+    assert len(history.at(100.1).past) == 4
+
+
+def test_guesses_are_the_best_of_the_past_the_latest_first() -> None:
+    history = History(PARAMETERS)
+    history.add(100.0, [hypothesis(0, 20), hypothesis(50, 8)])
+    history.add(101.0, [])
+    history.add(102.0, [hypothesis(7, 9)])
+    guesses = history.at(102.0).guesses()
+    assert [pose.translation[0] for pose in guesses] == [7, 0]
+
+
+def test_what_was_known_before_decides_between_two_places() -> None:
+    """The robot saw where it turned into one of two streets that are alike."""
+    made = look_alikes(2, 60.0)
+    assert localise(made.candidates).reason == "ambiguous"
+    history = History(LocalisationParameters())
+    second = Pose.of_yaw(0.0, np.array([60.0, 0, 0]))
+    there = hypothesis(60.0, 100.0)
+    assert there.pose.difference(second, np.zeros(3)) == (0, 0)
+    for tenth in range(5):
+        history.add(50.0 + tenth / 10, [there])
+    found = localise(made.candidates, evidence=history.at(50.5))
+    assert found.pose is not None
+    assert found.pose.translation == pytest.approx([60, 0, 0], abs=0.3)
+
+
+def test_the_past_alone_is_no_place() -> None:
+    """Nothing of what the robot sees now is where it was before."""
+    history = History(LocalisationParameters())
+    history.add(50.0, [hypothesis(1e4, 1000.0)])
+    made = scene(1)
+    found = localise(made.candidates, evidence=history.at(50.1))
+    assert found.pose is not None
+    metres, _ = found.pose.difference(made.pose, np.zeros(3))
+    assert metres < 0.5
+    noise = scene(2, found=0.0)
+    assert localise(noise.candidates, evidence=history.at(50.1)).pose is None
+
+
+def test_a_place_of_the_past_is_looked_at_again() -> None:
+    """Too few agree to be found among all, but enough where the robot is expected."""
+    made = scene(3, segments=60, found=0.12, k=25)
+    history = History(LocalisationParameters())
+    source = made.candidates.centroids[:4]
+    before = Hypothesis(made.pose, np.eye(4), 60.0, np.arange(4), np.arange(4), source, np.zeros(4))
+    for tenth in range(5):
+        history.add(50.0 + tenth / 10, [before])
+    found = localise(made.candidates, evidence=history.at(50.5))
+    assert found.best is not None
+    metres, _ = found.best.pose.difference(made.pose, source.mean(axis=0))
+    assert metres < 0.5

@@ -1,0 +1,53 @@
+import numpy as np
+import pytest
+
+from segments.localisation.correspondences import Correspondences
+from segments.localisation.parameters import LocalisationParameters
+from segments.localisation.pose import Pose
+from segments.localisation.voting import most_voted
+
+
+def haystack(right: int, wrong: int, seed: int = 0) -> tuple[Correspondences, np.ndarray]:
+    """Correspondences of one motion among many of none, shuffled; and which are right."""
+    random = np.random.default_rng(seed)
+    pose = Pose.of_yaw(2.0, np.array([300.0, -100, 5]))
+    source = random.uniform(-40, 40, (right + wrong, 3)) * (1, 1, 0.05)
+    target = pose.apply(source) + random.normal(scale=0.2, size=source.shape)
+    target[right:] = random.uniform(-500, 500, (wrong, 3)) * (1, 1, 0.01)
+    order = random.permutation(right + wrong)
+    numbers = np.arange(right + wrong)
+    found = Correspondences(
+        numbers, numbers, numbers, source[order], target[order], np.ones(len(order)), len(order)
+    )
+    return found, np.flatnonzero(order < right)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_moves_together_is_kept(seed: int) -> None:
+    found, right = haystack(30, 9_970, seed)
+    kept = most_voted(found, LocalisationParameters())
+    assert len(kept) == LocalisationParameters().most
+    assert np.isin(right, kept.queries).all()
+    assert (np.diff(kept.queries) > 0).all()  # in their old order
+
+
+def test_few_are_all_kept() -> None:
+    found, _ = haystack(30, 100)
+    assert most_voted(found, LocalisationParameters()) is found
+
+
+def test_a_query_counts_once_in_a_cell() -> None:
+    """A thousand places of one query, side by side, are no more than one."""
+    found, right = haystack(12, 2_000)
+    random = np.random.default_rng(1)
+    crowd = Correspondences(
+        np.concatenate([found.queries, np.full(1_000, 5_000)]),
+        np.arange(len(found) + 1_000),
+        np.arange(len(found) + 1_000),
+        np.concatenate([found.source, np.zeros((1_000, 3))]),
+        np.concatenate([found.target, random.uniform(0, 1, (1_000, 3))]),
+        np.ones(len(found) + 1_000),
+        len(found) + 1,
+    )
+    kept = most_voted(crowd, LocalisationParameters(most=300))
+    assert np.isin(right, kept.queries).all()

@@ -1,0 +1,62 @@
+"""A database that was written by version 1, and must be readable for ever."""
+
+import hashlib
+import shutil
+from pathlib import Path
+
+import pytest
+from placecell_client import encode
+
+from service.map_store import Note
+from service.replay import version_of
+from service.sqlite_store import FILE, SqliteMapStore
+
+DATABASE = Path(__file__).resolve().parents[1] / "fixtures" / "version-1.sqlite"
+
+IDS = {
+    2: [0, 2, 4, 6, 10, 23, 24, 25, 27, 30, 32, 33, 34],
+    3: [0, 2, 4, 7, 8, 10, 11, 23, 24, 25, 27, 30, 32, 33, 34],
+    4: [0, 1, 2, 3, 4, 7, 8, 10, 11, 24, 25, 27, 30, 32, 33, 34],
+}
+"""Of a map whose version 1 was let go of."""
+
+FILES = {
+    2: "271e5c7e11fd4f9f4a421255c1c1485f16c7668ca72a7d948f5d5b45d58a3d04",
+    3: "d5b6772f455841f6e8dfd0d13e54924cfc7cef7b1b1726d018809c7b8cdaa94c",
+    4: "b23c2017e852142d5edc4646e1c8e4e98389b69dc2d33d743b79ce65dbc267a0",
+}
+"""SHA-256 of each version's file."""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    shutil.copy(DATABASE, tmp_path / FILE)
+    return tmp_path
+
+
+def test_all_versions_are_there(folder: Path) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        assert store.verify() == []
+        shed, yard = store.heads()
+        assert (shed.name, shed.sequence, shed.next_id) == ("shed", 1, 0)
+        assert (yard.name, yard.uid) == ("yard", "11c07ada40e63fb8")
+        assert (yard.sequence, yard.oldest, yard.next_id) == (4, 2, 40)
+        assert yard.mark.startswith("52ce06127c563fa6")
+        with store.read(yard.uid) as history:
+            for sequence, file in FILES.items():
+                content = version_of(history, sequence).content()
+                assert content.ids.tolist() == IDS[sequence]
+                assert content.optional == ("seen",)
+                assert hashlib.sha256(encode(content)).hexdigest() == file
+            notes = [commit.note for commit in history.commits()]
+        assert [note.operation for note in notes] == ["edit", "edit", "edit"]
+        assert notes[-1] == Note(1_700_000_003.5, "zoe", "edit", 4, 2)
+
+
+def test_it_can_be_written_on(folder: Path) -> None:
+    with SqliteMapStore.owned(folder) as store:
+        _, yard = store.heads()
+        assert store.reserve(yard.uid, 1) == 40
+        again = store.append(yard, b"delta", Note(0.0, "ann", "edit", 0, 0), 0)
+        assert (again.sequence, again.next_id) == (5, 41)
+        assert store.verify() == []
