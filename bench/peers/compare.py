@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from bench.peers.exchange import read_answers
-from bench.peers.frames import MAPPED_METRES, Stretch, near_map, write_map, write_queries
+from bench.peers.frames import Stretch, near_map, write_map, write_queries
 from bench.peers.runner import REFINED
 from bench.peers.score import score
+from bench.pose_queries import MAPPED_METRES
 from segments.extraction import Progress, silent
 from training.evaluation import machine
 

@@ -8,15 +8,13 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
+from bench.pose_queries import MAPPED_METRES
 from segments.blocks import alternate_blocks
 from segments.drives import Drive
 from segments.extraction import Progress, silent
 from segments.local_map import Accumulator, transform
 from segments.parameters import PROTOCOL_V1, Parameters
 from segments.types import Bool, Float64
-
-MAPPED_METRES = 10.0
-"""A query is within the map if the mapping robot was as near as this."""
 
 
 @dataclass(frozen=True, slots=True)

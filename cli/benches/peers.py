@@ -78,15 +78,14 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
     import numpy as np
 
     from bench.peers.frames import stretches_of_one, stretches_of_two
+    from bench.pose_queries import origin_of
     from segments.drives import open_drive
 
     mapped = open_drive(map_drive)
     if query_drive is None:
         return stretches_of_one(mapped, radius)
-    from town import read_origin
-
     asking = open_drive(query_drive)
-    to_map = np.linalg.inv(read_origin(map_drive)) @ read_origin(query_drive)
+    to_map = np.linalg.inv(origin_of(map_drive)) @ origin_of(query_drive)
     return stretches_of_two(mapped, asking, to_map, radius)
 
 

@@ -13,7 +13,7 @@ import bench
 from bench.peers.compare import ask
 from bench.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
 from bench.peers.runner import PACKAGES, PEERS
-from bench.peers.score import errors
+from bench.peers.score import outcome_of
 from cli import app
 from tests.segments.segment_builders import pose, write_odometry
 from town import two_robots
@@ -150,6 +150,6 @@ def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
     ask(name, tmp_path, ENVIRONMENT, refine=True)
     peer, answers = read_answers(tmp_path / "answers" / f"{name}+gicp.jsonl", 1)
     assert set(PACKAGES) <= set(peer.versions)
-    metres, degrees = errors(answers, (frames[1] @ query)[None])
-    assert metres[0] < 0.2
-    assert degrees[0] < 1
+    outcome = outcome_of(answers[0], frames[1] @ query, mapped=True)
+    assert outcome.metres < 0.2
+    assert outcome.degrees < 1

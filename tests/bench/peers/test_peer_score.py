@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bench.peers.exchange import NOTHING, Answer, Estimate, Peer
-from bench.peers.score import errors, score
+from bench.peers.score import outcome_of, score
 from tests.segments.segment_builders import pose
 
 PEER = Peer("somebody", {"voxel": 0.3}, {"numpy": "2"}, 1.5)
@@ -21,19 +21,26 @@ def scored(answers: list[Answer], mapped: list[bool] | None = None) -> dict[str,
 
 
 def test_errors_by_hand() -> None:
-    truth = np.stack([pose(1.0, 2.0, 3.0, yaw=np.pi)] * 3)
-    there = Answer(Estimate(pose(1.0, 2.0, 3.0, yaw=-np.pi), 1, sure=True), 1)
-    off = Answer(Estimate(pose(1.0, -1.0, 7.0, yaw=np.pi - 0.1), 1, sure=True), 1)
-    metres, degrees = errors([there, off, Answer(NOTHING, 1)], truth)
-    assert metres.tolist() == [0, 5, np.inf]
-    assert degrees == pytest.approx([0, np.degrees(0.1), np.inf], abs=1e-6)
+    true = pose(1.0, 2.0, 3.0, yaw=np.pi)
+    there = outcome_of(Answer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
+    assert (there.metres, there.degrees) == pytest.approx((0, 0), abs=1e-9)
+    assert (there.localised, there.right, there.milliseconds) == (True, True, 7.0)
+    off = Estimate(pose(1.0, -1.0, 7.0, yaw=0.1 - np.pi), 1, sure=False)
+    found = outcome_of(Answer(off, 1.0), true, mapped=False)
+    assert (found.metres, found.degrees) == pytest.approx((5, np.degrees(0.1)))
+    assert not found.localised
+    nothing = outcome_of(Answer(NOTHING, 1.0), true, mapped=True)
+    assert (nothing.metres, nothing.degrees) == (np.inf, np.inf)
+    assert not nothing.localised
+    assert not nothing.wrong_but_sure
 
 
 def test_a_tilt_counts_too() -> None:
     tilted = np.eye(4)
     tilted[1:3, 1:3] = [[np.cos(0.2), -np.sin(0.2)], [np.sin(0.2), np.cos(0.2)]]
-    _, degrees = errors([Answer(Estimate(tilted, 1, sure=True), 1)], np.eye(4)[None])
-    assert degrees == pytest.approx([np.degrees(0.2)])
+    found = outcome_of(Answer(Estimate(tilted, 1, sure=True), 1.0), np.eye(4), mapped=True)
+    assert found.degrees == pytest.approx(np.degrees(0.2))
+    assert found.wrong_but_sure
 
 
 def test_shares_by_hand() -> None:
