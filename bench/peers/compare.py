@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from bench.peers.exchange import read_answers
-from bench.peers.frames import Stretch, write_map, write_queries
+from bench.peers.frames import Stretch, near_map, write_map, write_queries
 from bench.peers.runner import REFINED
 from bench.peers.score import score
+from bench.pose_queries import MAPPED_METRES
 from segments.extraction import Progress, silent
 from training.evaluation import machine
 
@@ -44,22 +47,25 @@ def compare(
         raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
     poses = write_map(folder, mapped, progress)
     truth = write_queries(folder, asking, most, seed, progress)
+    blocks = mapped[0].drive is asking[0].drive
+    within = np.full(len(truth), fill_value=True) if blocks else near_map(poses, truth)
     rows = []
     for name in peers:
         ask(name, folder, python, refine=refine)
         for row in [name, name + REFINED] if refine else [name]:
             peer, answers = read_answers(folder / "answers" / f"{row}.jsonl", len(truth))
-            rows.append(score(peer, answers, truth))
+            rows.append(score(peer, answers, truth, within))
     parameters = mapped[0].parameters
     return {
         "rows": rows,
         "map_drive": mapped[0].drive.folder.name,
         "query_drive": asking[0].drive.folder.name,
         "map_frames": len(poses),
-        "queries": len(truth),
+        "blocks": blocks,
+        "mapped_metres": None if blocks else MAPPED_METRES,
         "protocol": parameters.protocol,
+        "every": parameters.frame_step,
         "accumulated_scans": parameters.accumulated_scans,
-        "frame_step": parameters.frame_step,
         "local_map_radius": parameters.local_map_radius,
         "seed": seed,
         "machine": machine(),

@@ -5,14 +5,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
+from bench.pose_queries import MAPPED_METRES
 from segments.blocks import alternate_blocks
 from segments.drives import Drive
 from segments.extraction import Progress, silent
 from segments.local_map import Accumulator, transform
 from segments.parameters import PROTOCOL_V1, Parameters
-from segments.types import Float64
+from segments.types import Bool, Float64
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +84,12 @@ def within(radius: float | None) -> Parameters:
         return PROTOCOL_V1
     reach = max(radius, PROTOCOL_V1.max_range)
     return replace(PROTOCOL_V1, protocol="v1, wider", local_map_radius=radius, max_range=reach)
+
+
+def near_map(poses: Float64, truth: Float64) -> Bool:
+    """Which queries stand within 10 m of a frame of the map, bool (queries,)."""
+    apart, _ = cKDTree(poses[:, :3, 3]).query(truth[:, :3, 3])
+    return np.asarray(apart <= MAPPED_METRES)
 
 
 def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> Float64:

@@ -12,11 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from map_closures.config import MapClosuresConfig
 from map_closures.map_closures import MapClosures
+from numpy.typing import NDArray
 
 from bench.peers.exchange import NOTHING, Cloud, Estimate, MapFrame
 
 APART = 4
 """It ignores maps whose numbers differ by three or less, as too recent; ours lie further apart."""
+
+NO_NORMALS = np.zeros((0, 3))
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +30,9 @@ class MapClosuresParameters:
     """Metres a pixel. ORB needs 31 pixels to each side, and local maps of 40 m have 160 in all."""
     density_threshold: float = 0.05
     hamming_distance_threshold: int = 50
+    level: bool = False
+    """Take local maps to be level, as ours are, where it would fit a plane to the ground. The fit
+    wants ten points in a voxel as large as a pixel, and turns some maps of few scans over."""
     inliers_threshold: int = 5
     """Its own pipeline takes a closure for one if it has more inliers."""
 
@@ -48,8 +54,8 @@ class MapClosuresPeer:
     def learn(self, frames: Sequence[MapFrame]) -> None:
         """Take in the map."""
         self.poses = {APART * index: frame.pose for index, frame in enumerate(frames)}
-        for number, frame in enumerate(frames):
-            self.closures.get_best_closure(APART * number, frame.cloud.astype(np.float64))
+        for number, frame in zip(self.poses, frames, strict=True):
+            self.closures.get_best_closure(number, *self.seen(frame.cloud))
         self.asked = APART * len(frames)
 
     def locate(self, cloud: Cloud) -> Estimate:
@@ -60,7 +66,7 @@ class MapClosuresPeer:
         self.asked += APART
         found = [
             closure
-            for closure in self.closures.get_closures(self.asked, cloud.astype(np.float64))
+            for closure in self.closures.get_closures(self.asked, *self.seen(cloud))
             if closure.source_id in self.poses
         ]
         if not found:
@@ -70,3 +76,9 @@ class MapClosuresPeer:
         pose = self.poses[best.source_id] @ np.linalg.inv(best.pose)
         inliers = best.number_of_inliers
         return Estimate(pose, float(inliers), inliers > self.parameters.inliers_threshold)
+
+    def seen(self, cloud: Cloud) -> tuple[NDArray[np.float64], ...]:
+        """A local map as it takes it: its points, and the normals of the ground if not its own."""
+        points = cloud.astype(np.float64)
+        # Of no normals at all it fits no plane.
+        return (points, NO_NORMALS, NO_NORMALS) if self.parameters.level else (points,)

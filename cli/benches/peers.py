@@ -78,15 +78,14 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
     import numpy as np
 
     from bench.peers.frames import stretches_of_one, stretches_of_two
+    from bench.pose_queries import origin_of
     from segments.drives import open_drive
 
     mapped = open_drive(map_drive)
     if query_drive is None:
         return stretches_of_one(mapped, radius)
-    from town import read_origin
-
     asking = open_drive(query_drive)
-    to_map = np.linalg.inv(read_origin(map_drive)) @ read_origin(query_drive)
+    to_map = np.linalg.inv(origin_of(map_drive)) @ origin_of(query_drive)
     return stretches_of_two(mapped, asking, to_map, radius)
 
 
@@ -96,17 +95,15 @@ def print_rows(report: dict[str, Any]) -> None:
     from rich.table import Table
 
     typer.echo(
-        f"{report['queries']} queries of {report['query_drive']} in a map of "
+        f"{report['rows'][0]['queries']} queries of {report['query_drive']} in a map of "
         f"{report['map_frames']} frames of {report['map_drive']}, {report['accumulated_scans']} "
         f"scans each, within {report['local_map_radius']:.0f} m"
     )
-    table = Table(
-        "peer", "right", "wrong but sure", "not localised", "m", "deg", "p50 ms", "p99 ms"
-    )
+    table = Table("", "right", "wrong", "unknown", "m", "deg", "p50 ms", "p99 ms")
     for row in report["rows"]:
         table.add_row(
             row["name"],
-            *(f"{row[key]:.1%}" for key in ("localised_right", "wrong_but_sure", "not_localised")),
+            *(percent(row[key]) for key in ("localised_right", "wrong_but_sure", "not_localised")),
             *(
                 "-" if row[key] is None else f"{row[key]:.2f}"
                 for key in ("median_position_error_m", "median_yaw_error_deg")
@@ -115,3 +112,8 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['p99_ms']:.0f}",
         )
     Console().print(table)
+
+
+def percent(value: float | None) -> str:
+    """A share for people to read."""
+    return "-" if value is None else f"{value:.1%}"

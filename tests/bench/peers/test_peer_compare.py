@@ -13,7 +13,7 @@ import bench
 from bench.peers.compare import ask
 from bench.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
 from bench.peers.runner import PACKAGES, PEERS
-from bench.peers.score import errors
+from bench.peers.score import outcome_of
 from cli import app
 from tests.segments.segment_builders import pose, write_odometry
 from town import two_robots
@@ -40,7 +40,7 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
     )
     assert "4 queries of robot_b in a map of 30 frames of robot_a" in shown
     report = json.loads((tmp_path / "figures.json").read_text())
-    assert (report["queries"], report["map_frames"], report["seed"]) == (4, 30, 5)
+    assert (report["map_frames"], report["seed"], report["blocks"]) == (30, 5, False)
     assert (report["protocol"], report["local_map_radius"]) == ("v1", 40.0)
     assert {"processor", "cores"} <= set(report["machine"])
     (row,) = report["rows"]
@@ -115,7 +115,7 @@ def test_the_runner_needs_none_of_our_packages() -> None:
 def blocks(seed: int, reach: float) -> Cloud:
     """Ground and boxes upon it, in a square of so many metres to each side."""
     random = np.random.default_rng(seed)
-    floor = int(20 * reach**2)
+    floor = int(240 * reach**2)
     parts = [
         np.column_stack(
             [random.uniform(-reach, reach, (floor, 2)), random.normal(-1.8, 0.01, floor)]
@@ -131,12 +131,12 @@ def blocks(seed: int, reach: float) -> Cloud:
     return np.concatenate(parts).astype(np.float32)
 
 
-@pytest.mark.parametrize("name", PEERS)
+@pytest.mark.parametrize("name", sorted(PEERS.keys() - {"kiss-matcher-3"}))  # as kiss-matcher
 def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
     if not ENVIRONMENT.is_file():
         pytest.skip("no environment of the peers: make peers")
     # MapClosures looks for features 16 m away from the edge of what it sees.
-    reach = 80.0 if name == "map-closures" else 40.0
+    reach = 60.0 if name == "map-closures" else 25.0
     frames = [pose(200.0 * index, 30.0, 1.0, yaw=0.5 * index) for index in range(3)]
     query = pose(2.0, -1.0, 0.0, yaw=2.0)
     for part in (MAP, QUERIES):
@@ -150,6 +150,6 @@ def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
     ask(name, tmp_path, ENVIRONMENT, refine=True)
     peer, answers = read_answers(tmp_path / "answers" / f"{name}+gicp.jsonl", 1)
     assert set(PACKAGES) <= set(peer.versions)
-    metres, degrees = errors(answers, (frames[1] @ query)[None])
-    assert metres[0] < 0.2
-    assert degrees[0] < 1
+    outcome = outcome_of(answers[0], frames[1] @ query, mapped=True)
+    assert outcome.metres < 0.2
+    assert outcome.degrees < 1

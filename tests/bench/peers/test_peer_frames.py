@@ -6,6 +6,7 @@ import pytest
 from bench.peers.exchange import query_files, read_map
 from bench.peers.frames import (
     Stretch,
+    near_map,
     stretches_of_one,
     stretches_of_two,
     upright,
@@ -89,6 +90,12 @@ def test_truth_between_two_drives_is_in_the_maps_frame(tmp_path: Path) -> None:
     assert [len(stretch.frames) for stretch in first + second] == [4, 3]
     truth = write_queries(tmp_path, second)
     assert truth[:, :3, 3] == pytest.approx((to_map @ asked.poses)[:, :3, 3])
+
+
+def test_queries_near_the_map_by_hand() -> None:
+    frames = np.stack([pose(0.0), pose(0.0, 30.0)])
+    asked = np.stack([pose(10.0), pose(10.1), pose(8.0, 36.0), pose(0.0, 15.0)])
+    assert near_map(frames, asked).tolist() == [True, False, True, False]
 
 
 def test_fewer_queries_are_spread_evenly(tmp_path: Path) -> None:

@@ -1,8 +1,10 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
 from bench.peers.exchange import NOTHING, Answer, Estimate, Peer
-from bench.peers.score import errors, score
+from bench.peers.score import outcome_of, score
 from tests.segments.segment_builders import pose
 
 PEER = Peer("somebody", {"voxel": 0.3}, {"numpy": "2"}, 1.5)
@@ -12,20 +14,33 @@ def answer(x: float = 0.0, degrees: float = 0.0, *, sure: bool = True, value: fl
     return Answer(Estimate(pose(x, yaw=np.radians(degrees)), value, sure), 10.0)
 
 
+def scored(answers: list[Answer], mapped: list[bool] | None = None) -> dict[str, Any]:
+    """Against a truth that is the identity."""
+    within = np.array(mapped or [True] * len(answers))
+    return score(PEER, answers, np.stack([np.eye(4)] * len(answers)), within)
+
+
 def test_errors_by_hand() -> None:
-    truth = np.stack([pose(1.0, 2.0, 3.0, yaw=np.pi)] * 3)
-    there = Answer(Estimate(pose(1.0, 2.0, 3.0, yaw=-np.pi), 1, sure=True), 1)
-    off = Answer(Estimate(pose(1.0, -1.0, 7.0, yaw=np.pi - 0.1), 1, sure=True), 1)
-    metres, degrees = errors([there, off, Answer(NOTHING, 1)], truth)
-    assert metres.tolist() == [0, 5, np.inf]
-    assert degrees == pytest.approx([0, np.degrees(0.1), np.inf], abs=1e-6)
+    true = pose(1.0, 2.0, 3.0, yaw=np.pi)
+    there = outcome_of(Answer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
+    assert (there.metres, there.degrees) == pytest.approx((0, 0), abs=1e-9)
+    assert (there.localised, there.right, there.milliseconds) == (True, True, 7.0)
+    off = Estimate(pose(1.0, -1.0, 7.0, yaw=0.1 - np.pi), 1, sure=False)
+    found = outcome_of(Answer(off, 1.0), true, mapped=False)
+    assert (found.metres, found.degrees) == pytest.approx((5, np.degrees(0.1)))
+    assert not found.localised
+    nothing = outcome_of(Answer(NOTHING, 1.0), true, mapped=True)
+    assert (nothing.metres, nothing.degrees) == (np.inf, np.inf)
+    assert not nothing.localised
+    assert not nothing.wrong_but_sure
 
 
 def test_a_tilt_counts_too() -> None:
     tilted = np.eye(4)
     tilted[1:3, 1:3] = [[np.cos(0.2), -np.sin(0.2)], [np.sin(0.2), np.cos(0.2)]]
-    _, degrees = errors([Answer(Estimate(tilted, 1, sure=True), 1)], np.eye(4)[None])
-    assert degrees == pytest.approx([np.degrees(0.2)])
+    found = outcome_of(Answer(Estimate(tilted, 1, sure=True), 1.0), np.eye(4), mapped=True)
+    assert found.degrees == pytest.approx(np.degrees(0.2))
+    assert found.wrong_but_sure
 
 
 def test_shares_by_hand() -> None:
@@ -41,13 +56,15 @@ def test_shares_by_hand() -> None:
         Answer(NOTHING, 30.0),
         Answer(NOTHING, 30.0),
     ]
-    figures = score(PEER, answers, np.stack([np.eye(4)] * 10))
+    figures = scored(answers)
     assert figures["queries"] == 10
     assert figures["localised_right"] == 0.2
     assert figures["wrong_but_sure"] == 0.2
     assert figures["not_localised"] == 0.4
-    assert figures["right_if_all_accepted"] == 0.3
-    assert figures["wrong_if_all_accepted"] == 0.3
+    assert figures["counts"] == {"localised_right": 2, "wrong_but_sure": 2, "not_localised": 4}
+    assert figures["by_score"][0] == {"score": 4, "right": 0.3, "wrong": 0.3}
+    assert figures["by_score"][2] == {"score": 6, "right": 0.2, "wrong": 0.2}
+    assert figures["by_score"][-1] == {"score": 9, "right": 0.1, "wrong": 0}
     assert figures["right_above_all_wrong"] == 0.2  # the scores 9 and 8, above 6.5
     assert figures["median_position_error_m"] == pytest.approx(0.9)
     assert figures["median_yaw_error_deg"] == pytest.approx(1.45)
@@ -56,19 +73,41 @@ def test_shares_by_hand() -> None:
 
 
 def test_limits_are_inclusive() -> None:
-    at_limit = score(PEER, [answer(1.0), answer(3.0, 10.0)], np.stack([np.eye(4)] * 2))
+    at_limit = scored([answer(1.0), answer(3.0, 10.0)])
     assert (at_limit["localised_right"], at_limit["wrong_but_sure"]) == (0.5, 0)
 
 
 def test_bounds_are_those_of_the_binomial_distribution() -> None:
-    figures = score(PEER, [answer() for _ in range(100)], np.stack([np.eye(4)] * 100))
+    figures = scored([answer() for _ in range(100)])
     # None of a hundred: 1 - 0.025 ** (1 / 100).
-    assert figures["wrong_but_sure_95"] == pytest.approx([0, 0.0362167])
-    assert figures["localised_right_95"] == pytest.approx([1 - 0.0362167, 1])
+    assert figures["bounds_95"]["wrong_but_sure"] == [0, 0.03622]
+    assert figures["bounds_95"]["localised_right"] == [1 - 0.03622, 1]
 
 
 def test_a_peer_that_says_nothing() -> None:
-    figures = score(PEER, [Answer(NOTHING, 5.0)], np.eye(4)[None])
+    figures = scored([Answer(NOTHING, 5.0)])
     assert figures["not_localised"] == 1
     assert figures["median_position_error_m"] is None
     assert figures["right_above_all_wrong"] == 0
+    assert figures["by_score"] == []
+
+
+def test_queries_beyond_the_map_stand_apart() -> None:
+    answers = [answer(value=5), answer(50.0, value=9), Answer(NOTHING, 1.0)]
+    figures = scored(answers, [True, False, False])
+    assert (figures["queries"], figures["localised_right"]) == (1, 1)
+    assert figures["right_above_all_wrong"] == 1
+    beyond = figures["beyond_the_map"]
+    assert (beyond["queries"], beyond["wrong_but_sure"], beyond["not_localised"]) == (2, 0.5, 0.5)
+    nowhere = scored(answers, [False] * 3)
+    assert nowhere["localised_right"] is None
+    assert nowhere["bounds_95"]["localised_right"] == [0, 1]
+    assert nowhere["right_above_all_wrong"] is None
+
+
+@pytest.mark.parametrize("count", [1, 2, 19, 20, 21, 300])
+def test_scores_are_spread_over_all_that_were_given(count: int) -> None:
+    rows = scored([answer(value=value) for value in range(count)])["by_score"]
+    assert len(rows) == min(count, 20)
+    assert (rows[0]["score"], rows[-1]["score"]) == (0, count - 1)
+    assert rows[0]["right"] == 1
