@@ -7,12 +7,14 @@ finds are computed anew from the codes, and where the bound leaves a doubt it is
 """
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 
 import faiss
 import numpy as np
 
 from segments.quantiser import LEVELS, Quantiser
 from segments.types import Bool, Float64, Int8, Int64
+from service.layers import Layers
 
 MARGIN = 12
 """Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
@@ -138,3 +140,46 @@ def index_of(codes: Int8, quantiser: Quantiser) -> MapIndex:
     """The index that suits the codes: the quickest by far, where they are made of nibbles."""
     kind = NibbleIndex if quantiser.per_byte in {2, 4} else FlatIndex
     return kind(codes, quantiser)
+
+
+@dataclass(frozen=True, slots=True)
+class LayeredIndex:
+    """An index over each layer of a map."""
+
+    base: MapIndex
+    recent: MapIndex
+
+    @classmethod
+    def of(
+        cls, layers: Layers, quantiser: Quantiser, base: MapIndex | None = None
+    ) -> "LayeredIndex":
+        """Over both layers.
+
+        Args:
+            layers: of the map.
+            quantiser: of the model that made it.
+            base: the base's, if it is there already.
+        """
+        recent = index_of(layers.recent.codes, quantiser)
+        return cls(base or index_of(layers.base.codes, quantiser), recent)
+
+    def search(self, layers: Layers, codes: Int8, k: int) -> tuple[Float64, Int64]:
+        """The nearest segments to each query, over both layers.
+
+        Args:
+            layers: that it was made of.
+            codes: int8 (q, code bytes).
+            k: so many, or all if the map has fewer.
+
+        Returns:
+            Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows of
+            `layers`, int64, of the same shape, by id among equal distances.
+        """
+        distances, rows = self.base.search(codes, k, layers.gone if layers.buried else None)
+        if not len(layers.recent):
+            return distances, rows
+        nearer, above = self.recent.search(codes, k)
+        distances = np.concatenate([distances, nearer], axis=1)
+        rows = np.concatenate([rows, above + len(layers.base)], axis=1)
+        order = np.lexsort((layers.column("ids", rows), distances), axis=1)[:, :k]
+        return np.take_along_axis(distances, order, axis=1), np.take_along_axis(rows, order, axis=1)

@@ -12,13 +12,13 @@ from placecell_client import CompactMap, Delta, MapFileError, encode, encode_del
 
 from service.layers import Layers
 from service.map_cache import MapCache
-from service.map_index import MapIndex
+from service.map_index import LayeredIndex, MapIndex
 from service.map_store import Head, MapStore, Note, StoreError
 from service.models import Models
 from service.problems import Problem
 from service.quotas import Quotas
 from service.replay import newest
-from service.stored_map import LayeredIndex, StoredMap
+from service.stored_map import StoredMap
 
 logger = logging.getLogger("placecell")
 

@@ -134,7 +134,8 @@ def found_in(codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int)
     """
     found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
     for place, stored in enumerate(searched):
-        distances, rows = stored.search(codes, k)
+        assert stored.index is not None
+        distances, rows = stored.index.search(stored.layers, codes, k)
         here = distances, np.full_like(rows, place), rows
         found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
         if len(searched) > 1:

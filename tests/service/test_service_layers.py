@@ -11,8 +11,7 @@ from placecell_client.map_edit import apply, empty
 
 from segments.quantiser import Quantiser
 from service.layers import Layers, robots_of
-from service.map_index import index_of
-from service.stored_map import LayeredIndex
+from service.map_index import LayeredIndex, index_of
 from tests.service.service_builders import map_of
 
 QUANTISER = Quantiser(0.1)

