@@ -7,7 +7,7 @@ import random
 import time
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Thread
@@ -97,6 +97,7 @@ class Crasher:
         self._options = options
         self._data_dir = data_dir
         self._draw = draw
+        self._left = set[tuple[int, int]]()
         with self._started() as (_, address), Client(address) as client:
             kind = Kind.of(client.info())
         self.writers = [
@@ -197,10 +198,21 @@ class Crasher:
         return any(write is not None and write.operation == moment for write in writes)
 
     def _saves_cache(self) -> bool:
-        return any((self._data_dir / "cache").glob("*.unfinished"))
+        """Whether a cache was begun since the service was started, and not finished."""
+        return bool(self._unfinished() - self._left)
+
+    def _unfinished(self) -> set[tuple[int, int]]:
+        """Of each half cache: its file, and when it was begun or last written to."""
+        found = set()
+        for path in (self._data_dir / "cache").glob("*.unfinished"):
+            with suppress(FileNotFoundError):  # it was finished just now
+                status = path.stat()
+                found.add((status.st_ino, status.st_mtime_ns))
+        return found
 
     @contextmanager
     def _started(self) -> Iterator[tuple[Service, str]]:
+        self._left = self._unfinished()
         begun = time.perf_counter()
         service = Service(self._data_dir, *self._options)
         try:

@@ -5,7 +5,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from placecell_client import Client, Description, MapCopy, ServiceError, decode, encode
+from placecell_client import (
+    Client,
+    Description,
+    MapCopy,
+    MapFileError,
+    ServiceError,
+    decode,
+    encode,
+)
 
 from bench.made_map import Kind
 
@@ -46,6 +54,8 @@ class Reader:
         except ServiceError as error:
             if error.status != 404:  # it was removed just now
                 raise
+        except MapFileError as error:
+            self.half.append(f"map {name!r}: {error}")
         self.reads += 1
 
     def _download(self, client: Client, name: str) -> None:

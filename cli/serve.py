@@ -3,7 +3,9 @@
 import gc
 import ipaddress
 import os
+import signal
 import socket
+import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -81,6 +83,9 @@ def serve(
                 # garbage would stop every request for a tenth of a second.
                 gc.collect()
                 gc.freeze()
+                # At its end uvicorn raises the signal that ended it once more; that must not be
+                # the end of us before the store is closed.
+                signal.signal(signal.SIGTERM, lambda *_: sys.exit())
                 server.run(sockets=[listening])
         except StartError as error:
             raise _refusal(str(error)) from error

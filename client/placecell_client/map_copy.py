@@ -100,12 +100,13 @@ class MapCopy:
         """The service no longer knows the version, or the cursor: begin anew, or with nothing.
 
         Returns:
-            False if there is no point in it.
+            False if there is no point in it now; a later pull may have more luck.
         """
         self._lost += 1
         if self.request == ("0", None) or self._lost > LOST_AT_MOST:
+            self._lost = 0
             return False
-        self._begin_anew(whole=self._cursor is None)
+        self._begin_anew(whole=self._whole or self._cursor is None)
         return True
 
     def _begin_anew(self, whole: bool) -> None:

@@ -16,6 +16,7 @@ from placecell_client import (
     encode,
     encode_delta,
 )
+from placecell_client.map_copy import LOST_AT_MOST
 from placecell_client.map_edit import delta_between, difference, take
 
 from tests.client.client_fakes import SUMMARY, WRITTEN, Blocking, client_of
@@ -158,6 +159,28 @@ def test_what_the_service_no_longer_knows_is_got_anew(make: Callable[..., Any]) 
     service.fails = [0, 410] * 20
     with pytest.raises(ServiceError):
         make(service).pull("yard")
+
+
+def test_a_copy_that_lost_its_way_often_is_not_given_up_for_good() -> None:
+    """Versions are let go of again and again while it is pulled over a link that is cut."""
+    part, *_ = parts_of(Delta(NEW, NONE, 0, 2), 3)
+    copy = MapCopy("yard", OLD, "e-1")
+    for _ in range(3):
+        losses = 0
+        while copy.lose_way():
+            losses += 1
+            assert not copy.take(ChangesPage(part, "e-2", "cursor"))
+        assert losses == LOST_AT_MOST
+
+
+def test_what_cannot_be_followed_is_got_whole_until_it_is_there(make: Callable[..., Any]) -> None:
+    service, copy = Sharing(), MapCopy("yard", OLD, "e-1")
+    service.fails = [410, 0, 410]
+    make(service).pull(copy)
+    assert service.asked == [
+        *("since=e-1", "since=0", "since=0&cursor=0.1"),
+        *("since=0", "since=0&cursor=0.1", "since=0&cursor=0.2"),
+    ]
 
 
 def test_a_copy_takes_only_what_it_asked_for() -> None:

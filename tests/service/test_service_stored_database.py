@@ -1,8 +1,10 @@
-"""A database that was written by version 1, and must be readable for ever."""
+"""Databases that were written by version 1, and must be readable for ever."""
 
 import hashlib
+import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 from placecell_client import encode
@@ -10,8 +12,12 @@ from placecell_client import encode
 from service.map_store import Note
 from service.replay import version_of
 from service.sqlite_store import FILE, SqliteMapStore
+from tests.fixtures.killed_service import EXPECTED
 
-DATABASE = Path(__file__).resolve().parents[1] / "fixtures" / "version-1.sqlite"
+FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
+DATABASE = FIXTURES / "version-1.sqlite"
+KILLED = FIXTURES / "version-1-killed"
+"""Of a service that was killed, with its log; `killed_service.py` made it."""
 
 IDS = {
     2: [0, 2, 4, 6, 10, 23, 24, 25, 27, 30, 32, 33, 34],
@@ -60,3 +66,18 @@ def test_it_can_be_written_on(folder: Path) -> None:
         again = store.append(yard, b"delta", Note(0.0, "ann", "edit", 0, 0), 0)
         assert (again.sequence, again.next_id) == (5, 41)
         assert store.verify() == []
+
+
+def test_what_a_killed_service_left_is_served(start: Any, data_dir: Path) -> None:
+    shutil.copytree(KILLED, data_dir)
+    expected = json.loads((KILLED / EXPECTED).read_text())
+    with start() as service:
+        assert [each["name"] for each in service.get("/maps").json()["maps"]] == [*expected]
+        for name, versions in expected.items():
+            found = []
+            for each in reversed(service.get(f"/maps/{name}/versions").json()["versions"]):
+                response = service.get(f"/maps/{name}", params={"version": each["sequence"]})
+                file = hashlib.sha256(response.content).hexdigest()
+                found.append([each["sequence"], each["etag"], file])
+            assert found == versions
+            assert service.post(f"/maps/{name}/versions/{versions[0][0]}/restore").is_success
