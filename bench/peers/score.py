@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from bench.peers.exchange import Answer, Peer
-from bench.poses import OFF, Outcome, median, shares
+from bench.pose_report import OFF, Outcome, median, shares
 from segments.localisation import Pose
 from segments.types import Bool, Float64
 

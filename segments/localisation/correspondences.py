@@ -68,9 +68,8 @@ def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Co
     belief = beliefs[queries, columns]
     if len(belief) > parameters.most_candidates:
         likeliest = np.lexsort((rows, -belief))[: parameters.most_candidates]
-        queries, rows, targets, belief = (
-            each[likeliest] for each in (queries, rows, targets, belief)
-        )
+        queries, rows = queries[likeliest], rows[likeliest]
+        targets, belief = targets[likeliest], belief[likeliest]
     places = number_places(rows, targets, parameters.same_place)
     # Best first within each pair of query and place; ties by row.
     order = np.lexsort((rows, -belief, places, queries))
