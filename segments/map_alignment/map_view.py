@@ -1,0 +1,43 @@
+"""What alignment needs to know of a map."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from segments.localisation import Pose
+from segments.types import Float64, Int64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapView:
+    """Where the segments of a map are, and where they were seen from, in the map's frame.
+
+    Attributes:
+        centroids: float64 (n, 3), metres.
+        stands: float64 (n, 3), the sensor's position when each was seen, metres.
+    """
+
+    centroids: Float64
+    stands: Float64
+
+    def __len__(self) -> int:
+        return len(self.centroids)
+
+    def take(self, rows: Int64) -> "MapView":
+        """These segments."""
+        return MapView(self.centroids[rows], self.stands[rows])
+
+    def moved(self, pose: Pose) -> "MapView":
+        """In another frame."""
+        return MapView(pose.apply(self.centroids), pose.apply(self.stands))
+
+
+class Looks(Protocol):
+    """How much segments of two maps, a and b, look like each other."""
+
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+        """For rows (m,) of b the rows of a that look most like each, (m, k); how far their
+        descriptors are, and how likely they are the same, float64 (m, k).
+        """
+
+    def likely(self, a: Int64, b: Int64) -> Float64:
+        """How likely rows of a and of b, (m,) each, are the same, pair by pair, float64 (m,)."""

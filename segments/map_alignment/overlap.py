@@ -1,0 +1,170 @@
+"""Where two maps overlap if they lie so: what of it agrees, and what should."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from segments.localisation import Pose
+from segments.localisation.correspondences import Correspondences, number_places
+from segments.localisation.covariance import covariance_of
+from segments.localisation.refinement import refine, residuals
+from segments.map_alignment.map_view import Looks, MapView
+from segments.map_alignment.parameters import AlignmentParameters
+from segments.map_alignment.submaps import evenly
+from segments.types import Bool, Float64, Int64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Overlap:
+    """What two maps, a and b, have in common under one pose.
+
+    Attributes:
+        pose: from b's frame to a's, refined with all that agrees.
+        covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
+        rows_a, rows_b: int64 (m,), the segments that agree, pair by pair, one to one.
+        source: float64 (m, 3), centroids of those of b, metres, in b's frame.
+        residuals: float64 (m,), metres between the two of each pair.
+        score: sum of how likely each two are the same.
+        expected: things that both robots should have seen: how many a has, and b.
+        agreeing: of these, how many agree with one of the other.
+        parts: of the places where each robot was, the share where the other was too.
+    """
+
+    pose: Pose
+    covariance: Float64
+    rows_a: Int64
+    rows_b: Int64
+    source: Float64
+    residuals: Float64
+    score: float
+    expected: tuple[int, int]
+    agreeing: tuple[int, int]
+    parts: tuple[float, float]
+
+    def __len__(self) -> int:
+        return len(self.rows_a)
+
+    @property
+    def share(self) -> float:
+        """Of the things that should agree those that do, of the map where it is less."""
+        shares = [
+            agreeing / expected if expected else 0.0
+            for agreeing, expected in zip(self.agreeing, self.expected, strict=True)
+        ]
+        return min(shares)
+
+
+def overlap_of(
+    a: MapView, b: MapView, pose: Pose, looks: Looks, parameters: AlignmentParameters
+) -> Overlap:
+    """Refine a pose with all that agrees, and see how much of what should agree does."""
+    moved = b.moved(pose)
+    rows_b = evenly(np.flatnonzero(near_stands(moved, a, parameters)), parameters.rows)
+    rows_a = evenly(np.flatnonzero(near_stands(a, moved.take(rows_b), parameters)), parameters.rows)
+    here, there = b.take(rows_b), a.take(rows_a)
+    radius = parameters.local.same_place
+    things_b, things_a = (
+        number_places(np.arange(len(view)), view.centroids, radius) for view in (here, there)
+    )
+    pairs_a, pairs_b, likely = alike(there, here.moved(pose), rows_a, rows_b, looks, parameters)
+    found, chosen = pairs_of_things(
+        there, here, (pairs_a, pairs_b, likely), things_a, things_b
+    )
+    pose, support = refine(pose, found, parameters.local)
+    agreeing = found.take(support)
+    moved = here.moved(pose)
+    seen_a = np.unique(things_a[should_be_seen(there, moved, parameters)])
+    seen_b = np.unique(things_b[should_be_seen(moved, there, parameters)])
+    return Overlap(
+        pose=pose,
+        covariance=covariance_of(pose, agreeing.source, agreeing.target, parameters.local),
+        rows_a=rows_a[agreeing.rows],
+        rows_b=rows_b[chosen[support]],
+        source=agreeing.source,
+        residuals=residuals(pose, agreeing),
+        score=float(agreeing.weights.sum()),
+        expected=(len(seen_a), len(seen_b)),
+        agreeing=(
+            len(np.intersect1d(seen_a, agreeing.places)),
+            len(np.intersect1d(seen_b, agreeing.queries)),
+        ),
+        parts=(part(a, b.moved(pose), parameters), part(b.moved(pose), a, parameters)),
+    )
+
+
+def near_stands(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
+    """Which segments of one map were seen from where the other's robot was too, bool (n,)."""
+    if not len(other):
+        return np.zeros(len(one), dtype=bool)
+    distances, _ = cKDTree(np.unique(other.stands, axis=0)).query(
+        one.stands, distance_upper_bound=parameters.shared_stand
+    )
+    return np.isfinite(distances)
+
+
+def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
+    """Which segments of one map the other's robot should have seen, bool (n,)."""
+    close = np.linalg.norm(one.centroids - one.stands, axis=1) <= parameters.seen_from
+    return close & near_stands(one, other, parameters)
+
+
+def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float:
+    """Of the places where the robot of one map was, the share where the other's was too."""
+    stands = np.unique(one.stands, axis=0)
+    return float(near_stands(MapView(stands, stands), other, parameters).mean())
+
+
+def alike(
+    a: MapView,
+    b: MapView,
+    rows_a: Int64,
+    rows_b: Int64,
+    looks: Looks,
+    parameters: AlignmentParameters,
+) -> tuple[Int64, Int64, Float64]:
+    """Pairs of segments that lie near each other and look alike.
+
+    Args:
+        a, b: parts of the maps, in one frame.
+        rows_a, rows_b: of the maps, that the parts are.
+
+    Returns:
+        Indices into the parts, int64 (m,) each, and how likely the two of a pair are the same.
+    """
+    near = cKDTree(b.centroids).sparse_distance_matrix(
+        cKDTree(a.centroids), parameters.local.wide_gate, output_type="coo_matrix"
+    )
+    pairs_b, pairs_a = near.row.astype(np.int64), near.col.astype(np.int64)
+    likely = looks.likely(rows_a[pairs_a], rows_b[pairs_b])
+    kept = likely >= parameters.alike
+    return pairs_a[kept], pairs_b[kept], likely[kept]
+
+
+def pairs_of_things(
+    a: MapView,
+    b: MapView,
+    pairs: tuple[Int64, Int64, Float64],
+    things_a: Int64,
+    things_b: Int64,
+) -> tuple[Correspondences, Int64]:
+    """Pairs of things instead of views: each by the two views that look most alike.
+
+    Returns:
+        The correspondences from b to a, `rows` of a's part; and the row of b's part of each.
+    """
+    rows_a, rows_b, likely = pairs
+    order = np.lexsort((rows_a, rows_b, -likely, things_a[rows_a], things_b[rows_b]))
+    places, queries = things_a[rows_a[order]], things_b[rows_b[order]]
+    first = order[np.flatnonzero(np.diff(queries, prepend=-1) | np.diff(places, prepend=-1))]
+    rows_a, rows_b = rows_a[first], rows_b[first]
+    found = Correspondences(
+        queries=things_b[rows_b],
+        places=things_a[rows_a],
+        rows=rows_a,
+        source=b.centroids[rows_b],
+        target=a.centroids[rows_a],
+        weights=likely[first],
+        usable=len(np.unique(rows_b)),
+    )
+    return found, rows_b
