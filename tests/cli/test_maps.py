@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta, originated
+from placecell_client.map_edit import apply, take
 from typer.testing import CliRunner, Result
 
 from bench.map_content import map_of
@@ -91,6 +91,22 @@ def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch
     assert "gone" in good("delete", "yard", "--yes")
     assert "404" in bad("show", "yard")
     assert "number" in bad("diff", "yard@x", "yard")
+
+
+def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> None:
+    some = take(yard, np.arange(120))
+    rest = take(yard, np.arange(120, 300))
+    site = apply(rest, Delta(originated(some, "east"), np.zeros(0, np.uint32)))
+    with Client(address) as client:
+        stored = client.put_map("site", site)
+        assert stored.sources == {"east": 120}
+        client.put_map("plain", yard)
+        assert "300 segments, of these merged: 120 from east" in good(
+            "show", "site", "--url", address
+        )
+        assert "merged" not in good("show", "plain", "--url", address)
+        client.delete_map("site")
+        client.delete_map("plain")
 
 
 def test_what_cannot_be_reached_is_told() -> None:
