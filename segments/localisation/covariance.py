@@ -67,6 +67,14 @@ def at_point(covariance: Float64, pose: Pose, point: Float64) -> Float64:
     return np.asarray(moved @ covariance @ moved.T)
 
 
+def rotation_deviation(covariance: Float64) -> float:
+    """Standard deviation of the rotation about its worst axis, radians."""
+    block = covariance[3:, 3:]
+    if not np.isfinite(block).all():
+        return float("inf")
+    return float(np.sqrt(np.linalg.eigvalsh(block)[-1]))
+
+
 def cross(vectors: Float64) -> Float64:
     """The matrices (..., 3, 3) that take the cross product with vectors (..., 3)."""
     x, y, z = np.moveaxis(vectors, -1, 0)

@@ -8,7 +8,7 @@ import numpy as np
 from segments.localisation.clique import heaviest_clique
 from segments.localisation.consistency import consistent
 from segments.localisation.correspondences import Correspondences
-from segments.localisation.covariance import covariance_of
+from segments.localisation.covariance import covariance_of, rotation_deviation
 from segments.localisation.parameters import LocalisationParameters
 from segments.localisation.pose import Pose
 from segments.localisation.refinement import refine, residuals
@@ -44,10 +44,7 @@ class Hypothesis:
     @property
     def rotation_deviation(self) -> float:
         """Standard deviation of the rotation about its worst axis, radians."""
-        block = self.covariance[3:, 3:]
-        if not np.isfinite(block).all():
-            return float("inf")
-        return float(np.sqrt(np.linalg.eigvalsh(block)[-1]))
+        return rotation_deviation(self.covariance)
 
 
 def find_hypotheses(

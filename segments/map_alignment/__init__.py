@@ -1,3 +1,26 @@
-"""How two robots' maps lie to each other, from their descriptors and centroids alone."""
+"""How two robots' maps lie to each other, from descriptors and centroids alone.
 
-from segments.map_alignment.align import align_all
+    alignment = align(a, b, looks)
+
+goes step by step (`align.py`): the second map is cut into submaps, each is localised in the first,
+poses that agree are one guess, and a guess is held against the whole overlap that follows from it.
+`loops.py` checks the alignments of more than two maps. No step knows of models, files or requests.
+"""
+
+from segments.map_alignment.align import MapAlignment, align
+from segments.map_alignment.loops import Alignment, check_loops, poses_from
+from segments.map_alignment.map_view import Looks, MapView
+from segments.map_alignment.overlap import Overlap
+from segments.map_alignment.parameters import AlignmentParameters
+
+__all__ = [
+    "Alignment",
+    "AlignmentParameters",
+    "Looks",
+    "MapAlignment",
+    "MapView",
+    "Overlap",
+    "align",
+    "check_loops",
+    "poses_from",
+]

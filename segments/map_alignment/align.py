@@ -8,35 +8,67 @@ import numpy as np
 
 from segments.localisation import Pose
 from segments.localisation.correspondences import correspond
-from segments.localisation.hypothesis import find_hypotheses
+from segments.localisation.covariance import rotation_deviation
+from segments.localisation.hypothesis import find_hypotheses, same_place
 from segments.localisation.voting import most_voted
 from segments.map_alignment.consensus import Guess, common_pose, consensus
 from segments.map_alignment.map_view import Looks, MapView
 from segments.map_alignment.overlap import Overlap, overlap_of
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.map_alignment.submaps import Submap, candidates_of, cut
-from segments.types import Float64
 
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
 PARAMETERS = AlignmentParameters()
 
 
-def align_all(
+@dataclass(frozen=True, slots=True, eq=False)
+class MapAlignment:
+    """What is known of how map b lies to map a.
+
+    Attributes:
+        best: the best way to lay one on the other, also where it is not good enough; None if there
+            is none.
+        second: the best one that puts b elsewhere.
+        reason: why the maps are not aligned; None: they are.
+        detail: the reason in words; empty if they are.
+    """
+
+    best: Overlap | None
+    second: Overlap | None
+    reason: Reason | None
+    detail: str
+
+    @property
+    def pose(self) -> Pose | None:
+        """From b's frame to a's; None if they are not aligned."""
+        return self.best.pose if self.best is not None and self.reason is None else None
+
+
+def align(
     a: MapView, b: MapView, looks: Looks, parameters: AlignmentParameters = PARAMETERS
-) -> list[Overlap]:
-    submaps = cut(b, parameters)
-    guesses = guess(submaps, a, b, looks, parameters)
-    return [
+) -> MapAlignment:
+    """Find b's frame in a's.
+
+    Submaps of b are localised in a; poses of submaps that put the whole map in the same place are
+    one guess; and a guess is held against all of the overlap that follows from it.
+    """
+    least = parameters.least_pairs
+    if min(len(a), len(b)) < least:
+        detail = f"{min(len(a), len(b))} segments in a map; {least} or more are needed."
+        return MapAlignment(None, None, "too-few-segments", detail)
+    guesses = guess(cut(b, parameters), a, b, looks, parameters)
+    overlaps = [
         overlap_of(a, b, common_pose(members, parameters), looks, parameters)
         for members in consensus(guesses, parameters)
     ]
+    return judge(overlaps, parameters)
 
 
 def guess(
     submaps: Sequence[Submap], a: MapView, b: MapView, looks: Looks, parameters: AlignmentParameters
 ) -> list[Guess]:
-    """Where each submap of b may be in a: the hypotheses of localisation."""
+    """Where each submap of b may be in a: the hypotheses of localisation, not yet judged."""
     guesses = []
     for number, submap in enumerate(submaps):
         candidates = candidates_of(submap, b, a, looks, parameters)
@@ -46,3 +78,53 @@ def guess(
             for each in find_hypotheses(voted, parameters.local)
         ]
     return guesses
+
+
+def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAlignment:
+    """Decide whether the best overlap is good enough, and the only one that is."""
+    ranked = distinct(overlaps, parameters)
+    if not ranked:
+        return MapAlignment(None, None, "inconsistent", "No part of one map lies in the other.")
+    best, second = ranked[0], ranked[1] if len(ranked) > 1 else None
+    reason: Reason | None = None
+    detail = ""
+    degrees = np.degrees(rotation_deviation(best.covariance))
+    if not is_good(best, parameters):
+        reason = "inconsistent"
+        detail = (
+            f"Where the maps would overlap, {len(best)} pairs agree, worth {best.agreement:.1%} of "
+            f"what should; {parameters.least_agreement:.0%} and a score of "
+            f"{parameters.least_score:.0f} are needed, not {best.score:.0f}."
+        )
+    elif second is not None and second.score >= parameters.ambiguous * best.score:
+        reason = "ambiguous"
+        detail = f"Another way to lay them has {second.score / best.score:.0%} of the best's score."
+    elif not degrees <= parameters.local.undetermined_yaw:
+        reason = "inconsistent"
+        detail = f"The {len(best)} pairs that agree do not tell the direction."
+    return MapAlignment(best, second, reason, detail)
+
+
+def is_good(overlap: Overlap, parameters: AlignmentParameters) -> bool:
+    """Whether so much agrees, of so much that should, as never does by chance."""
+    return (
+        overlap.agreement >= parameters.least_agreement
+        and overlap.score >= parameters.least_score
+    )
+
+
+def distinct(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> list[Overlap]:
+    """Best first, without those of few pairs, and those that put b where a better one does.
+
+    One that is good enough is better than any that is not.
+    """
+    kept: list[Overlap] = []
+    for one in sorted(
+        overlaps, key=lambda each: (not is_good(each, parameters), -each.score)
+    ):
+        if len(one) >= parameters.least_pairs and not any(
+            same_place(one.pose, other.pose, one.source.mean(axis=0), parameters.local)
+            for other in kept
+        ):
+            kept.append(one)
+    return kept

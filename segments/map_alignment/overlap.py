@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from segments.localisation import Pose
 from segments.localisation.correspondences import Correspondences, number_places
 from segments.localisation.covariance import covariance_of
-from segments.localisation.refinement import refine, residuals
+from segments.localisation.refinement import kernel, refine, residuals
 from segments.map_alignment.map_view import Looks, MapView
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.map_alignment.submaps import evenly
@@ -25,10 +25,11 @@ class Overlap:
         rows_a, rows_b: int64 (m,), the segments that agree, pair by pair, one to one.
         source: float64 (m, 3), centroids of those of b, metres, in b's frame.
         residuals: float64 (m,), metres between the two of each pair.
-        score: sum of how likely each two are the same.
-        expected: things that both robots should have seen: how many a has, and b.
-        agreeing: of these, how many agree with one of the other.
-        parts: of the places where each robot was, the share where the other was too.
+        score: what all pairs are worth together: of each how likely the two are the same, the less,
+            the farther apart they are.
+        expected: of each map, how many things are where the other's robot should have seen them.
+        found: what the pairs among these are worth, of each map.
+        parts: of the places where each robot was, the share where the other's was too.
     """
 
     pose: Pose
@@ -39,20 +40,17 @@ class Overlap:
     residuals: Float64
     score: float
     expected: tuple[int, int]
-    agreeing: tuple[int, int]
+    found: tuple[float, float]
     parts: tuple[float, float]
 
     def __len__(self) -> int:
         return len(self.rows_a)
 
     @property
-    def share(self) -> float:
-        """Of the things that should agree those that do, of the map where it is less."""
-        shares = [
-            agreeing / expected if expected else 0.0
-            for agreeing, expected in zip(self.agreeing, self.expected, strict=True)
-        ]
-        return min(shares)
+    def agreement(self) -> float:
+        """How much of what should agree does, 0 to 1; of the map of which it is less."""
+        pairs = zip(self.found, self.expected, strict=True)
+        return min(found / max(expected, 1) for found, expected in pairs)
 
 
 def overlap_of(
@@ -72,8 +70,9 @@ def overlap_of(
         there, here, (pairs_a, pairs_b, likely), things_a, things_b
     )
     pose, support = refine(pose, found, parameters.local)
-    agreeing = found.take(support)
-    moved = here.moved(pose)
+    agreeing, moved = found.take(support), here.moved(pose)
+    off = residuals(pose, agreeing)
+    worth = agreeing.weights * kernel(off, parameters.local.kernel)
     seen_a = np.unique(things_a[should_be_seen(there, moved, parameters)])
     seen_b = np.unique(things_b[should_be_seen(moved, there, parameters)])
     return Overlap(
@@ -82,12 +81,12 @@ def overlap_of(
         rows_a=rows_a[agreeing.rows],
         rows_b=rows_b[chosen[support]],
         source=agreeing.source,
-        residuals=residuals(pose, agreeing),
-        score=float(agreeing.weights.sum()),
+        residuals=off,
+        score=float(worth.sum()),
         expected=(len(seen_a), len(seen_b)),
-        agreeing=(
-            len(np.intersect1d(seen_a, agreeing.places)),
-            len(np.intersect1d(seen_b, agreeing.queries)),
+        found=(
+            float(worth[np.isin(agreeing.places, seen_a)].sum()),
+            float(worth[np.isin(agreeing.queries, seen_b)].sum()),
         ),
         parts=(part(a, b.moved(pose), parameters), part(b.moved(pose), a, parameters)),
     )

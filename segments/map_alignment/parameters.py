@@ -40,3 +40,13 @@ class AlignmentParameters:
     """Probability that two segments are the same, at least, for them to agree."""
     rows: int = 20_000
     """Segments of each map that are compared, at most, evenly over the overlap."""
+
+    # Judgement.
+    least_pairs: int = 12
+    """That agree, for a guess to be one."""
+    least_agreement: float = 0.1
+    least_score: float = 12.0
+    """Of an alignment. In two towns, one of identical houses alone, right ones had 0.14 and 20 or
+    more; wrong ones had at most 0.09 or, where they had more than 10 of score, 0.07."""
+    ambiguous: float = 0.8
+    """Another way to lay the maps with this share of the best one's score is as good an answer."""

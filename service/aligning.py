@@ -1,0 +1,75 @@
+"""From two stored maps to how they lie to each other."""
+
+import numpy as np
+from placecell_client import CompactMap
+
+from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
+from segments.types import Float64, Int64
+from service.map_index import MapIndex, index_of
+from service.models import Model
+from service.problems import Problem
+from service.stored_map import StoredMap
+
+K = 25
+"""Candidates of each view of a submap's thing."""
+
+
+class MapLooks:
+    """`Looks` of two maps, a and b, that one model made."""
+
+    def __init__(self, model: Model, a: CompactMap, b: CompactMap, index: MapIndex) -> None:
+        """With an index over a."""
+        self._model = model
+        self._a, self._b = a.codes, b.codes
+        self._index = index
+
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+        """Of each row of b the rows of a that look most like it; how far, and how likely."""
+        distinct, inverse = np.unique(rows, return_inverse=True)
+        steps, found = self._index.search(self._b[distinct], K)
+        asked = np.repeat(distinct, found.shape[1])
+        likely = self.likely(found.ravel(), asked).reshape(found.shape)
+        distances = steps * self._model.manifest.quantiser.step
+        return found[inverse], distances[inverse], likely[inverse]
+
+    def likely(self, a: Int64, b: Int64) -> Float64:
+        """How likely each row of a and row of b are the same.
+
+        By the model's classifier; without one, a normal distribution of distances whose deviation
+        is the distance of a match.
+        """
+        one, other = self._a[a], self._b[b]
+        if self._model.classifier is not None:
+            return self._model.classifier.probabilities(other, one)
+        quantiser = self._model.manifest.quantiser
+        levels = quantiser.levels(other).astype(np.float64) - quantiser.levels(one)
+        distances = quantiser.step * np.linalg.norm(levels, axis=1)
+        return np.exp(-0.5 * (distances / self._model.manifest.pair_threshold) ** 2)
+
+
+def align_maps(
+    a: StoredMap, b: StoredMap, model: Model, parameters: AlignmentParameters
+) -> tuple[MapAlignment, CompactMap, CompactMap]:
+    """How b lies to a; and the contents of both, whose rows it names."""
+    one, other = a.layers.content(), b.layers.content()
+    # The base's index is there already; segments written since are in none.
+    is_base = a.index is not None and one is a.layers.base
+    index = a.index.base if is_base and a.index else index_of(one.codes, model.manifest.quantiser)
+    looks = MapLooks(model, one, other, index)
+    return align(view_of(one), view_of(other), looks, parameters), one, other
+
+
+def view_of(content: CompactMap) -> MapView:
+    """Where a map's segments are, and were seen from."""
+    return MapView(content.centroids, content.frame_positions[content.frame_index])
+
+
+def check_same_model(a: StoredMap, b: StoredMap) -> None:
+    """See that two maps can be compared; 409 if not."""
+    if a.model_id != b.model_id:
+        raise Problem(
+            409,
+            "other-model",
+            f"Map {a.name!r} was made by model {a.model_id!r}, map {b.name!r} by {b.model_id!r}; "
+            "descriptors of two models do not compare.",
+        )

@@ -1,0 +1,74 @@
+"""What routes answer about alignments, made of what was found."""
+
+from scipy.spatial.transform import Rotation
+
+from segments.localisation import Pose
+from segments.map_alignment import MapAlignment, Overlap
+from segments.types import UInt32
+from service.alignment_schemas import AlignmentOut, LaidOut, OverlapOut, PairOut
+from service.localise_schemas import PoseOut
+from service.stored_map import StoredMap
+
+
+def alignment_of(
+    found: MapAlignment,
+    one: StoredMap,
+    other: StoredMap,
+    ids: tuple[UInt32, UInt32] | None = None,
+) -> AlignmentOut:
+    """How two maps lie to each other.
+
+    Args:
+        ids: of the rows of both, for the pairs that agree; None: they are not told.
+    """
+    best, pose = found.best, found.pose
+    others = [found.second] if pose is not None else [best, found.second]
+    told = best if pose is not None else None
+    return AlignmentOut(
+        map=one.name,
+        etag=one.tag,
+        frame=one.frame,
+        other=other.name,
+        other_etag=other.tag,
+        other_frame=other.frame,
+        aligned=pose is not None,
+        reason=found.reason,
+        detail=found.detail,
+        pose=None if pose is None else pose_of(pose),
+        covariance=None if told is None else told.covariance.tolist(),
+        overlap=None if told is None else OverlapOut(of_map=told.parts[0], of_other=told.parts[1]),
+        score=0.0 if best is None else best.score,
+        agreement=0.0 if best is None else best.agreement,
+        pairs=0 if told is None else len(told),
+        inliers=[] if told is None or ids is None else pairs_of(told, ids),
+        others=[laid(each) for each in others if each is not None],
+    )
+
+
+def pose_of(pose: Pose) -> PoseOut:
+    """A pose."""
+    x, y, z, w = Rotation.from_matrix(pose.rotation).as_quat(canonical=True).tolist()
+    a, b, c = pose.translation.tolist()
+    return PoseOut(translation=(a, b, c), rotation=(x, y, z, w), yaw=pose.yaw)
+
+
+def laid(overlap: Overlap) -> LaidOut:
+    """A way to lay one map on the other."""
+    return LaidOut(
+        pose=pose_of(overlap.pose),
+        score=overlap.score,
+        agreement=overlap.agreement,
+        pairs=len(overlap),
+    )
+
+
+def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
+    """The segments that agree."""
+    here, there = ids
+    rows = zip(
+        here[overlap.rows_a].tolist(),
+        there[overlap.rows_b].tolist(),
+        overlap.residuals.tolist(),
+        strict=True,
+    )
+    return [PairOut(id=id_, other_id=other, residual=metres) for id_, other, metres in rows]
