@@ -41,6 +41,11 @@ def service(url: str) -> Iterator["Client"]:
             fail(f"{url} cannot be reached ({error}): is it running (placecell serve)?")
 
 
+def is_delta(data: bytes) -> bool:
+    """Whether a file says of itself that it is a delta file; it may be cut all the same."""
+    return b"placecell-delta" in data[:4096]
+
+
 def map_from(client: "Client", source: str) -> "CompactMap":
     """A map: of a file, or by name, or an earlier version as NAME@VERSION.
 

@@ -23,6 +23,7 @@ from placecell_client.map_file import CompactMap
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -111,7 +112,7 @@ class AsyncClient(Caller):
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
-    async def maps(self) -> tuple[MapSummary, ...]:
+    async def maps(self) -> Maps:
         """`Client.maps`."""
         return await self._send(self._calls.maps())
 

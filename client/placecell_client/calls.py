@@ -18,6 +18,7 @@ from placecell_client.map_file import CompactMap, decode, encode
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -136,9 +137,9 @@ class Calls:
             return self._post("/localize", body, reading.localisations)
         raise ValueError("give either a description, or segments and sensors")
 
-    def maps(self) -> Call[tuple[MapSummary, ...]]:
+    def maps(self) -> Call[Maps]:
         """`GET /maps`."""
-        return Call("GET", "/maps", reading.summaries)
+        return Call("GET", "/maps", reading.maps)
 
     def put_map(
         self,

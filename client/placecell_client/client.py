@@ -22,6 +22,7 @@ from placecell_client.map_file import CompactMap
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -158,8 +159,8 @@ class Client(Caller):
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
-    def maps(self) -> tuple[MapSummary, ...]:
-        """The stored maps, by name."""
+    def maps(self) -> Maps:
+        """The stored maps, by name, and which of all are damaged."""
         return self._send(self._calls.maps())
 
     def put_map(
