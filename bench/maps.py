@@ -19,8 +19,8 @@ from placecell_client import Client, Description, encode
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import Content, Views, map_of
 from bench.map_writers import MAP, Plan, rebuilding, writing
-from bench.serve import address_of, percentiles
-from bench.server import running_service
+from bench.serve import percentiles
+from bench.server import address_of, running_service
 from bench.soak import look
 from segments.extraction import Progress, silent
 from segments.models import DEFAULT_MODEL

@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import urllib.parse
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -101,3 +102,11 @@ def running_service(
         yield service.address()
     finally:
         service.stop()
+
+
+def address_of(url: str) -> tuple[str, int]:
+    """Host and port of http://HOST:PORT."""
+    parts = urllib.parse.urlsplit(url)
+    assert parts.hostname is not None
+    assert parts.port is not None
+    return parts.hostname, parts.port
