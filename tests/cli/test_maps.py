@@ -1,6 +1,8 @@
 """`placecell maps` against a running service, as a person uses it."""
 
+import socket
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -133,6 +135,21 @@ def test_an_earlier_version_is_pulled(
 
 def test_what_cannot_be_reached_is_told() -> None:
     assert "placecell serve" in bad("list", "--url", "http://127.0.0.1:9")
+
+
+def test_what_may_be_done_is_told() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def hang_up() -> None:
+            connection, _ = server.accept()
+            connection.recv(65536)
+            connection.close()
+
+        with ThreadPoolExecutor(1) as pool:
+            pool.submit(hang_up)
+            port = server.getsockname()[1]
+            told = bad("delete", "yard", "--yes", "--url", f"http://127.0.0.1:{port}")
+    assert "may be done all the same" in told
 
 
 def test_files_and_folders_are_verified(
