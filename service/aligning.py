@@ -44,7 +44,7 @@ class MapLooks:
         quantiser = self._model.manifest.quantiser
         levels = quantiser.levels(other).astype(np.float64) - quantiser.levels(one)
         distances = quantiser.step * np.linalg.norm(levels, axis=1)
-        return np.exp(-0.5 * (distances / self._model.manifest.pair_threshold) ** 2)
+        return np.asarray(np.exp(-0.5 * (distances / self._model.manifest.pair_threshold) ** 2))
 
 
 def align_maps(

@@ -9,7 +9,17 @@ from fastapi import FastAPI
 from service import openapi, problems
 from service.account import Account
 from service.limits import BodyLimit
-from service.routes import describe, health, localize, maps, match, models, segments, versions
+from service.routes import (
+    align,
+    describe,
+    health,
+    localize,
+    maps,
+    match,
+    models,
+    segments,
+    versions,
+)
 from service.settings import Settings
 from service.state import State, open_state
 
@@ -51,7 +61,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)
-    for module in (describe, match, localize, maps, segments, versions, models, health):
+    for module in (describe, match, localize, maps, segments, versions, align, models, health):
         app.include_router(module.router)
     return app
 

@@ -1,7 +1,7 @@
-"""A map's name in a path."""
+"""Names of maps in a path."""
 
 import re
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Depends, Path
 
@@ -11,21 +11,31 @@ from service.problems import Problem
 NAME_RULE = "1 to 64 letters, digits, dots, dashes, underscores; a letter or digit first"
 
 
-async def checked_name(
-    name: Annotated[
-        str,
-        Path(
-            alias="map",
-            description=f"The map's name: {NAME_RULE}.",
-            json_schema_extra={"pattern": NAME_PATTERN},
-            examples=["yard"],
-        ),
-    ],
-) -> str:
+def _path(alias: str, what: str, example: str) -> Any:
+    return Path(
+        alias=alias,
+        description=f"{what}: {NAME_RULE}.",
+        json_schema_extra={"pattern": NAME_PATTERN},
+        examples=[example],
+    )
+
+
+async def checked_name(name: Annotated[str, _path("map", "The map's name", "yard")]) -> str:
     """The map's name in the path; 422 if none can be named so."""
+    return checked(name)
+
+
+async def checked_other(name: Annotated[str, _path("other", "Another's name", "hall")]) -> str:
+    """Another map's name in the path; 422 if none can be named so."""
+    return checked(name)
+
+
+def checked(name: str) -> str:
+    """The name; 422 if no map can be named so."""
     if not re.fullmatch(NAME_PATTERN, name):
         raise Problem(422, "invalid-map-name", f"{name!r:.200} is no map's name: {NAME_RULE}.")
     return name
 
 
 Name = Annotated[str, Depends(checked_name)]
+OtherName = Annotated[str, Depends(checked_other)]

@@ -88,6 +88,18 @@ class Limits(BaseModel):
         allow_inf_nan=False,
         description="Seconds in which a map must have come and been stored.",
     )
+    alignments: int = Field(
+        default=2, ge=1, description="Maps aligned or merged at once; the others get a 429."
+    )
+    alignment_seconds: float = Field(
+        default=300.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds that an alignment or a merge may take.",
+    )
+    merged_maps: int = Field(
+        default=12, ge=2, description="Maps in a merge, at most; each two are aligned."
+    )
     sessions: int = Field(
         default=10_000,
         ge=1,

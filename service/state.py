@@ -50,6 +50,7 @@ class State:
         desk: takes in requests for recognition.
         uploads: takes in maps.
         edits: takes in edits of maps.
+        alignments: takes in alignments and merges of maps.
         turns: limits how many requests are computed at once.
         hands: limits how many work on stored maps at once.
         draining: the service is about to stop; it is no longer ready.
@@ -65,6 +66,7 @@ class State:
     desk: Desk
     uploads: Desk
     edits: Desk
+    alignments: Desk
     turns: anyio.CapacityLimiter
     hands: anyio.CapacityLimiter
     draining: bool = False
@@ -137,8 +139,11 @@ def open_state(settings: Settings) -> Iterator[State]:
             ),
             uploads=Desk(limits.uploads, seconds, seconds, limits.map_bytes),
             edits=Desk(limits.edits, seconds, seconds, limits.body_bytes),
+            alignments=Desk(
+                limits.alignments, limits.alignment_seconds, limits.body_seconds, limits.body_bytes
+            ),
             turns=anyio.CapacityLimiter(settings.workers),
-            hands=anyio.CapacityLimiter(limits.uploads),
+            hands=anyio.CapacityLimiter(limits.uploads + limits.alignments),
         )
 
 

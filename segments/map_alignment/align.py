@@ -108,8 +108,7 @@ def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAl
 def is_good(overlap: Overlap, parameters: AlignmentParameters) -> bool:
     """Whether so much agrees, of so much that should, as never does by chance."""
     return (
-        overlap.agreement >= parameters.least_agreement
-        and overlap.score >= parameters.least_score
+        overlap.agreement >= parameters.least_agreement and overlap.score >= parameters.least_score
     )
 
 
@@ -119,9 +118,7 @@ def distinct(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> li
     One that is good enough is better than any that is not.
     """
     kept: list[Overlap] = []
-    for one in sorted(
-        overlaps, key=lambda each: (not is_good(each, parameters), -each.score)
-    ):
+    for one in sorted(overlaps, key=lambda each: (not is_good(each, parameters), -each.score)):
         if len(one) >= parameters.least_pairs and not any(
             same_place(one.pose, other.pose, one.source.mean(axis=0), parameters.local)
             for other in kept

@@ -52,7 +52,7 @@ def consensus(guesses: Sequence[Guess], parameters: AlignmentParameters) -> list
         worth = [_best_of_each(scores, submaps, row & left).sum() for row in graph]
         seed = int(np.where(left, worth, -np.inf).argmax())
         members = np.flatnonzero(_best_of_each(scores, submaps, graph[seed] & left))
-        sets.append([guesses[index] for index in members])
+        sets.append([guesses[index] for index in members.tolist()])
         left &= ~graph[seed]
     return sets
 

@@ -66,9 +66,7 @@ def overlap_of(
         number_places(np.arange(len(view)), view.centroids, radius) for view in (here, there)
     )
     pairs_a, pairs_b, likely = alike(there, here.moved(pose), rows_a, rows_b, looks, parameters)
-    found, chosen = pairs_of_things(
-        there, here, (pairs_a, pairs_b, likely), things_a, things_b
-    )
+    found, chosen = pairs_of_things(there, here, (pairs_a, pairs_b, likely), things_a, things_b)
     pose, support = refine(pose, found, parameters.local)
     agreeing, moved = found.take(support), here.moved(pose)
     off = residuals(pose, agreeing)
@@ -99,13 +97,13 @@ def near_stands(one: MapView, other: MapView, parameters: AlignmentParameters) -
     distances, _ = cKDTree(np.unique(other.stands, axis=0)).query(
         one.stands, distance_upper_bound=parameters.shared_stand
     )
-    return np.isfinite(distances)
+    return np.asarray(np.isfinite(distances))
 
 
 def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
     """Which segments of one map the other's robot should have seen, bool (n,)."""
     close = np.linalg.norm(one.centroids - one.stands, axis=1) <= parameters.seen_from
-    return close & near_stands(one, other, parameters)
+    return np.asarray(close & near_stands(one, other, parameters))
 
 
 def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float:

@@ -13,7 +13,7 @@ from service.map_name import Name, OtherName
 from service.models import Model
 from service.problems import documented
 from service.routes.laid import alignment_of
-from service.state import HolderOf, State, StateOf, TimingOf
+from service.state import HolderOf, StateOf, TimingOf
 from service.stored_map import StoredMap
 
 router = APIRouter(tags=["sharing"])
@@ -39,10 +39,11 @@ async def align(
     motion: Motion = "yaw",
     pairs: Annotated[bool, Query(description="Tell the segments that agree, too.")] = False,
 ) -> AlignmentOut:
-    """The transform between their frames, from descriptors and centroids alone, or why none is told.
+    """The transform between their frames, or why none is told.
 
-    Parts of the other map are localised in this one; where many put all of it in the same place,
-    that is held against everything that both robots should have seen. Nothing is written.
+    From descriptors and centroids alone: parts of the other map are localised in this one; where
+    many put all of it in the same place, that is held against everything that both robots should
+    have seen. Nothing is written.
     """
     for each in (name, other):
         holder.check_map(each)

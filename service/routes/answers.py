@@ -1,7 +1,12 @@
-"""What routes answer about maps, made of what the service holds."""
+"""What routes answer, made of what the service holds."""
 
+from typing import Any
+
+from scipy.spatial.transform import Rotation
+
+from segments.localisation import Pose
+from service.map_schemas import MapOut, VersionOut, WrittenOut
 from service.map_store import Commit
-from service.schemas import MapOut, VersionOut, WrittenOut
 from service.stored_map import StoredMap, tag_of
 from service.writer import Written
 
@@ -50,3 +55,13 @@ def version_of(commit: Commit) -> VersionOut:
         changed=note.changed,
         removed=note.removed,
     )
+
+
+def pose_of(pose: Pose) -> dict[str, Any]:
+    """A pose, as `PoseOut` says."""
+    rotation = Rotation.from_matrix(pose.rotation).as_quat(canonical=True)
+    return {
+        "translation": pose.translation.tolist(),
+        "rotation": rotation.tolist(),
+        "yaw": pose.yaw,
+    }

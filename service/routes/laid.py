@@ -1,12 +1,10 @@
 """What routes answer about alignments, made of what was found."""
 
-from scipy.spatial.transform import Rotation
-
-from segments.localisation import Pose
 from segments.map_alignment import MapAlignment, Overlap
 from segments.types import UInt32
 from service.alignment_schemas import AlignmentOut, LaidOut, OverlapOut, PairOut
 from service.localise_schemas import PoseOut
+from service.routes.answers import pose_of
 from service.stored_map import StoredMap
 
 
@@ -34,7 +32,7 @@ def alignment_of(
         aligned=pose is not None,
         reason=found.reason,
         detail=found.detail,
-        pose=None if pose is None else pose_of(pose),
+        pose=None if pose is None else PoseOut(**pose_of(pose)),
         covariance=None if told is None else told.covariance.tolist(),
         overlap=None if told is None else OverlapOut(of_map=told.parts[0], of_other=told.parts[1]),
         score=0.0 if best is None else best.score,
@@ -45,17 +43,10 @@ def alignment_of(
     )
 
 
-def pose_of(pose: Pose) -> PoseOut:
-    """A pose."""
-    x, y, z, w = Rotation.from_matrix(pose.rotation).as_quat(canonical=True).tolist()
-    a, b, c = pose.translation.tolist()
-    return PoseOut(translation=(a, b, c), rotation=(x, y, z, w), yaw=pose.yaw)
-
-
 def laid(overlap: Overlap) -> LaidOut:
     """A way to lay one map on the other."""
     return LaidOut(
-        pose=pose_of(overlap.pose),
+        pose=PoseOut(**pose_of(overlap.pose)),
         score=overlap.score,
         agreement=overlap.agreement,
         pairs=len(overlap),

@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 from fastapi import APIRouter, Request, Response
-from scipy.spatial.transform import Rotation
 
-from segments.localisation import Hypothesis, Localisation, LocalisationParameters, Pose
+from segments.localisation import Hypothesis, Localisation, LocalisationParameters
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
 from service.localise_schemas import LocalizeQuery, LocalizeRequest, LocalizeResponse
@@ -16,6 +15,7 @@ from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedLocalizeRequest
 from service.problems import documented
 from service.queries import Asked, Queries, read_query
+from service.routes.answers import pose_of
 from service.schemas import Failed
 from service.sessions import SessionKey
 from service.state import HolderOf, State, StateOf, TimingOf
@@ -116,7 +116,7 @@ def _told(found: Localisation, stored: StoredMap, own: Queries) -> Told:
         "reason": found.reason,
         "detail": found.detail,
         "probability": found.probability,
-        "pose": None if pose is None else _pose(pose),
+        "pose": None if pose is None else pose_of(pose),
         "covariance": None if pose is None or best is None else best.covariance.tolist(),
         "score": 0.0 if best is None else best.score,
         "inliers": inliers,
@@ -126,18 +126,9 @@ def _told(found: Localisation, stored: StoredMap, own: Queries) -> Told:
 
 def _other(hypothesis: Hypothesis) -> Told:
     return {
-        "pose": _pose(hypothesis.pose),
+        "pose": pose_of(hypothesis.pose),
         "score": hypothesis.score,
         "inliers": len(hypothesis),
-    }
-
-
-def _pose(pose: Pose) -> Told:
-    rotation = Rotation.from_matrix(pose.rotation).as_quat(canonical=True)
-    return {
-        "translation": pose.translation.tolist(),
-        "rotation": rotation.tolist(),
-        "yaw": pose.yaw,
     }
 
 
