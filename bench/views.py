@@ -10,7 +10,7 @@ from segments.extractor import Extractor
 from segments.recording import Recording
 from segments.segments import Segments
 from segments.types import Bool, Float32, Int8, Int64
-from service.living import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, sighting
+from service.living import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
 from training.evaluation import machine
 from training.recognition import CANDIDATES, CROSS_VIEW_METRES, distance_rows
 
@@ -45,7 +45,7 @@ def views(
     codes = manifest.quantiser.encode(found)
     content = _map_of(codes, segments, recording.frames[rows], manifest.model_id)
     nothing = empty(content.model_id, content.preprocessing, content.frame, content.code_bytes)
-    same_view = SAME_VIEW * manifest.pair_threshold / manifest.quantiser.step
+    same = SameView.of(manifest)
 
     asked = _Asked(manifest.quantiser.levels(codes).astype(np.float32), groups, segments.sensors)
     if not len(asked.queries):
@@ -55,7 +55,7 @@ def views(
         {"views": None, "kept": "all"} | asked.with_stored(np.ones(len(rows), dtype=bool))
     ]
     for most in KEPT:
-        kept = sighting(content, nothing, manifest.quantiser, same_view, views=most).changed.ids
+        kept = sighting(content, nothing, same, views=most).changed.ids
         stored = np.isin(np.arange(len(rows)), kept)
         drawn = random.permutation(stored)
         measured.append({"views": most, "kept": "views that differ"} | asked.with_stored(stored))

@@ -15,6 +15,7 @@ from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply, take, with_optional
 from scipy.spatial import KDTree
 
+from segments.manifest import Manifest
 from segments.quantiser import Quantiser
 from segments.types import Bool, Float64, UInt32
 
@@ -32,6 +33,25 @@ VIEWS = 8
 """Of a thing, at most."""
 
 NONE: UInt32 = np.zeros(0, dtype=np.uint32)
+
+
+@dataclass(frozen=True, slots=True)
+class SameView:
+    """When two segments show the same.
+
+    Attributes:
+        quantiser: of the model that described them.
+        steps: up to which their descriptors are apart, in the quantiser's steps.
+    """
+
+    quantiser: Quantiser
+    steps: float
+
+    @classmethod
+    def of(cls, manifest: Manifest) -> "SameView":
+        """For the segments that a model described."""
+        quantiser = manifest.quantiser
+        return cls(quantiser, SAME_VIEW * manifest.pair_threshold / quantiser.step)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,11 +73,11 @@ class Sighting:
 def sighting(
     upload: CompactMap,
     stored: CompactMap,
-    quantiser: Quantiser,
-    same_view: float,
+    same: SameView,
     radius: float = RADIUS,
     same_stand: float = SAME_STAND,
     views: int = VIEWS,
+    itself: bool = True,
 ) -> Sighting:
     """Compare an upload with what is stored about there, and with itself, in the order of time.
 
@@ -65,11 +85,11 @@ def sighting(
         upload: segments; those whose id is stored are replaced, whatever they look like.
         stored: at least all segments of the map within `radius` of any of the upload, and those
             with an id of the upload.
-        quantiser: of the model.
-        same_view: distance of descriptors, in steps, up to which two views are the same.
+        same: when two views are the same.
         radius: metres between centroids of one thing.
         same_stand: metres between sensors up to which two views are the same.
         views: of a thing, at most.
+        itself: whether to compare it with itself, too.
     """
     stored, given = _filled(stored), _filled(upload)
     # Those that replace others come in their turn, so that an upload that is sent again is told
@@ -83,18 +103,24 @@ def sighting(
     things = np.concatenate([_column(each, "views") for each in both])
     moments = np.concatenate([_moments(each) for each in both])
     stands = np.concatenate([each.frame_positions[each.frame_index] for each in both])
-    levels = quantiser.levels(np.concatenate([each.codes for each in both]))
+    levels = same.quantiser.levels(np.concatenate([each.codes for each in both]))
     is_kept = np.arange(len(seen)) < len(known)
     count = Counter(things[is_kept].tolist())
     for row, about in enumerate(_neighbours(known, given, radius), start=len(known)):
-        # What was seen at the same time is something else.
-        others = [other for other in about if is_kept[other] and moments[other] != moments[row]]
+        # What was seen at the same moment, by the same sensor, is something else.
+        elsewhen = (moments[about] != moments[row]) | (stands[about] != stands[row]).any(axis=1)
+        comparable = is_kept[about] & elsewhen
+        others = [
+            other
+            for other, good in zip(about, comparable.tolist(), strict=True)
+            if good and (itself or other < len(known))
+        ]
         if others and not replaces[row - len(known)]:
             distances = np.linalg.norm(levels[others] - levels[row].astype(np.float32), axis=1)
             nearest = others[int(distances.argmin())]
             of_it = [other for other in others if things[other] == things[nearest]]
             away = np.linalg.norm(stands[of_it] - stands[row], axis=1).min()
-            is_same = distances.min() <= same_view or away <= same_stand
+            is_same = distances.min() <= same.steps or away <= same_stand
             if is_same or count[things[nearest]] >= views:
                 seen[nearest] = max(seen[nearest], seen[row])
                 continue

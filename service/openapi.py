@@ -9,6 +9,7 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
+from service.alignment_schemas import MergeRequest
 from service.bodies import JSON, MSGPACK
 from service.localise_schemas import LocalizeRequest
 from service.packed_schemas import (
@@ -25,6 +26,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     DescribeRequest,
     LocalizeRequest,
     MatchRequest,
+    MergeRequest,
     PackedDescribeRequest,
     PackedDescribeResponse,
     PackedLocalizeRequest,
@@ -44,6 +46,11 @@ def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
             },
         }
     }
+
+
+def json_body(schema: type[BaseModel]) -> dict[str, Any]:
+    """The description of a body that is JSON alone."""
+    return {"requestBody": {"required": True, "content": {JSON: {"schema": _reference(schema)}}}}
 
 
 def packed_response(schema: type[BaseModel]) -> dict[int | str, dict[str, Any]]:

@@ -10,7 +10,7 @@ from placecell_client.map_edit import apply, delta_between, take
 from segments.types import UInt32
 from service.keys import Holder
 from service.layers import Layers, robots_of
-from service.living import NONE, RADIUS, SAME_VIEW, Sighting, sighting
+from service.living import NONE, RADIUS, SameView, Sighting, sighting
 from service.map_store import OutOfIdsError
 from service.maps import Maps, unknown
 from service.models import Models
@@ -69,9 +69,9 @@ class Writer:
         with self.maps.writing(name):
             stored = self.maps.find(name)
             if stored is None:
-                return self._create(name, content, "put")
-            delta = _leading(stored, content)
-            return self._commit(stored, delta, "put", replaces=True)
+                return self.create(name, content, "put")
+            delta = leading_to(stored, content)
+            return self.commit(stored, delta, "put", replaces=True)
 
     def edit(
         self, name: str, data: bytes, robot: str | None, create: bool, deduplicate: bool
@@ -100,10 +100,10 @@ class Writer:
             if seen is not None:
                 edit = replace(edit, changed=seen.changed)
             if stored is None:
-                written = self._create(name, edit.changed, "edit")
+                written = self.create(name, edit.changed, "edit")
             else:
                 refreshed = seen.refreshed if seen is not None else NONE
-                written = self._commit(stored, edit, "edit", check, refreshed)
+                written = self.commit(stored, edit, "edit", check, refreshed)
             return replace(written, repeats=seen.repeats if seen is not None else 0)
 
     def restore(self, name: str, sequence: int) -> Written:
@@ -111,7 +111,7 @@ class Writer:
         with self.maps.writing(name):
             stored = self.maps.get(name)
             layers, _ = version(self.maps.store, stored, sequence)
-            return self._commit(stored, _leading(stored, layers.content()), "restore")
+            return self.commit(stored, leading_to(stored, layers.content()), "restore")
 
     def age(self, name: str, unseen_since: float, dry_run: bool) -> Written:
         """Remove what was last seen before a time, seconds of the frames' clock.
@@ -128,7 +128,7 @@ class Writer:
             if dry_run:
                 return Written(stored, 0, len(removed))
             nothing = stored.layers.take(removed[:0])
-            return self._commit(stored, Delta(nothing, removed), "age")
+            return self.commit(stored, Delta(nothing, removed), "age")
 
     def delete(self, name: str) -> int:
         """Remove a map; how many segments it had, 0 if it was damaged."""
@@ -173,21 +173,21 @@ class Writer:
             raise Problem(409, "out-of-ids", f"Map {name!r}: {error}.") from error
 
     def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
-        upload, model = edit.changed, self.models.named(edit.changed.model_id)
+        upload = edit.changed
         there = layers.about(upload.centroids, RADIUS)
         stored = apply(there, Delta(layers.take(upload.ids), NONE))
         # What the edit removes was not seen again.
         stored = take(stored, ~np.isin(stored.ids, edit.removed))
-        same_view = SAME_VIEW * model.manifest.pair_threshold / model.manifest.quantiser.step
-        return sighting(upload, stored, model.manifest.quantiser, same_view)
+        return sighting(upload, stored, SameView.of(self.models.named(upload.model_id).manifest))
 
-    def _create(self, name: str, content: CompactMap, operation: str) -> Written:
+    def create(self, name: str, content: CompactMap, operation: str) -> Written:
+        """Store a new map, as far as the key and the conditions allow; `Maps.writing` is held."""
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
         stored = self.maps.create(name, content, self.holder.name, operation)
         return Written(stored, len(content), 0, is_new=True)
 
-    def _commit(
+    def commit(
         self,
         stored: StoredMap,
         asked: Delta,
@@ -196,6 +196,16 @@ class Writer:
         refreshed: UInt32 = NONE,
         replaces: bool = False,
     ) -> Written:
+        """Do what a delta asks, as far as the key and the conditions allow; `Maps.writing` is held.
+
+        Args:
+            stored: the map as it is.
+            asked: what to do; nothing is written if that changes nothing.
+            operation: for the history.
+            check: raises a problem if what is replaced or removed may not be.
+            refreshed: ids of segments that were only seen again.
+            replaces: whether other content is replaced, which needs If-Match.
+        """
         before, delta = stored.layers.effect_of(asked)
         if not stored.layers.is_changed_by(delta):
             return Written(stored, 0, 0)
@@ -211,7 +221,7 @@ class Writer:
         return Written(stored, len(delta.changed), len(delta.removed))
 
 
-def _leading(stored: StoredMap, content: CompactMap) -> Delta:
+def leading_to(stored: StoredMap, content: CompactMap) -> Delta:
     """From a map as it is to a content."""
     sequence = stored.head.sequence
     return delta_between(stored.layers.content(), content, sequence, sequence + 1)

@@ -1,22 +1,33 @@
-"""`/maps/{map}/align/{other}`: how the frames of two maps lie to each other."""
+"""`/maps/{map}/align/{other}` and `/maps/{map}/merge`: how maps lie, and a site of them all."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query, Request
+from fastapi.responses import JSONResponse
+from pydantic import ValidationError
 
 from segments.localisation import LocalisationParameters
 from segments.map_alignment import AlignmentParameters
 from service.aligning import align_maps, check_same_model
-from service.alignment_schemas import AlignmentOut
+from service.alignment_schemas import AlignmentOut, MergedOut, MergeRequest
+from service.audit import tell_written
 from service.bodies import JSON
+from service.keys import Holder
 from service.map_name import Name, OtherName
+from service.merger import Merger
 from service.models import Model
-from service.problems import documented
-from service.routes.laid import alignment_of
-from service.state import HolderOf, StateOf, TimingOf
+from service.openapi import json_body
+from service.problems import documented, invalid
+from service.queries import invalid as invalid_value
+from service.routes.laid import alignment_of, merged_of
+from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.stored_map import StoredMap
 
 router = APIRouter(tags=["sharing"])
+
+_NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
+    201: {"model": MergedOut, "description": "There was no such site, and now there is."}
+}
 
 Motion = Annotated[
     Literal["yaw", "se3"],
@@ -62,3 +73,61 @@ def _aligned(
     parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
     found, here, there = align_maps(one, other, model, parameters)
     return alignment_of(found, one, other, (here.ids, there.ids) if pairs else None)
+
+
+@router.post(
+    "/maps/{map}/merge",
+    summary="Merge maps into a site",
+    response_model=MergedOut,
+    responses=_NEW_RESPONSE
+    | documented(*(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507)),
+    openapi_extra=json_body(MergeRequest),
+)
+async def merge(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    writer: WriterOf,
+    timing: TimingOf,
+) -> JSONResponse:
+    """Lay stored maps on each other and put their segments into one map, with where they come from.
+
+    All pairs are aligned, and alignments that do not close a loop are rejected. Maps that cannot be
+    laid on the site are left out. Each segment keeps its robot, its moment, and the map and id that
+    it had. The site is written in one version: `dry_run` tells before what it would be, and
+    restoring the version before undoes it. A map that has grown can be merged again.
+    """
+    holder.check_write(name)
+    async with state.alignments.admit(request, (JSON,), timing) as body:
+        asked = _read(body.content, name, state, holder)
+        parameters = AlignmentParameters(local=LocalisationParameters(model=asked.motion))
+        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run)
+        merged = await state.store(merger.merge, name, asked.maps)
+    timing.lap("commit")
+    if merged.written is not None:
+        tell_written(request, state, "merge", merged.written)
+    answer = merged_of(merged, name, asked.maps)
+    return JSONResponse(
+        answer.model_dump(mode="json"),
+        status_code=201 if merged.written is not None and merged.written.is_new else 200,
+        headers={"ETag": f'"{answer.etag}"'} if answer.etag is not None else None,
+    )
+
+
+def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeRequest:
+    """What is asked, if it can be done."""
+    try:
+        asked = MergeRequest.model_validate_json(content)
+    except ValidationError as error:
+        raise invalid(error) from error
+    most = state.settings.limits.merged_maps
+    if len(asked.maps) > most:
+        raise invalid_value("/maps", f"{len(asked.maps)} of them; the limit is {most}.")
+    for index, each in enumerate(asked.maps):
+        if each == name or each in asked.maps[:index]:
+            raise invalid_value(f"/maps/{index}", f"{each!r} is the site, or stands twice.")
+        holder.check_map(each)
+    if len(asked.maps) < 2 and state.maps.find(name) is None:
+        raise invalid_value("/maps", f"{name!r} is a new site; it takes two maps or more.")
+    return asked

@@ -1,10 +1,24 @@
 """What routes answer about alignments, made of what was found."""
 
+from collections.abc import Sequence
+
 from segments.map_alignment import MapAlignment, Overlap
 from segments.types import UInt32
-from service.alignment_schemas import AlignmentOut, LaidOut, OverlapOut, PairOut
+from service.alignment_schemas import (
+    AlignmentOut,
+    LaidOut,
+    LoopOut,
+    MergedOut,
+    MergedPartOut,
+    MergePairOut,
+    OverlapOut,
+    PairOut,
+)
 from service.localise_schemas import PoseOut
+from service.merger import Merged
+from service.merging import Pairing, Plan
 from service.routes.answers import pose_of
+from service.site import Share
 from service.stored_map import StoredMap
 
 
@@ -63,3 +77,59 @@ def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
         strict=True,
     )
     return [PairOut(id=id_, other_id=other, residual=metres) for id_, other, metres in rows]
+
+
+def merged_of(merged: Merged, name: str, names: Sequence[str]) -> MergedOut:
+    """What a merge did, or would do.
+
+    Args:
+        names: of the maps, in the order of the request.
+    """
+    plan, written = merged.plan, merged.written
+    numbers = {stored.name: number for number, stored in enumerate(plan.maps)}
+    return MergedOut(
+        map=name,
+        frame=plan.maps[0].frame,
+        dry_run=written is None,
+        sequence=None if written is None else written.stored.head.sequence,
+        etag=None if written is None else written.stored.tag,
+        previous=merged.previous,
+        segments=merged.segments,
+        changed=merged.changed,
+        removed=merged.removed,
+        parts=[_part(merged, numbers[each]) for each in names],
+        alignments=[_pairing(plan, each) for each in plan.pairings],
+        loops=[
+            LoopOut(
+                maps=[plan.maps[number].name for number in loop.maps],
+                metres=loop.metres,
+                degrees=loop.degrees,
+                closes=loop.closes,
+            )
+            for loop in plan.checked.loops
+        ],
+    )
+
+
+def _part(merged: Merged, number: int) -> MergedPartOut:
+    stored, pose = merged.plan.maps[number], merged.plan.poses.get(number)
+    share = merged.shares.get(number, Share(0, 0, 0, 0))
+    return MergedPartOut(
+        map=stored.name,
+        etag=stored.tag,
+        merged=pose is not None,
+        pose=None if pose is None else PoseOut(**pose_of(pose)),
+        added=share.added,
+        known=share.known,
+        repeats=share.repeats,
+        removed=share.removed,
+    )
+
+
+def _pairing(plan: Plan, pairing: Pairing) -> MergePairOut:
+    told = alignment_of(pairing.found, plan.maps[pairing.one], plan.maps[pairing.other])
+    return MergePairOut(
+        rejected=pairing.is_rejected,
+        proven=pairing.is_proven,
+        **told.model_dump(include=set(MergePairOut.model_fields)),
+    )

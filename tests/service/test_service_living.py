@@ -13,7 +13,7 @@ from placecell_client.map_edit import apply, empty, take
 
 from segments.manifest import Manifest
 from segments.quantiser import Quantiser
-from service.living import NONE, RADIUS, SAME_VIEW, Sighting, sighting
+from service.living import NONE, RADIUS, SAME_VIEW, SameView, Sighting, sighting
 from tests.service.service_builders import assert_problem
 from tests.service.test_service_keys import made
 
@@ -62,7 +62,7 @@ def joined(*parts: CompactMap) -> CompactMap:
 
 def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> Sighting:
     # Codes apart by 1 are 7 ** 0.5 steps apart.
-    return sighting(upload, stored, QUANTISER, same_view=2 * 7**0.5, views=views)
+    return sighting(upload, stored, SameView(QUANTISER, 2 * 7**0.5), views=views)
 
 
 def told(content: CompactMap) -> list[tuple[int, int, int]]:

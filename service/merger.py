@@ -1,0 +1,144 @@
+"""Maps put into a site, for one request: laid on each other, joined, and written."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from placecell_client import MapFileError
+
+from segments.map_alignment import AlignmentParameters
+from service.aligning import check_same_model
+from service.living import SameView
+from service.merging import Plan, plan_merge
+from service.problems import Problem
+from service.site import Part, Share, join, site_of
+from service.stored_map import StoredMap
+from service.versions import commits_of
+from service.writer import Writer, Written, leading_to
+
+KEEPS_FRAME = frozenset({"edit", "age", "merge"})
+"""Operations after which what a map holds still lies where it lay."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Merged:
+    """What a merge did, or would do.
+
+    Attributes:
+        plan: how the maps lie.
+        shares: by number, what became of the segments of those that were merged.
+        segments: of the site after it.
+        written: what was stored; None of a dry run.
+        previous: sequence of the site's version before; None: there was no site.
+        changed: segments that were, or would be, added or replaced.
+        removed: segments that were, or would be, removed.
+    """
+
+    plan: Plan
+    shares: dict[int, Share]
+    segments: int
+    written: Written | None
+    previous: int | None
+    changed: int
+    removed: int
+
+
+@dataclass(frozen=True, slots=True)
+class Merger:
+    """Whoever sent a request, as one who merges.
+
+    Attributes:
+        writer: who writes the site.
+        parameters: of the alignments.
+        deduplicate: leave out what another map's segment shows already.
+        dry_run: only tell what would be done.
+    """
+
+    writer: Writer
+    parameters: AlignmentParameters
+    deduplicate: bool
+    dry_run: bool
+
+    def merge(self, name: str, names: Sequence[str]) -> Merged:
+        """Merge stored maps into a site, which is made if there is none.
+
+        A site's frame is that of the first map, and stays. Maps that cannot be laid on it are left
+        out; if that is all of them, nothing is done.
+
+        Raises:
+            Problem: 404 for a map that is not there, 409 if the maps do not go together or the site
+                changed meanwhile, and what `Writer` finds wrong.
+        """
+        maps = self.writer.maps
+        site = maps.find(name)
+        parts = [maps.get(each) for each in names]
+        laid = parts if site is None or not len(site) else [site, *parts]
+        for each in laid[1:]:
+            check_same_model(laid[0], each)
+        model = self.writer.models.named(laid[0].model_id)
+        plan = plan_merge(laid, model, self.parameters)
+        joining = [
+            number for number, each in enumerate(laid) if number in plan.poses and each is not site
+        ]
+        if len(plan.poses) < 2 and not self.dry_run:
+            raise Problem(
+                409,
+                "not-aligned",
+                f"No map of {', '.join(names)} can be laid on {laid[0].name!r}; nothing was "
+                "changed. With dry_run the answer tells why.",
+            )
+        with maps.writing(name):
+            return self._write(name, site, plan, joining)
+
+    def _write(
+        self, name: str, before: StoredMap | None, plan: Plan, joining: Sequence[int]
+    ) -> Merged:
+        writer, maps = self.writer, self.writer.maps
+        stored = maps.find(name)
+        self._check_lies_still(name, before, stored)
+        parts = [
+            Part(plan.maps[number].name, plan.maps[number].layers.content(), plan.poses[number])
+            for number in joining
+        ]
+        first_id = 0
+        if stored is not None:
+            count = sum(len(part.content) for part in parts)
+            first_id = stored.head.next_id if self.dry_run else writer.reserve(name, count)
+        manifest = writer.models.named(plan.maps[0].model_id).manifest
+        same = SameView.of(manifest) if self.deduplicate else None
+        site = stored.layers.content() if stored is not None else site_of(plan.maps[0])
+        try:
+            content, found = join(site, parts, first_id, same)
+        except MapFileError as error:
+            raise Problem(409, "cannot-merge", f"The maps do not go together: {error}.") from error
+        shares = dict(zip(joining, found, strict=True))
+        previous = stored.head.sequence if stored is not None else None
+        if stored is None:
+            written = None if self.dry_run else writer.create(name, content, "merge")
+            return Merged(plan, shares, len(content), written, previous, len(content), 0)
+        delta = leading_to(stored, content)
+        if self.dry_run:
+            _, delta = stored.layers.effect_of(delta)
+            changed, removed = len(delta.changed), len(delta.removed)
+            return Merged(plan, shares, len(content), None, previous, changed, removed)
+        written = writer.commit(stored, delta, "merge")
+        return Merged(
+            plan, shares, len(content), written, previous, written.changed, written.removed
+        )
+
+    def _check_lies_still(
+        self, name: str, before: StoredMap | None, stored: StoredMap | None
+    ) -> None:
+        """See that the site is the one that the maps were laid on; 409 if not."""
+        if before is stored:
+            return
+        if before is not None and stored is not None and before.head.uid == stored.head.uid:
+            since = [
+                commit.note.operation
+                for commit in commits_of(self.writer.maps.store, stored)
+                if commit.sequence > before.head.sequence
+            ]
+            if KEEPS_FRAME.issuperset(since):
+                return
+        raise Problem(
+            409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."
+        )

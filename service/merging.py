@@ -1,0 +1,84 @@
+"""Which maps can be merged, and how they lie: all pairs are aligned, and loops are checked."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from segments.localisation import Pose
+from segments.map_alignment import (
+    Alignment,
+    AlignmentParameters,
+    MapAlignment,
+    check_loops,
+    poses_from,
+)
+from segments.map_alignment.loops import Checked
+from service.aligning import align_maps
+from service.models import Model
+from service.stored_map import StoredMap
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pairing:
+    """What was found of two maps.
+
+    Attributes:
+        one, other: their numbers.
+        found: how the other lies to the one.
+        is_rejected: whether loops rule it out.
+        is_proven: whether a loop that closes holds it.
+    """
+
+    one: int
+    other: int
+    found: MapAlignment
+    is_rejected: bool
+    is_proven: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """How maps lie to the first of them.
+
+    Attributes:
+        maps: the first is the one that the others are laid on.
+        pairings: of each two.
+        checked: what the loops say.
+        poses: by number, from the map's frame to the first's, of those that can be laid on it.
+    """
+
+    maps: tuple[StoredMap, ...]
+    pairings: tuple[Pairing, ...]
+    checked: Checked
+    poses: dict[int, Pose]
+
+
+def plan_merge(maps: Sequence[StoredMap], model: Model, parameters: AlignmentParameters) -> Plan:
+    """Align each two, reject what loops rule out, and lay all that is connected on the first."""
+    found = {
+        (one, other): align_maps(maps[one], maps[other], model, parameters)[0]
+        for one, other in combinations(range(len(maps)), 2)
+    }
+    edges = [
+        Alignment(
+            one,
+            other,
+            each.best.pose,
+            each.best.pose.apply(each.best.source.mean(axis=0)),
+            each.best.score,
+        )
+        for (one, other), each in found.items()
+        if each.best is not None and each.pose is not None
+    ]
+    checked = check_loops(edges)
+    numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}
+    pairings = tuple(
+        Pairing(
+            *pair,
+            each,
+            numbers.get(pair) in checked.rejected,
+            numbers.get(pair) in checked.proven,
+        )
+        for pair, each in found.items()
+    )
+    return Plan(tuple(maps), pairings, checked, poses_from(0, edges, checked))

@@ -1,0 +1,124 @@
+"""A site map: what several maps hold, in one frame, each segment with where it comes from."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from placecell_client import CompactMap, Delta, moved, originated
+from placecell_client.map_edit import apply, empty, take, with_optional
+
+from segments.localisation import Pose
+from segments.types import Bool, UInt32
+from service.layers import Layers
+from service.living import NONE, RADIUS, SameView, sighting
+from service.stored_map import StoredMap
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """A map that is to be merged.
+
+    Attributes:
+        name: under which it is stored.
+        content: its segments.
+        pose: from its frame to the site's.
+    """
+
+    name: str
+    content: CompactMap
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """What became of a part's segments.
+
+    Attributes:
+        added: new in the site.
+        known: were merged before, and stay as they are.
+        repeats: not stored, for another map's segment shows the same.
+        removed: were merged before, and are gone from the part.
+    """
+
+    added: int
+    known: int
+    repeats: int
+    removed: int
+
+
+def site_of(stored: StoredMap) -> CompactMap:
+    """An empty site, in the frame of a map."""
+    base = stored.layers.base
+    return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
+
+
+def join(
+    site: CompactMap, parts: Sequence[Part], first_id: int, same: SameView | None
+) -> tuple[CompactMap, list[Share]]:
+    """The site with the parts in it, one after the other.
+
+    A segment is known by the map that it was written to first, and its id there; so a map can be
+    merged again when it has grown, and parts may share what was merged into both.
+
+    Args:
+        site: in canonical form.
+        first_id: of new segments; those after it are free too.
+        same: leave out what another map's segment shows already; None: leave nothing out.
+
+    Raises:
+        MapFileError: a part cannot stand in the site.
+    """
+    shares = []
+    for part in parts:
+        laid = originated(part.content, part.name)
+        laid = moved(laid, part.pose.rotation, part.pose.translation, site.frame)
+        site = with_optional(site, ("source", "source_ids"))
+        known = keys_in(laid, site)
+        gone = ~keys_in(site, laid) & of_source(site, part.name)
+        added = renumbered(take(laid, ~known), first_id)
+        first_id += len(added)
+        changed, repeats = added, 0
+        if same is not None:
+            there = take(site, ~gone)
+            about = Layers.of(there).about(added.centroids, RADIUS)
+            seen = sighting(added, about, same, itself=False)
+            changed, repeats = seen.changed, seen.repeats
+        removed = np.sort(site.ids[gone])
+        site = apply(site, Delta(changed, removed))
+        shares.append(
+            Share(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
+        )
+    return site, shares
+
+
+def keys_in(content: CompactMap, other: CompactMap) -> Bool:
+    """Which segments of one map the other has too, by source and id there, bool (n,)."""
+    names = {name: number for number, name in enumerate(dict.fromkeys(content.sources), start=1)}
+    found = np.zeros(len(content), dtype=bool)
+    for name, number in names.items():
+        here = content.source == number
+        there = of_source(other, name)
+        found[here] = np.isin(_source_ids(content)[here], _source_ids(other)[there])
+    return found
+
+
+def of_source(content: CompactMap, name: str) -> Bool:
+    """Which segments were written to the map of this name first, bool (n,)."""
+    if content.source is None or name not in content.sources:
+        return np.zeros(len(content), dtype=bool)
+    return np.asarray(content.source == content.sources.index(name) + 1)
+
+
+def renumbered(content: CompactMap, first_id: int) -> CompactMap:
+    """With ids from the first on; views of one thing stay such."""
+    ids = np.arange(first_id, first_id + len(content), dtype=np.uint32)
+    views = content.views
+    if views is not None and len(views):
+        # The first of them stands for all, for the one that they name may be no part of this.
+        _, first, group = np.unique(views, return_index=True, return_inverse=True)
+        views = ids[first[group]]
+    return replace(content, ids=ids, views=views)
+
+
+def _source_ids(content: CompactMap) -> UInt32:
+    return NONE if content.source_ids is None else content.source_ids
