@@ -4,8 +4,7 @@ Rates are of this machine at this hour, so all are measured in turn, again and a
 median is given: what slows the machine down slows each of them. Compare within a run, not across.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
@@ -14,27 +13,23 @@ from typing import Any
 import numpy as np
 import onnxruntime
 
-from segments.drives import open_drive
-from segments.extraction import Progress, record, silent
-from segments.extractor import MODEL_FILE, Extractor, load_extractor, one_thread_session
+from bench.networks import PAPER, files, paper_network
+from bench.rates import Work, each, measure
+from bench.scans import draw_scans
+from segments.extraction import Progress, silent
+from segments.extractor import Extractor, load_extractor, one_thread_session
 from segments.manifest import PAIR_FILE, Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from segments.pairs import PairClassifier
-from segments.parameters import PROTOCOL_V1, Parameters
-from segments.recording import Recording
+from segments.parameters import Parameters
 from segments.segments import Segments
 from segments.surroundings import describe_surroundings
 from segments.voxels import voxelise
 from training.evaluation import machine
 from training.figure import figure
 
-PAPER = "paper"
-
 PAIRS = 1_250
 """Queries and candidates of a usual request to `/match`: 50 segments, 25 nearest."""
-
-Work = Callable[[int], int]
-"""Do the piece of work of this number; returns how many segments it had."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,25 +51,6 @@ class Plan:
     seconds: float = 0.5
     segments: int = 1024
     latencies: int = 500
-
-
-@dataclass(frozen=True, slots=True)
-class Network:
-    """An ONNX file that is measured.
-
-    Attributes:
-        model: its name.
-        precision: `fp32` or `int8`.
-        file: where it lies.
-        served: whether the service would run this file, rather than another of the model's.
-        top1: of the model on its validation groups, as its manifest has it.
-    """
-
-    model: str
-    precision: str
-    file: Path
-    served: bool
-    top1: float | None
 
 
 def bench(
@@ -120,7 +96,7 @@ def bench(
         works["preprocessing", threads] = (preprocessing(drawn, parameters), threads)
         works["surroundings", threads] = (each(scans, describe_surroundings), threads)
     works["points in"] = (each(scans, extractor.describe), max(plan.threads))
-    rates = measure(works, plan, progress)
+    rates = measure(works, plan.repeats, plan.seconds, progress)
 
     rows = [
         {
@@ -166,79 +142,6 @@ def bench(
     }
 
 
-def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segments]:
-    """Scans with so many segments in all, each again and again where there are too few.
-
-    Raises:
-        ValueError: there are no segments.
-    """
-    filled = [scan for scan in scans if len(scan)]
-    if not filled:
-        raise ValueError("there is no segment to describe; take a longer drive")
-    random, drawn = np.random.default_rng(seed), list[Segments]()
-    while sum(map(len, drawn)) < segments:
-        drawn += [filled[index] for index in random.permutation(len(filled))]
-    ends = np.cumsum([len(scan) for scan in drawn])
-    return drawn[: int(np.searchsorted(ends, segments)) + 1]
-
-
-def scans_of(recording: Recording) -> list[Segments]:
-    """The segments of each scan that is a frame, as a robot would send them."""
-    return [
-        recording.segments.take(np.flatnonzero(recording.frames == scan))
-        for scan in np.unique(recording.frames)
-    ]
-
-
-def town_recording(
-    folder: Path, seed: int, progress: Progress = silent, scans: int = 20
-) -> Recording:
-    """Of a short drive through the synthetic town; the drive is left in the folder."""
-    from town import two_robots
-
-    path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
-    return record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress)
-
-
-def files(folder: Path) -> Iterator[Network]:
-    """The extractor's networks in a model's folder: `model.onnx` and others, such as in int8."""
-    manifest = Manifest.load(folder)
-    for name in sorted(manifest.files):
-        if name.startswith("model") and name.endswith(".onnx"):
-            served = name == MODEL_FILE
-            # The manifest's figures are those of the file that is served.
-            top1 = manifest.figures.get("validation", {}).get("top1") if served else None
-            yield Network(manifest.name, precision(folder / name), folder / name, served, top1)
-
-
-def precision(file: Path) -> str:
-    """`int8` for a network with quantised layers, told by its nodes' names, otherwise `fp32`."""
-    return "int8" if b"QuantizeLinear" in file.read_bytes() else "fp32"
-
-
-def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: int) -> list[Network]:
-    """The paper's network with random weights: as fast as a trained one. Empty without torch."""
-    file = folder / f"paper-{dimension}.onnx"
-    if not file.exists():
-        try:
-            import torch
-        except ImportError:
-            return []
-        from training.export import Exported, export_onnx
-        from training.networks import DIMENSION, DescriptorNetwork
-
-        torch.manual_seed(seed)
-        mean = np.zeros(parameters.grid, np.float32)
-        network = DescriptorNetwork(PAPER, mean, np.ones_like(mean))
-        axes = np.eye(DIMENSION, dimension, dtype=np.float32)
-        folder.mkdir(parents=True, exist_ok=True)
-        unfinished = file.with_suffix(".unfinished")
-        exported = Exported(network, np.zeros(DIMENSION, np.float32), axes)
-        export_onnx(exported, parameters.grid, unfinished)
-        unfinished.replace(file)
-    return [Network(PAPER, "fp32", file, served=True, top1=None)]
-
-
 def inference(
     sessions: Sequence[onnxruntime.InferenceSession],
     inputs: dict[str, np.ndarray[Any, Any]],
@@ -268,45 +171,6 @@ def preprocessing(segments: Segments, parameters: Parameters, batch: int = 64) -
         for first in range(0, len(segments), batch)
     ]
     return each(parts, lambda part: voxelise(part, parameters))
-
-
-def each(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
-    """Do this with one part, another each time."""
-
-    def work(number: int) -> int:
-        part = parts[number % len(parts)]
-        do(part)
-        return len(part)
-
-    return work
-
-
-def measure(works: dict[Any, tuple[Work, int]], plan: Plan, progress: Progress) -> dict[Any, float]:
-    """Segments a second of each work, by so many threads: the median of the repeats."""
-    rates: dict[Any, list[float]] = {key: [] for key in works}
-    with ThreadPoolExecutor(max(threads for _, threads in works.values())) as pool:
-        for work, threads in works.values():
-            rate(pool, work, threads, 0)  # the first runs allocate and compile
-        for _ in progress(range(plan.repeats), plan.repeats, "measuring"):
-            for key, (work, threads) in works.items():
-                rates[key].append(rate(pool, work, threads, plan.seconds))
-    return {key: round(float(np.median(each)), 1) for key, each in rates.items()}
-
-
-def rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: float) -> float:
-    """Segments a second of threads that do the work for so long, and once at least."""
-
-    def one(first: int) -> float:
-        start, done, number = perf_counter(), 0, first
-        while True:
-            done += work(number)
-            number += threads
-            elapsed = perf_counter() - start
-            if elapsed >= seconds:
-                # Each by its own clock: none waits for the last batch of another.
-                return done / elapsed
-
-    return sum(pool.map(one, range(threads)))
 
 
 def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:

@@ -15,11 +15,11 @@ from segments.localisation import Localisation, LocalisationParameters
 from segments.localisation.evidence import Evidence
 from segments.manifest import Manifest
 from segments.types import Float64, Int8
-from service.describer import Scan
 from service.keys import ANYONE
 from service.locating import localise_in
 from service.models import Model
 from service.preconditions import Preconditions
+from service.scan import Scan
 from service.settings import Settings
 from service.state import State, open_state
 from service.timing import Timing

@@ -19,8 +19,8 @@ from placecell_client import Client, CompactMap, Description, encode
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import VIEWS, Views, map_of
 from bench.pose_queries import random_frame
-from bench.serve import address_of, percentiles
-from bench.server import running_service
+from bench.serve import percentiles
+from bench.server import address_of, running_service
 from segments.extraction import Progress, silent
 from segments.localisation import Pose
 from service.bodies import MSGPACK

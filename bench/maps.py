@@ -19,8 +19,8 @@ from placecell_client import Client, Description, encode
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import Content, Views, map_of
 from bench.map_writers import MAP, Plan, rebuilding, writing
-from bench.serve import address_of, percentiles
-from bench.server import running_service
+from bench.serve import percentiles
+from bench.server import Service, address_of, running_service
 from bench.soak import look
 from segments.extraction import Progress, silent
 from segments.models import DEFAULT_MODEL
@@ -72,7 +72,20 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
     for cached in (data / "cache").glob("*"):
         cached.unlink()
     row["start_rebuild_s"] = round(_start(data, 1) - row["start_empty_s"], 3)
-    with running_service(data) as address, Client(address, timeout=120) as client:
+    with Service(data) as service:
+        address = service.address()
+        row |= _written_to(address, views, content, plan, data, seed)
+        row["memory_mb_after_writes"] = round(look(address)["resident_mb"] - empty, 1)
+        row["peak_mb"] = service.peak_mb()
+    return row
+
+
+def _written_to(
+    address: str, views: Views, content: Content, plan: Plan, data: Path, seed: int
+) -> dict[str, Any]:
+    """What is answered while robots write, and while the index is made anew."""
+    row: dict[str, Any] = {}
+    with Client(address, timeout=120) as client:
         with writing(client, views, plan, len(content.codes), seed) as written:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
@@ -81,7 +94,6 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"rebuilding_match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
         row["rebuilds"] = len(rebuilt)
-        row["memory_mb_after_writes"] = round(look(address)["resident_mb"] - empty, 1)
     return row
 
 

@@ -1,10 +1,8 @@
 """How the service bears load: the real server over loopback, up to saturation and past it."""
 
 import asyncio
-import json
 import re
 import tempfile
-import urllib.parse
 import urllib.request
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -12,20 +10,17 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client
 
-from bench.describe import draw_scans, each, rate
-from bench.load import Load, Outcome, request_of, sent_by_process
-from bench.map_content import map_of
-from bench.server import running_service
+from bench.load import Load, Outcome, sent_by_process
+from bench.rates import each, rate
+from bench.scans import draw_scans
+from bench.server import address_of, running_service
+from bench.workload import Case, fill, requests
 from segments.extraction import Progress, silent
 from segments.extractor import load_extractor
-from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 from segments.segments import Segments
-from segments.types import Int8
 from service.bodies import JSON, MSGPACK
 from training.evaluation import machine
 from training.figure import figure
@@ -54,21 +49,6 @@ class Plan:
     bodies: int = 20
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
-    """A way to ask: encoding, segments a request, and whether requests share batches."""
-
-    media_type: str
-    segments: int
-    batching: bool
-
-    @property
-    def name(self) -> str:
-        """For plots."""
-        form = "msgpack" if self.media_type == MSGPACK else "JSON"
-        return f"{form}, {self.segments} segments" + ("" if self.batching else ", no batching")
-
-
 def bench(
     scans: Sequence[Segments], plan: Plan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
@@ -85,7 +65,7 @@ def bench(
         Case(MSGPACK, plan.small, batching=False),
     ]
     library = alone(scans)
-    sent = {case.name: requests(case, drawn, plan) for case in cases}
+    sent = {case.name: requests(case, drawn, plan.bodies, plan.k) for case in cases}
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(cases)), len(cases), "loading the service"):
@@ -183,52 +163,6 @@ def percentiles(times: np.ndarray[Any, Any]) -> dict[str, float | None]:
         return dict.fromkeys(("p50", "p95", "p99", "max"))
     found = np.percentile(times, [50, 95, 99, 100]).round(2).tolist()
     return dict(zip(("p50", "p95", "p99", "max"), found, strict=True))
-
-
-def requests(case: Case, drawn: Segments, plan: Plan) -> tuple[bytes, ...]:
-    """Whole requests to `/match`, each of other segments."""
-    bodies = []
-    for number in range(plan.bodies):
-        rows = (number * case.segments + np.arange(case.segments)) % len(drawn)
-        packed = case.media_type == MSGPACK
-        segments = [
-            {
-                "points": cloud.astype("<f4").tobytes() if packed else cloud.tolist(),
-                "sensor": drawn.sensors[row].tolist(),
-            }
-            for row in rows
-            for cloud in [drawn.cloud(int(row))]
-        ]
-        content = {"segments": segments, "k": plan.k}
-        body = msgpack.packb(content) if packed else json.dumps(content).encode()
-        bodies.append(request_of("/match", case.media_type, body))
-    return tuple(bodies)
-
-
-def address_of(url: str) -> tuple[str, int]:
-    """Host and port of http://HOST:PORT."""
-    parts = urllib.parse.urlsplit(url)
-    assert parts.hostname is not None
-    assert parts.port is not None
-    return parts.hostname, parts.port
-
-
-def fill(address: str, drawn: Segments, count: int, seed: int) -> None:
-    """Store a map: real descriptors, each again and again with some levels changed."""
-    with Client(address) as client:
-        some = drawn.take(np.arange(min(200, len(drawn))))
-        described = client.describe([some.cloud(row) for row in range(len(some))], some.sensors)
-        codes = perturbed(described.codes, count, seed)
-        manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
-        client.put_map("bench", map_of(codes, manifest, "bench", seed=seed))
-
-
-def perturbed(codes: Int8, count: int, seed: int) -> Int8:
-    """So many codes: those given, in turn, a tenth of their bytes drawn from others."""
-    random = np.random.default_rng(seed)
-    many = codes[np.arange(count) % len(codes)]
-    strangers = codes[random.integers(len(codes), size=many.shape), np.arange(codes.shape[1])]
-    return np.where(random.random(many.shape) < 0.1, strangers, many).astype(np.int8)
 
 
 def batches(address: str) -> tuple[float, float]:

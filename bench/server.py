@@ -4,9 +4,11 @@ import os
 import re
 import subprocess
 import sys
+import urllib.parse
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Self
 
 STOP_SECONDS = 20.0
 """After which a service that was told to stop is killed."""
@@ -44,6 +46,12 @@ class Service:
                 env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0"} | dict(environment or {}),
             )
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
     def address(self) -> str:
         """Where it listens, such as http://127.0.0.1:8123, as soon as it does; to be asked once.
 
@@ -59,6 +67,11 @@ class Service:
                 return match[0]
         self.process.wait()
         raise RuntimeError(f"the service did not start: {''.join(said)}{self.log()}")
+
+    def peak_mb(self) -> float:
+        """The most memory that it ever had at once, MB; on Linux."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        return round(int(status.split("VmHWM:")[1].split()[0]) * 1024 / 1e6, 1)
 
     def log(self) -> str:
         """What it wrote to its log since it was started."""
@@ -96,8 +109,13 @@ def running_service(
     Raises:
         RuntimeError: it did not start; the message holds what it said.
     """
-    service = Service(data_dir, *options, environment=environment, tracer=tracer)
-    try:
+    with Service(data_dir, *options, environment=environment, tracer=tracer) as service:
         yield service.address()
-    finally:
-        service.stop()
+
+
+def address_of(url: str) -> tuple[str, int]:
+    """Host and port of http://HOST:PORT."""
+    parts = urllib.parse.urlsplit(url)
+    assert parts.hostname is not None
+    assert parts.port is not None
+    return parts.hostname, parts.port

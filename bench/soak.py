@@ -16,10 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from bench.describe import draw_scans
 from bench.load import Load, Outcome, sent_by_process
-from bench.serve import Case, Plan, address_of, fill, percentiles, requests
-from bench.server import running_service
+from bench.scans import draw_scans
+from bench.serve import Plan, percentiles
+from bench.server import address_of, running_service
+from bench.workload import Case, fill, requests
 from segments.segments import Segments
 from service.bodies import MSGPACK
 from training.evaluation import machine
@@ -53,7 +54,7 @@ def soak(scans: Sequence[Segments], plan: Soak, seed: int = 0) -> dict[str, Any]
     """Run it; the report as `placecell bench soak` writes it."""
     shape = Plan()
     drawn = Segments.concatenate(draw_scans(scans, shape.segments * shape.bodies, seed))
-    sent = requests(Case(MSGPACK, shape.segments, batching=True), drawn, shape)
+    sent = requests(Case(MSGPACK, shape.segments, batching=True), drawn, shape.bodies, shape.k)
     with (
         tempfile.TemporaryDirectory(prefix="placecell-soak-") as folder,
         running_service(Path(folder)) as address,

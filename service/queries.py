@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 from segments.types import Float64, Int8
-from service.describer import Prepared, Scan
+from service.describer import Prepared
 from service.keys import Holder
 from service.matching import Scope, scope_of
 from service.models import Model
 from service.problems import Problem, ProblemError
+from service.scan import Scan
 from service.schemas import Failed, QueryRequest
 from service.state import State
 from service.timing import Timing

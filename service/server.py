@@ -16,6 +16,9 @@ from service.state import State
 HEAD_BYTES = 32 << 10
 """Of a request's line and headers, at most."""
 
+AHEAD_BYTES = 64 << 10
+"""Of requests that a client sends ahead of answers; then it is not read until it has an answer."""
+
 HEAD_SECONDS = 15.0
 """In which a client must have sent them, and what is left of the request before."""
 
@@ -40,6 +43,7 @@ class Protocol(H11Protocol):
         before = self.cycle
         super().data_received(data)
         self._patient_if_new(before)
+        self._listen()
 
     def on_response_complete(self) -> None:
         """An answer was sent; what is left of its request, and the next one's head, must come."""
@@ -47,11 +51,23 @@ class Protocol(H11Protocol):
         self._wait_for_head()
         super().on_response_complete()
         self._patient_if_new(before)
+        self._listen()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """The client has gone."""
         self._patient()
         super().connection_lost(exc)
+
+    def _listen(self) -> None:
+        # Where a request comes ahead of an answer, uvicorn stops reading: it would not see that
+        # the client goes, and its work would be done for nobody.
+        if (
+            self.flow.read_paused
+            and self.conn.their_state is h11.DONE
+            and len(self.conn.trailing_data[0]) < AHEAD_BYTES
+            and not self.transport.is_closing()
+        ):
+            self.flow.resume_reading()
 
     def _wait_for_head(self) -> None:
         self._patient()

@@ -27,12 +27,14 @@ from town.drive import read_origin, write_drive
 from town.lidar import HDL_64E, Lidar
 from town.mesh import Mesh
 from town.odometry import ODOMETRY_FILE, Odometry
-from town.pairs import Pair, Traversal, draw_pairs
+from town.pair import Pair
+from town.pairs import draw_pairs
 from town.planner import Planner
 from town.robots import several_robots, two_robots, way_of
 from town.route import Route
 from town.scene import Scene
 from town.town import Town
+from town.traversal import Traversal
 
 __all__ = [
     "HDL_64E",

@@ -12,10 +12,9 @@ from scipy.spatial import cKDTree
 
 from segments.types import Bool, Float64, Int64
 from town.city import City
-from town.drive import levelled, scan_distances
-from town.lidar import HDL_64E
 from town.network import OWN
-from town.route import Route
+from town.pair import Pair
+from town.traversal import Traversal
 
 SAME_STREET = 7.0
 """Scans of two drives nearer to one another than this are in the same street, metres."""
@@ -34,64 +33,6 @@ COMPARED = 5
 
 FARTHEST = 5000.0
 """Origins of the maps' frames lie up to so far from the drives' worlds' on x and y, metres."""
-
-
-@dataclass(frozen=True, slots=True)
-class Traversal:
-    """A drive, as far as it matters here.
-
-    Attributes:
-        poses: (n, 4, 4) sensor to town.
-        origin: (4, 4) the drive's world to town.
-    """
-
-    poses: Float64
-    origin: Float64
-
-    @classmethod
-    def of(cls, route: Route, scans: int, spacing: float, height: float = HDL_64E.height) -> Self:
-        """Of the drive that `write_drive` writes, driven or not."""
-        poses = route.poses(scan_distances(scans, spacing), height)
-        return cls(poses, levelled(poses[0]))
-
-    @property
-    def places(self) -> Float64:
-        """Where the sensor was, town frame: (n, 2)."""
-        return np.asarray(self.poses[:, :2, 3])
-
-
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """Two stretches of two drives.
-
-    Attributes:
-        scans_a, scans_b: first and last scan of each, both included.
-        overlap: share of b's scans that were taken in a's streets.
-        look_alike: share of b's scans where the same identical houses stand as in a street of a's.
-        frame_a, frame_b: (4, 4) world of each drive to the frame of its map: any heading,
-            kilometres away.
-        b_to_a: (4, 4) map b's frame to map a's, in truth.
-    """
-
-    scans_a: tuple[int, int]
-    scans_b: tuple[int, int]
-    overlap: float
-    look_alike: float
-    frame_a: Float64
-    frame_b: Float64
-    b_to_a: Float64
-
-    def as_dict(self) -> dict[str, object]:
-        """Plain values for JSON."""
-        return {
-            "scans_a": self.scans_a,
-            "scans_b": self.scans_b,
-            "overlap": round(self.overlap, 3),
-            "look_alike": round(self.look_alike, 3),
-            "frame_a": self.frame_a.tolist(),
-            "frame_b": self.frame_b.tolist(),
-            "b_to_a": self.b_to_a.tolist(),
-        }
 
 
 def draw_pairs(
@@ -149,8 +90,8 @@ class Drawer:
             b,
             city.designs_at(a.places),
             city.designs_at(b.places),
-            scans_in(a, metres),
-            scans_in(b, metres),
+            a.scans_in(metres),
+            b.scans_in(metres),
             rng,
         )
 
@@ -224,18 +165,6 @@ class Drawer:
         frame[:2, :2] = [[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]]
         frame[:3, 3] = self.rng.uniform(-1, 1, size=3) * (FARTHEST, FARTHEST, 50.0)
         return frame
-
-
-def scans_in(drive: Traversal, metres: float) -> int:
-    """Scans of a drive in so many metres.
-
-    Raises:
-        ValueError: it is too short.
-    """
-    driven = np.linalg.norm(np.diff(drive.places, axis=0), axis=1).sum()
-    if not 0 < metres <= driven:
-        raise ValueError(f"a drive of {driven:.0f} m has no stretch of {metres} m")
-    return max(1, round(metres / float(driven) * (len(drive.poses) - 1)))
 
 
 def means(flags: Bool, window: int) -> Float64:

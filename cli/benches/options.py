@@ -36,7 +36,7 @@ Drawn = Annotated[int, typer.Option("--seed", help="Of everything that is drawn.
 
 def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 20) -> "Recording":
     """The recording of a drive, or of a drive of so many scans through the town."""
-    from bench.describe import town_recording
+    from bench.scans import town_recording
 
     if segments is None:
         return town_recording(output / "town", seed, show, scans)
@@ -45,7 +45,7 @@ def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 
 
 def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Segments], str]":
     """The segments of each scan, and where they are from."""
-    from bench.describe import scans_of
+    from bench.scans import scans_of
 
     recording = recording_from(segments, output, seed)
     return scans_of(recording), "synthetic town" if segments is None else segments.stem

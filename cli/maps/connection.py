@@ -30,6 +30,7 @@ def service(url: str) -> Iterator["Client"]:
     """A client of the service; what it refuses ends the command with a line."""
     import httpx
     from placecell_client import Client, ServiceError
+    from placecell_client.retries import may_be_done
 
     with clear_errors():
         try:
@@ -38,7 +39,14 @@ def service(url: str) -> Iterator["Client"]:
         except ServiceError as error:
             fail(error)
         except httpx.TransportError as error:
+            if may_be_done(error):
+                fail(f"{url} did not answer ({error}): what you asked for may be done all the same")
             fail(f"{url} cannot be reached ({error}): is it running (placecell serve)?")
+
+
+def is_delta(data: bytes) -> bool:
+    """Whether a file says of itself that it is a delta file; it may be cut all the same."""
+    return b"placecell-delta" in data[:4096]
 
 
 def map_from(client: "Client", source: str) -> "CompactMap":

@@ -1,51 +1,71 @@
 """`placecell maps push`, `pull` and `diff`: maps between files and a service."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cli.maps.connection import LOCAL, Name, Url, map_from, service
+from cli.maps.connection import LOCAL, Name, Url, is_delta, map_from, service
+
+if TYPE_CHECKING:
+    from placecell_client import MapSummary, Written
 
 _ETAG = ".etag"
 
 
 def push(
-    file: Annotated[Path, typer.Argument(help="A map file.")],
+    file: Annotated[Path, typer.Argument(help="A map file or a delta file.")],
     name: Annotated[str, typer.Argument(help="Of the map; the file's unless said.")] = "",
     replace: Annotated[
         bool, typer.Option("--replace", help="In place of what is there, whoever wrote it.")
     ] = False,
     url: Url = LOCAL,
 ) -> None:
-    """Store a map file; ends when it is safely on the service's disk.
+    """Store a map file, or what a delta file changes; ends when it is safely on the service's disk.
 
     Other content of that name is replaced only if its last version is the one that 'pull' wrote
-    beside the file, or with --replace.
+    beside the file, or with --replace. So are, by a delta file, other robots' segments.
     """
     with service(url) as client:
         beside = _etag_of(file)
         seen = beside.read_text().strip() if beside.is_file() else None
-        stored = client.put_map(
-            name or file.stem, file.read_bytes(), if_match="*" if replace else seen
-        )
+        if_match = "*" if replace else seen
+        name, data = name or file.stem, file.read_bytes()
+        stored: MapSummary | Written
+        if is_delta(data):
+            stored = client.edit_map(name, data, if_match=if_match)
+            typer.echo(f"{name}: {stored.changed:,} changed, {stored.removed:,} removed")
+        else:
+            stored = client.put_map(name, data, if_match=if_match)
         if seen is not None:
             beside.write_text(f"{stored.etag}\n")
-        typer.echo(f"{stored.name}: {stored.segments:,} segments, version {stored.sequence}")
+        typer.echo(f"{name}: {stored.segments:,} segments, version {stored.sequence}")
 
 
 def pull(
     name: Name,
     file: Annotated[Path | None, typer.Argument(help="Where to; MAP.map unless said.")] = None,
+    version: Annotated[
+        int | None,
+        typer.Option(
+            min=1, help="An earlier one, whole, to MAP@VERSION.map unless said; see 'maps show'."
+        ),
+    ] = None,
     url: Url = LOCAL,
 ) -> None:
     """Bring a map's file up to date; what it has already does not travel again.
 
-    The version is kept beside it (FILE.etag).
+    The version is kept beside it (FILE.etag), but for an earlier one: that cannot be pushed over
+    what was written since, unless with --replace.
     """
     from placecell_client import MapCopy, decode, encode
 
     with service(url) as client:
+        if version is not None:
+            target = file or Path(f"{name}@{version}.map")
+            _put(target, client.get_map_file(name, version))
+            typer.echo(f"{target}: version {version}")
+            return
         target = file or Path(f"{name}.map")
         beside, copy = _etag_of(target), MapCopy(name)
         if target.is_file() and beside.is_file():
@@ -53,11 +73,7 @@ def pull(
         before = copy.sequence
         copy = client.pull(copy)
         assert copy.content is not None
-        unfinished = target.with_name(target.name + ".unfinished")
-        unfinished.write_bytes(encode(copy.content))
-        # The version first is taken away: it must never be that of another file.
-        beside.unlink(missing_ok=True)
-        unfinished.replace(target)
+        _put(target, encode(copy.content))
         beside.write_text(f"{copy.etag}\n")
         typer.echo(f"{target}: {len(copy.content):,} segments, version {before} to {copy.sequence}")
 
@@ -79,6 +95,15 @@ def diff(
             f"{len(changed) - replaced:,} added, {replaced:,} changed, {len(removed):,} removed, "
             f"{len(before) - replaced - len(removed):,} the same"
         )
+
+
+def _put(target: Path, data: bytes) -> None:
+    """Replace a file whole, and leave it without a version."""
+    unfinished = target.with_name(target.name + ".unfinished")
+    unfinished.write_bytes(data)
+    # The version first is taken away: it must never be that of another file.
+    _etag_of(target).unlink(missing_ok=True)
+    unfinished.replace(target)
 
 
 def _etag_of(file: Path) -> Path:

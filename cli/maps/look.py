@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cli.maps.connection import LOCAL, Name, Url, service
+from cli.maps.connection import LOCAL, Name, Url, is_delta, service
 from cli.sources import clear_errors, fail
 
 if TYPE_CHECKING:
@@ -14,19 +14,22 @@ if TYPE_CHECKING:
 
 
 def list_maps(url: Url = LOCAL) -> None:
-    """List the maps, and whose segments they hold."""
+    """List the maps, and whose segments they hold; and those that are damaged."""
     from rich.console import Console
     from rich.table import Table
 
     with service(url) as client:
         table = Table("map", "segments", "version", "kB", "robots", "model")
-        for one in client.maps():
+        stored = client.maps()
+        for one in stored:
             robots = ", ".join(f"{robot} {count:,}" for robot, count in one.robots.items())
             size = f"{one.bytes / 1000:,.0f}"
             table.add_row(
                 one.name, f"{one.segments:,}", str(one.sequence), size, robots, one.model_id
             )
     Console().print(table)
+    for damaged in stored.damaged:
+        typer.echo(f"{damaged} is damaged and not served; the service's log says how", err=True)
 
 
 def show(
@@ -91,7 +94,7 @@ def verify(
             else:
                 data = path.read_bytes()
                 try:
-                    (decode_delta if b"placecell-delta" in data[:4096] else decode)(data)
+                    (decode_delta if is_delta(data) else decode)(data)
                 except MapFileError as error:
                     found = [str(error)]
         for wrong in found or ["whole"]:

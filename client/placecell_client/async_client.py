@@ -23,6 +23,7 @@ from placecell_client.map_file import CompactMap
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -111,7 +112,7 @@ class AsyncClient(Caller):
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
-    async def maps(self) -> tuple[MapSummary, ...]:
+    async def maps(self) -> Maps:
         """`Client.maps`."""
         return await self._send(self._calls.maps())
 
@@ -184,9 +185,16 @@ class AsyncClient(Caller):
         """`Client.restore_map`."""
         return await self._send(self._calls.restore_map(name, version, if_match))
 
-    async def age_map(self, name: str, unseen_since: float, dry_run: bool = False) -> Written:
+    async def age_map(
+        self,
+        name: str,
+        unseen_since: float,
+        dry_run: bool = False,
+        *,
+        if_match: str | None = None,
+    ) -> Written:
         """`Client.age_map`."""
-        return await self._send(self._calls.age_map(name, unseen_since, dry_run))
+        return await self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
 
     async def compact_map(self, name: str, keep: int = 1) -> int:
         """`Client.compact_map`."""

@@ -12,7 +12,7 @@ from placecell_client.calls import Call
 from placecell_client.deadline import Deadline, Timeouts
 from placecell_client.errors import ServiceError
 from placecell_client.map_file import MapFileError
-from placecell_client.retries import RETRIED, Retries
+from placecell_client.retries import RETRIED, Retries, may_be_done
 
 T = TypeVar("T")
 
@@ -82,6 +82,7 @@ class Attempts(Generic[T]):
         self._deadline = Deadline(policy.timeout, policy.clock)
         self._request_id = uuid.uuid4().hex
         self._made = 0
+        self._may_be_done = False
         self._last: Exception | None = None
 
     def next(self) -> Attempt:
@@ -115,8 +116,8 @@ class Attempts(Generic[T]):
         Raises:
             ServiceError: the answer is a refusal, or nothing that can be read.
         """
-        # The answer to the first DELETE was lost on the way, but not the DELETE.
-        gone = answer.status == 404 and self._call.method == "DELETE" and self._made > 1
+        # The answer to an earlier DELETE was lost on the way, but not the DELETE.
+        gone = answer.status == 404 and self._call.method == "DELETE" and self._may_be_done
         if not answer.ok and not gone:
             raise ServiceError.of(answer)
         try:
@@ -132,6 +133,9 @@ class Attempts(Generic[T]):
     def wait_after(self, error: httpx.TransportError | ServiceError) -> float | None:
         """Seconds to wait before the next attempt; None if this error is the last."""
         self._last = error
+        self._may_be_done |= may_be_done(error)
+        if self._may_be_done and not self._call.repeatable:
+            return None
         asked = None
         if isinstance(error, ServiceError):
             if error.status not in RETRIED:

@@ -2,7 +2,7 @@
 
 import gzip
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 from urllib.parse import quote, urlencode
 
@@ -18,6 +18,7 @@ from placecell_client.map_file import CompactMap, decode, encode
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -34,13 +35,16 @@ from placecell_client.wire import (
 
 T = TypeVar("T")
 
+ANY = "*"
+"""In the place of an ETag: whatever version is there."""
+
 COMPRESSED_BYTES = 1024
 """Files of less are sent as they are."""
 
 
 @dataclass(frozen=True, slots=True)
 class Call(Generic[T]):
-    """A request, safe to repeat, and how to read its answer.
+    """A request, and how to read its answer.
 
     Attributes:
         method: of HTTP.
@@ -49,6 +53,8 @@ class Call(Generic[T]):
             be.
         headers: of the request.
         content: its body, the same bytes in every attempt.
+        repeatable: whether it may be sent again when it may have been done already: what others
+            wrote since is then not undone.
     """
 
     method: str
@@ -56,6 +62,7 @@ class Call(Generic[T]):
     read: Callable[[Answer], T]
     headers: dict[str, str] = field(default_factory=dict)
     content: bytes | None = None
+    repeatable: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,9 +137,9 @@ class Calls:
             return self._post("/localize", body, reading.localisations)
         raise ValueError("give either a description, or segments and sensors")
 
-    def maps(self) -> Call[tuple[MapSummary, ...]]:
+    def maps(self) -> Call[Maps]:
         """`GET /maps`."""
-        return Call("GET", "/maps", reading.summaries)
+        return Call("GET", "/maps", reading.maps)
 
     def put_map(
         self,
@@ -144,7 +151,8 @@ class Calls:
         """`PUT /maps/{map}`."""
         data = encode(compact_map) if isinstance(compact_map, CompactMap) else compact_map
         headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
-        return self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, reading.summary, headers)
+        call = self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, reading.summary, headers)
+        return replace(call, repeatable=if_match != ANY)
 
     def edit_map(
         self,
@@ -161,7 +169,9 @@ class Calls:
         flags = {flag: "true" for flag, wanted in asked.items() if wanted}
         path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
-        return self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
+        call = self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
+        # Without a condition it replaces and removes only what is the robot's own.
+        return replace(call, repeatable=if_match != ANY)
 
     def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
         """`GET /maps/{map}`, decoded."""
@@ -190,21 +200,32 @@ class Calls:
     def restore_map(self, name: str, version: int, if_match: str | None) -> Call[Written]:
         """`POST /maps/{map}/versions/{version}/restore`."""
         path = _path(name, f"/versions/{int(version)}/restore")
-        return Call("POST", path, reading.written, _conditions(if_match))
+        return self._tied("POST", path, reading.written, if_match)
 
-    def age_map(self, name: str, unseen_since: float, dry_run: bool) -> Call[Written]:
+    def age_map(
+        self, name: str, unseen_since: float, dry_run: bool, if_match: str | None
+    ) -> Call[Written]:
         """`POST /maps/{map}/age`."""
         dry = "true" if dry_run else None
         path = _path(name, "/age", unseen_since=repr(float(unseen_since)), dry_run=dry)
-        return Call("POST", path, reading.written)
+        call = self._tied("POST", path, reading.written, if_match)
+        return replace(call, repeatable=True) if dry_run else call
 
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """`POST /maps/{map}/compact`."""
-        return Call("POST", _path(name, "/compact", keep=keep), reading.oldest)
+        path = _path(name, "/compact", keep=keep)
+        return Call("POST", path, reading.oldest, repeatable=False)
 
     def delete_map(self, name: str, if_match: str | None) -> Call[None]:
         """`DELETE /maps/{map}`."""
-        return Call("DELETE", _path(name), reading.gone, _conditions(if_match))
+        return self._tied("DELETE", _path(name), reading.gone, if_match)
+
+    def _tied(
+        self, method: str, path: str, read: Callable[[Answer], T], if_match: str | None
+    ) -> Call[T]:
+        """A write that may be sent again only if it is tied to a version."""
+        repeatable = if_match not in (None, ANY)
+        return Call(method, path, read, _conditions(if_match), repeatable=repeatable)
 
     def _upload(
         self,
@@ -257,4 +278,4 @@ def _conditions(if_match: str | None) -> dict[str, str]:
     if if_match is None:
         return {}
     # An ETag is given as results tell it, without quotes.
-    return {"If-Match": if_match if if_match == "*" else f'"{if_match}"'}
+    return {"If-Match": if_match if if_match == ANY else f'"{if_match}"'}

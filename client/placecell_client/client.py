@@ -22,6 +22,7 @@ from placecell_client.map_file import CompactMap
 from placecell_client.results import (
     Description,
     Info,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -38,7 +39,10 @@ class Client(Caller):
 
     Each method raises `ServiceError` when the service refuses or cannot be understood, and
     `httpx.TransportError` when it cannot be reached or does not answer in time. Before that, what
-    may pass by itself is tried again; every call is safe to repeat.
+    may pass by itself is tried again: unless the call may have been carried out, and to do so again
+    could undo what others wrote since. An `if_match` that is an ETag makes every write safe to
+    repeat; without it `restore_map`, `age_map`, `compact_map`, `delete_map`, and what is written
+    with `if_match="*"`, are not repeated then.
 
     Args:
         base_url: such as `http://127.0.0.1:8000`.
@@ -155,8 +159,8 @@ class Client(Caller):
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
-    def maps(self) -> tuple[MapSummary, ...]:
-        """The stored maps, by name."""
+    def maps(self) -> Maps:
+        """The stored maps, by name, and which of all are damaged."""
         return self._send(self._calls.maps())
 
     def put_map(
@@ -275,18 +279,33 @@ class Client(Caller):
         return self._send(self._calls.versions(name, limit))
 
     def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
-        """Make a map again what it was: a new version with the content of an old one."""
+        """Make a map again what it was: a new version with the content of an old one.
+
+        Args:
+            name: of the map.
+            version: the old one's sequence.
+            if_match: ETag of the version that is given up; a ServiceError with status 412 if it
+                is not the newest.
+        """
         return self._send(self._calls.restore_map(name, version, if_match))
 
-    def age_map(self, name: str, unseen_since: float, dry_run: bool = False) -> Written:
+    def age_map(
+        self,
+        name: str,
+        unseen_since: float,
+        dry_run: bool = False,
+        *,
+        if_match: str | None = None,
+    ) -> Written:
         """Remove segments that were last seen before a time.
 
         Args:
             name: of the map.
             unseen_since: the time, seconds of the clock of the frames.
             dry_run: only tell how many they are.
+            if_match: ETag of the version to do it to.
         """
-        return self._send(self._calls.age_map(name, unseen_since, dry_run))
+        return self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
 
     def compact_map(self, name: str, keep: int = 1) -> int:
         """Let go of all but the newest versions; the sequence of the oldest that is kept."""

@@ -21,6 +21,7 @@ from placecell_client.results import (
     Description,
     Info,
     ItemError,
+    Maps,
     MapSummary,
     MapVersion,
     Matches,
@@ -119,9 +120,10 @@ def localisations_of(answer: Answer, description: Description, rows: list[int]) 
     return replace(found, maps=tuple(maps), errors=description.errors)
 
 
-def summaries(answer: Answer) -> tuple[MapSummary, ...]:
+def maps(answer: Answer) -> Maps:
     """Of `GET /maps`."""
-    return tuple(MapSummary.of(item) for item in _content(answer)["maps"])
+    content = _content(answer)
+    return Maps(tuple(map(MapSummary.of, content["maps"])), tuple(content["damaged"]))
 
 
 def summary(answer: Answer) -> MapSummary:

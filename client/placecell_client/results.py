@@ -1,5 +1,6 @@
 """What the service answers, typed."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -132,6 +133,25 @@ class MapSummary:
             optional=tuple(content["optional"]),
             sources=dict(content.get("sources", {})),  # an earlier service tells none
         )
+
+
+@dataclass(frozen=True, slots=True)
+class Maps:
+    """The stored maps; a sequence of those that can be read.
+
+    Attributes:
+        maps: by name.
+        damaged: names of those that are stored but cannot be read, and so are not served.
+    """
+
+    maps: tuple[MapSummary, ...]
+    damaged: tuple[str, ...] = ()
+
+    def __iter__(self) -> Iterator[MapSummary]:
+        return iter(self.maps)
+
+    def __len__(self) -> int:
+        return len(self.maps)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,27 @@
 
 from dataclasses import dataclass
 
-RETRIED = frozenset({429, 502, 503, 504})
+import httpx
+
+from placecell_client.errors import ServiceError
+
+TOO_MANY_REQUESTS = 429
+RETRIED = frozenset({TOO_MANY_REQUESTS, 502, 503, 504})
 """Statuses that pass by themselves: too many requests, a restart, a proxy that finds nobody."""
+
+UNSENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
+"""Transport errors after which nothing has come to the service."""
+
+
+def may_be_done(error: httpx.TransportError | ServiceError) -> bool:
+    """Whether what an attempt asked for may have been done, for all that its error says.
+
+    Of what a restart, a deadline or a proxy ends nobody knows; a proxy's 503 is not told from the
+    service's.
+    """
+    if isinstance(error, ServiceError):
+        return error.status != TOO_MANY_REQUESTS
+    return not isinstance(error, UNSENT)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """What routes answer about maps, made of what the service holds."""
 
+from service.map_schemas import MapOut, VersionOut, WrittenOut
 from service.map_store import Commit
-from service.schemas import MapOut, VersionOut, WrittenOut
 from service.stored_map import StoredMap, tag_of
 from service.writer import Written
 

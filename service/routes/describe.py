@@ -3,11 +3,12 @@
 from fastapi import APIRouter, Request, Response
 
 from service.bodies import ENCODINGS, MSGPACK, Body, answer_type, parse, render
-from service.describer import Described, Prepared, Scan
+from service.describer import Described, Prepared
 from service.models import Model
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
 from service.problems import documented
+from service.scan import Scan
 from service.schemas import DescribeRequest, DescribeResponse, DescriptorOut
 from service.state import HolderOf, State, StateOf, TimingOf
 from service.timing import Timing

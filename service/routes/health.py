@@ -6,8 +6,8 @@ from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from segments.manifest import Manifest
+from service.info_schemas import HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.problems import Problem, documented
-from service.schemas import HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.state import HolderOf, StateOf
 
 router = APIRouter(tags=["health"])

@@ -10,10 +10,10 @@ from service.audit import tell, tell_written
 from service.bodies import OCTETS
 from service.keys import Holder
 from service.map_name import Name
+from service.map_schemas import MapOut, MapsResponse
 from service.openapi import file_body
 from service.problems import documented
 from service.routes.answers import summary_of
-from service.schemas import MapOut, MapsResponse
 from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.versions import version_file
 

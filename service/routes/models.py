@@ -4,8 +4,8 @@ from fastapi import APIRouter, Request
 
 from segments.manifest import ModelError
 from service.audit import logger
+from service.info_schemas import ReloadResponse
 from service.problems import Problem, documented
-from service.schemas import ReloadResponse
 from service.state import HolderOf, State, StateOf
 
 router = APIRouter(tags=["models"])

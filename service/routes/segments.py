@@ -11,10 +11,10 @@ from service.audit import tell, tell_written
 from service.bodies import OCTETS
 from service.changes import Page
 from service.map_name import Name
+from service.map_schemas import IdsOut, WrittenOut
 from service.openapi import file_body
 from service.problems import documented
 from service.routes.answers import outcome_of
-from service.schemas import IdsOut, WrittenOut
 from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.stored_map import StoredMap
 

@@ -6,9 +6,9 @@ from fastapi import APIRouter, Path, Query, Request, Response
 
 from service.audit import tell, tell_written
 from service.map_name import Name
+from service.map_schemas import CompactOut, VersionsResponse, WrittenOut
 from service.problems import documented
 from service.routes.answers import outcome_of, version_of
-from service.schemas import CompactOut, VersionsResponse, WrittenOut
 from service.state import HolderOf, StateOf, TimingOf, WriterOf
 from service.versions import commits_of
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.describe import Plan, bench, draw, draw_scans, files, paper_network, precision, ratio
+from bench.describe import Plan, bench, draw, ratio
+from bench.networks import files, paper_network, precision
+from bench.scans import draw_scans
 from cli import app
 from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
@@ -139,11 +141,11 @@ def test_scans_are_drawn_whole_and_again_where_they_are_few() -> None:
 def test_command_takes_segments_from_the_town(
     workbench: Path, report: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from bench import describe
+    from bench import describe, scans
 
-    shorter = describe.town_recording
+    shorter = scans.town_recording
     monkeypatch.setattr(
-        describe, "town_recording", lambda folder, seed, show, _: shorter(folder, seed, show, 3)
+        scans, "town_recording", lambda folder, seed, show, _: shorter(folder, seed, show, 3)
     )
     monkeypatch.setattr(describe, "Plan", lambda repeats, seconds: TINY)
     file = workbench / "figures.json"

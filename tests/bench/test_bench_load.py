@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bench import serve, soak
+from bench import serve, soak, workload
 from bench.load import Load, Outcome, request_of, run
 from segments.segments import Segments
 
@@ -111,7 +111,7 @@ def test_a_short_soak(tmp_path: Path) -> None:
 
 def test_perturbed_codes_stay_near_and_differ() -> None:
     codes = np.random.default_rng(0).integers(-128, 128, (20, 32)).astype(np.int8)
-    many = serve.perturbed(codes, 100, seed=1)
+    many = workload.perturbed(codes, 100, seed=1)
     changed = (many != codes[np.arange(100) % 20]).mean()
     assert 0.05 < changed < 0.15
-    assert (many == serve.perturbed(codes, 100, seed=1)).all()
+    assert (many == workload.perturbed(codes, 100, seed=1)).all()

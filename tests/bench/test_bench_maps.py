@@ -35,4 +35,5 @@ def test_the_command_measures_and_draws(tmp_path: Path, monkeypatch: pytest.Monk
     assert row["recall_at_25_of_exact"] == 1.0
     assert row["upserted_segments_a_second"] > 0
     assert row["uploads_a_second"] > 0
+    assert row["peak_mb"] > row["memory_mb_after_writes"]
     assert (tmp_path / "maps.png").read_bytes().startswith(b"\x89PNG")

@@ -1,6 +1,8 @@
 """`placecell maps` against a running service, as a person uses it."""
 
+import socket
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -109,8 +111,61 @@ def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> N
         client.delete_map("plain")
 
 
+def test_a_delta_file_is_pushed(address: str, tmp_path: Path, yard: CompactMap) -> None:
+    file, name = tmp_path / "site.delta", "with-delta"
+    bobs = Delta(replace(take(yard, np.arange(10)), robots=("bob",)), np.array([20, 21], np.uint32))
+    file.write_bytes(encode_delta(bobs))
+    assert "404" in bad("push", file, name, "--url", address)
+    with Client(address) as client:
+        client.put_map(name, yard)
+        # They are ann's.
+        assert "409" in bad("push", file, name, "--url", address)
+        told = good("push", file, name, "--replace", "--url", address)
+        assert "10 changed, 2 removed" in told
+        assert "298 segments, version 2" in told
+        assert client.get_map(name).robots == ("ann", "bob")
+    file.write_bytes(file.read_bytes()[:-1])
+    assert "cut" in bad("push", file, name, "--url", address)
+
+
+def test_an_earlier_version_is_pulled(
+    address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PLACECELL_URL", address)
+    with Client(address) as client:
+        first = client.put_map("earlier", yard)
+        client.put_map("earlier", take(yard, np.arange(9)), if_match=first.etag)
+    assert "earlier@1.map: version 1" in good("pull", "earlier", "--version", 1)
+    assert (tmp_path / "earlier@1.map").read_bytes() == encode(yard)
+    assert not (tmp_path / "earlier@1.map.etag").exists()
+    good("pull", "earlier")
+    assert (tmp_path / "earlier.map.etag").exists()
+    good("pull", "earlier", "earlier.map", "--version", 1)
+    # It is not what was seen last, so that it replaces nothing by mistake.
+    assert "428" in bad("push", "earlier.map")
+    assert "9 segments, version 0 to 2" in good("pull", "earlier")
+    assert "404" in bad("pull", "earlier", "--version", 3)
+    assert not (tmp_path / "earlier@3.map").exists()
+
+
 def test_what_cannot_be_reached_is_told() -> None:
     assert "placecell serve" in bad("list", "--url", "http://127.0.0.1:9")
+
+
+def test_what_may_be_done_is_told() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def hang_up() -> None:
+            connection, _ = server.accept()
+            connection.recv(65536)
+            connection.close()
+
+        with ThreadPoolExecutor(1) as pool:
+            pool.submit(hang_up)
+            port = server.getsockname()[1]
+            told = bad("delete", "yard", "--yes", "--url", f"http://127.0.0.1:{port}")
+    assert "may be done all the same" in told
 
 
 def test_files_and_folders_are_verified(
@@ -137,3 +192,10 @@ def test_a_stopped_services_folder_is_verified(tmp_path: Path, yard: CompactMap)
     data[place] ^= 1
     database.write_bytes(data)
     assert "altered" in bad("verify", tmp_path)
+    with running_service(tmp_path) as address, Client(address) as client:
+        stored = client.maps()
+        assert [one.name for one in stored] == ["other"]
+        assert stored.damaged == ("yard",)
+        listed = good("list", "--url", address)
+    assert "other" in listed
+    assert "yard is damaged" in listed

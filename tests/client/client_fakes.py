@@ -21,6 +21,7 @@ SUMMARY = {
     "name": "yard", "segments": 20, "sequence": 3, "etag": "e-3", "bytes": 1, "model_id": "m",
     "frame": "f", "robots": {"ann": 20}, "time_span": [0, 1], "optional": [], "later": "field",
 }  # fmt: skip
+LISTED = {"model_id": "m", "maps": [SUMMARY], "damaged": ["hall", "shed"], "later": "field"}
 WRITTEN = {
     "map": "yard", "sequence": 4, "etag": "e-4", "segments": 20, "changed": 2, "removed": 1,
     "repeats": 0,

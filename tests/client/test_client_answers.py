@@ -18,6 +18,7 @@ from tests.client.client_fakes import (
     CANDIDATE,
     DESCRIBED,
     INFO,
+    LISTED,
     LOCALISED,
     MATCHED,
     MSGPACK,
@@ -37,7 +38,7 @@ CALLS: dict[str, tuple[Call, httpx.Response]] = {
     "describe": (lambda client: client.describe([CLOUD], np.zeros(3)), packed(DESCRIBED)),
     "match": (lambda client: client.match(DESCRIPTION), packed(MATCHED)),
     "localize": (lambda client: client.localize(DESCRIPTION), packed(LOCALISED)),
-    "maps": (lambda client: client.maps(), httpx.Response(200, json={"maps": [SUMMARY]})),
+    "maps": (lambda client: client.maps(), httpx.Response(200, json=LISTED)),
     "put_map": (
         lambda client: client.put_map("yard", random_map()),
         httpx.Response(200, json=SUMMARY),

@@ -21,6 +21,7 @@ from placecell_client import (
 from tests.client.client_fakes import (
     DESCRIBED,
     INFO,
+    LISTED,
     LOCALISED,
     MATCHED,
     SUMMARY,
@@ -70,7 +71,7 @@ ANSWERS = {
     ("POST", "/describe"): packed(DESCRIBED),
     ("POST", "/match"): packed(MATCHED),
     ("POST", "/localize"): packed(LOCALISED),
-    ("GET", "/maps"): httpx.Response(200, json={"maps": [SUMMARY]}),
+    ("GET", "/maps"): httpx.Response(200, json=LISTED),
     ("PUT", "/maps/yard"): httpx.Response(201, json=SUMMARY),
     ("GET", "/maps/yard"): FILE,
     ("DELETE", "/maps/yard"): httpx.Response(204),

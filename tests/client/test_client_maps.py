@@ -51,6 +51,7 @@ def test_conditions_and_queries_are_sent_as_asked(make: Callable[..., Any]) -> N
     client.edit_map("a", Delta(OLD, NONE))
     client.restore_map("a", 7)
     client.age_map("a", 1e-7, dry_run=True)
+    client.age_map("a", 2, if_match="e-3")
     client.delete_map("a", if_match="e-3")
     assert seen == [
         ("PUT", "/maps/a%2Eb", '"e-3"', None),
@@ -60,6 +61,7 @@ def test_conditions_and_queries_are_sent_as_asked(make: Callable[..., Any]) -> N
         ("POST", "/maps/a/segments", None, None),
         ("POST", "/maps/a/versions/7/restore", None, None),
         ("POST", "/maps/a/age?unseen_since=1e-07&dry_run=true", None, None),
+        ("POST", "/maps/a/age?unseen_since=2.0", '"e-3"', None),
         ("DELETE", "/maps/a", '"e-3"', None),
     ]
 

@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
-from placecell_client import Retries, ServiceError
+from placecell_client import Delta, Retries, ServiceError
 from placecell_client.attempts import Attempt
 from placecell_client.deadline import Deadline
 
@@ -16,6 +17,7 @@ from tests.client.map_builders import random_map
 Make = Callable[..., Any]
 Outcome = httpx.Response | Exception
 OK = httpx.Response(200, json=INFO)
+EDIT = Delta(random_map(), np.zeros(0, np.uint32))
 
 
 @pytest.fixture(params=[client_of, Blocking], ids=["sync", "async"])
@@ -248,13 +250,81 @@ def test_repeated_uploads_are_the_same_bytes(make: Make, compress: bool) -> None
 
 def test_a_map_that_a_repeated_delete_finds_gone_is_deleted(make: Make) -> None:
     unknown = busy(404)
-    make(Service(httpx.ReadTimeout("lost"), unknown)).delete_map("yard")
-    with pytest.raises(ServiceError) as raised:
-        make(Service(unknown)).delete_map("yard")
-    assert raised.value.status == 404
+    make(Service(httpx.ReadTimeout("lost"), unknown)).delete_map("yard", "e-3")
+    make(Service(httpx.ReadTimeout("lost"), busy(429), unknown)).delete_map("yard", "e-3")
+    for before in ([], [httpx.ConnectError("refused")], [busy(429)]):
+        # No DELETE has come to the service before this one.
+        with pytest.raises(ServiceError) as raised:
+            make(Service(*before, unknown)).delete_map("yard", "e-3")
+        assert raised.value.status == 404
     with pytest.raises(ServiceError) as raised:
         make(Service(httpx.ReadTimeout("lost"), unknown)).get_map("yard")
     assert raised.value.status == 404
+
+
+WRITTEN_OVER: dict[str, Callable[[Any], Any]] = {
+    "restore": lambda client: client.restore_map("yard", 3),
+    "restore any": lambda client: client.restore_map("yard", 3, "*"),
+    "put": lambda client: client.put_map("yard", random_map(), if_match="*"),
+    "edit": lambda client: client.edit_map("yard", EDIT, if_match="*"),
+    "age": lambda client: client.age_map("yard", 1.5),
+    "compact": lambda client: client.compact_map("yard"),
+    "delete": lambda client: client.delete_map("yard"),
+}
+"""What would undo what others wrote since, if it were done again."""
+REPEATED: dict[str, Callable[[Any], Any]] = {
+    "restore": lambda client: client.restore_map("yard", 3, "e-3"),
+    "put": lambda client: client.put_map("yard", random_map(), if_match="e-3"),
+    "put new": lambda client: client.put_map("yard", random_map()),
+    "edit": lambda client: client.edit_map("yard", EDIT, if_match="e-3"),
+    "edit own": lambda client: client.edit_map("yard", EDIT),
+    "age": lambda client: client.age_map("yard", 1.5, if_match="e-3"),
+    "would age": lambda client: client.age_map("yard", 1.5, dry_run=True),
+    "delete": lambda client: client.delete_map("yard", "e-3"),
+    "ids": lambda client: client.reserve_ids("yard", 3),
+}
+UNKNOWN: list[Outcome] = [
+    busy(502), busy(503), busy(504), httpx.ReadTimeout("silent"), httpx.ReadError("reset"),
+    httpx.WriteError("reset"), httpx.RemoteProtocolError("closed in the middle"),
+]  # fmt: skip
+UNDONE: list[Outcome] = [
+    busy(429), httpx.ConnectError("refused"), httpx.ConnectTimeout("silent"),
+    httpx.PoolTimeout("all are in use"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("outcome", UNKNOWN, ids=repr)
+@pytest.mark.parametrize("call", WRITTEN_OVER)
+def test_what_may_be_done_and_would_undo_is_not_sent_again(
+    make: Make, call: str, outcome: Outcome
+) -> None:
+    time, service = Time(), Service(busy(429), outcome)
+    with pytest.raises((ServiceError, httpx.TransportError)) as raised:
+        WRITTEN_OVER[call](make(service, time))
+    if isinstance(outcome, Exception):
+        assert raised.value is outcome
+    else:
+        assert isinstance(raised.value, ServiceError)
+        assert raised.value.status == outcome.status_code
+    assert len(service.requests) == 2
+
+
+@pytest.mark.parametrize("call", WRITTEN_OVER)
+def test_what_is_certainly_not_done_is_sent_again(make: Make, call: str) -> None:
+    service = Service(*UNDONE, busy(400))
+    with pytest.raises(ServiceError) as raised:
+        WRITTEN_OVER[call](make(service))
+    assert raised.value.status == 400
+    assert len(service.requests) == len(UNDONE) + 1
+
+
+@pytest.mark.parametrize("call", REPEATED)
+def test_what_undoes_nothing_is_sent_again(make: Make, call: str) -> None:
+    service = Service(*UNKNOWN, busy(400))
+    with pytest.raises(ServiceError) as raised:
+        REPEATED[call](make(service, retries=Retries(attempts=9)))
+    assert raised.value.status == 400
+    assert len(service.requests) == len(UNKNOWN) + 1
 
 
 @pytest.mark.parametrize(

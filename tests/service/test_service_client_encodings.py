@@ -11,8 +11,8 @@ from placecell_client.wire import MEDIA_TYPES
 
 from segments.manifest import Manifest
 from service.bodies import MSGPACK, Body, parse, render
-from service.describer import Scan
 from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
+from service.scan import Scan
 from service.schemas import DescribeRequest, Failed, ItemErrorOut
 from service.settings import Limits
 from tests.client.test_msgpack_document import CLOUD, ORIGIN, example

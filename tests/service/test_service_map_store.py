@@ -14,7 +14,8 @@ import pytest
 from service import map_store
 from service.database import ADVICE, VACUUM_PAGES
 from service.map_store import IDS, Head, Note, OutOfIdsError, StoreError, StoreLockedError
-from service.sqlite_store import FILE, PART_BYTES, SqliteMapStore
+from service.sqlite_store import FILE, SqliteMapStore
+from service.sqlite_tables import PART_BYTES
 
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"

@@ -14,7 +14,7 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from placecell_client import Client, MapFileError, ServiceError, encode
+from placecell_client import Client, MapFileError, Maps, ServiceError, encode
 
 from segments.manifest import Manifest
 from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
@@ -106,7 +106,7 @@ def test_an_answered_upload_survives_sigkill(
         process.wait(60)
     with running(models_dir, data_dir) as (_, address), Client(address) as client:
         assert client.get_map_file("yard") == encode(stored)
-        assert client.maps() == (summary,)
+        assert client.maps() == Maps((summary,))
         after = client.match(description, k=20)
         assert after.queries == before.queries
         assert len(after.queries[0]) == 20

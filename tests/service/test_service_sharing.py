@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from placecell_client import Client, Delta, MapCopy, Retries, ServiceError, encode
+from placecell_client import Client, Delta, MapCopy, Maps, Retries, ServiceError, encode
 
 from segments.manifest import Manifest
 from tests.service.service_builders import map_of, random_codes
@@ -101,4 +101,4 @@ def test_the_client_tells_what_became_of_a_map(service: Any, manifest: Manifest)
         assert client.compact_map("yard", keep=2) == 3
         assert len(client.versions("yard")) == 2
         client.delete_map("yard")
-        assert client.maps() == ()
+        assert client.maps() == Maps(())

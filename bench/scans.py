@@ -1,0 +1,46 @@
+"""Segments that benches describe and send, scan by scan."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from segments.drives import open_drive
+from segments.extraction import Progress, record, silent
+from segments.parameters import PROTOCOL_V1
+from segments.recording import Recording
+from segments.segments import Segments
+
+
+def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segments]:
+    """Scans with so many segments in all, each again and again where there are too few.
+
+    Raises:
+        ValueError: there are no segments.
+    """
+    filled = [scan for scan in scans if len(scan)]
+    if not filled:
+        raise ValueError("there is no segment to describe; take a longer drive")
+    random, drawn = np.random.default_rng(seed), list[Segments]()
+    while sum(map(len, drawn)) < segments:
+        drawn += [filled[index] for index in random.permutation(len(filled))]
+    ends = np.cumsum([len(scan) for scan in drawn])
+    return drawn[: int(np.searchsorted(ends, segments)) + 1]
+
+
+def scans_of(recording: Recording) -> list[Segments]:
+    """The segments of each scan that is a frame, as a robot would send them."""
+    return [
+        recording.segments.take(np.flatnonzero(recording.frames == scan))
+        for scan in np.unique(recording.frames)
+    ]
+
+
+def town_recording(
+    folder: Path, seed: int, progress: Progress = silent, scans: int = 20
+) -> Recording:
+    """Of a short drive through the synthetic town; the drive is left in the folder."""
+    from town import two_robots
+
+    path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
+    return record(open_drive(path), PROTOCOL_V1.for_drive(scans), progress=progress)

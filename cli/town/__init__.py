@@ -1,0 +1,5 @@
+"""`placecell town`."""
+
+from cli.town.command import town
+
+__all__ = ["town"]

@@ -1,0 +1,131 @@
+"""`placecell town`: drives through a synthetic town."""
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from cli.sources import clear_errors, show
+from cli.town import options
+from cli.town.large import pairs_of, planned
+
+
+def town(
+    context: typer.Context,
+    output: options.Output,
+    seed: options.Seed = 7,
+    scans: options.Scans = None,
+    spacing: options.Spacing = 1.0,
+    columns: options.Columns = 1000,
+    overwrite: options.Overwrite = False,
+    metres: options.Metres = None,
+    look_alikes: options.LookAlikes = 0.25,
+    route: options.RouteText = "all",
+    robots: options.Robots = 2,
+    lane: options.Lane = 1.6,
+    oncoming: options.Oncoming = 10.0,
+    rain: options.Rain = 0.0,
+    yaw_drift: options.YawDrift = 0.05,
+    scale_drift: options.ScaleDrift = 0.01,
+    pairs: options.Pairs = 0,
+    pair_metres: options.PairMetres = 300.0,
+    picture: options.Picture = None,
+    json_file: options.JsonFile = None,
+) -> None:
+    """Drive robots through a synthetic town, the same streets in opposite directions.
+
+    Writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout: 64 beams, parked cars
+    changed between the drives. The same seed gives the same files.
+
+    With --metres the town is large, and the drives have a second file of poses, poses_odometry.txt,
+    in which the robots' odometry drifts. Five kilometres of streets, all of them driven both ways:
+
+        placecell town out/town5 --metres 5000 --picture out/town5.png
+
+    A scan takes about a megabyte and a fortieth of a second: see docs/town.md.
+    """
+    with clear_errors():
+        if metres is None:
+            refuse_options_of_large_towns(context)
+            small_town(output, seed, scans or options.SCANS, spacing, columns, overwrite)
+            return
+        if pairs and robots < 2:
+            raise ValueError("--pairs needs two robots or more")
+        from town import HDL_64E, City, Odometry, several_robots
+
+        city = City.build(seed, metres, look_alikes)
+        way = city.route(planned(city, route), lane)
+        # Before anything is driven, for there may be none.
+        drawn = pairs_of(city, way, scans, spacing, pairs, pair_metres) if pairs else None
+        started = time.perf_counter()
+        drives = several_robots(
+            output,
+            city,
+            way,
+            robots,
+            scans=scans,
+            spacing=spacing,
+            lidar=replace(HDL_64E, columns=columns, rain=rain),
+            odometry=Odometry(yaw_drift, scale_drift),
+            oncoming=oncoming,
+            overwrite=overwrite,
+            progress=show,
+        )
+        figures = {
+            "seed": seed,
+            "street_metres": round(city.network.metres(), 1),
+            "streets": len(city.network.streets),
+            "route_metres": round(way.length(), 1),
+            "scans": {drive.name: len(list((drive / "velodyne").iterdir())) for drive in drives},
+            "seconds": round(time.perf_counter() - started, 1),
+        }
+        if drawn:
+            write_json(drawn, output / "pairs.json")
+        if picture:
+            from town.picture import draw_plan
+
+            draw_plan(picture, city, way, drives)
+        if json_file:
+            write_json(figures, json_file)
+    typer.echo(json.dumps(figures))
+
+
+def refuse_options_of_large_towns(context: typer.Context) -> None:
+    """Say that an option would have no effect.
+
+    Raises:
+        ValueError: one of the large town's was given.
+    """
+    for parameter in context.command.params:
+        source = context.get_parameter_source(str(parameter.name))
+        given = source is not None and source.name == "COMMANDLINE"
+        if given and getattr(parameter, "rich_help_panel", None) == options.LARGE:
+            raise ValueError(f"{parameter.opts[0]} needs a large town: give --metres too")
+
+
+def small_town(
+    output: Path, seed: int, scans: int, spacing: float, columns: int, overwrite: bool
+) -> None:
+    """Two robots in the town that is built whole."""
+    from town import two_robots
+
+    drives = two_robots(
+        output,
+        seed=seed,
+        scans=scans,
+        spacing=spacing,
+        columns=columns,
+        overwrite=overwrite,
+        progress=show,
+    )
+    for drive in drives:
+        typer.echo(f"{drive}: {scans} scans")
+
+
+def write_json(content: dict[str, Any], file: Path) -> None:
+    """Write a file for programs."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(content, indent=2) + "\n")

@@ -1,0 +1,50 @@
+"""What the options of a large town ask for: which way, which pairs."""
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from town import City, Route
+    from town.planner import Way
+
+
+def planned(city: "City", text: str) -> "Way":
+    """The way that `--route` asks for.
+
+    Raises:
+        ValueError: no such way.
+    """
+    rng = np.random.default_rng([city.seed, 11])
+    number = r"(\d+(?:\.\d*)?)"
+    if text == "all":
+        return city.planner.every_street()
+    if match := re.fullmatch(f"wander:{number}", text):
+        return city.planner.wander(float(match[1]), rng)
+    if match := re.fullmatch(rf"loop:{number}(?::(\d+))?", text):
+        return city.planner.loop(float(match[1]), rng, int(match[2] or 1))
+    if match := re.fullmatch(r"(\d+),(\d+):(\d+),(\d+)", text):
+        a, b, c, d = (int(part) for part in match.groups())
+        return city.planner.between((a, b), (c, d))
+    raise ValueError(
+        f"--route is all, wander:METRES, loop:METRES, loop:METRES:LAPS or C,R:C,R, not {text!r}"
+    )
+
+
+def pairs_of(
+    city: "City", route: "Route", scans: int | None, spacing: float, count: int, metres: float
+) -> dict[str, Any]:
+    """Pairs of stretches of the first two robots' drives along a route."""
+    from town import Traversal, draw_pairs, way_of
+
+    a, b = (Traversal.of(*way_of(number, route, scans, spacing), spacing) for number in (0, 1))
+    overlapping, apart = draw_pairs(city, a, b, count, metres, city.seed)
+    return {
+        "seed": city.seed,
+        "street_metres": round(city.network.metres(), 1),
+        "metres": metres,
+        "drives": ["robot_a", "robot_b"],
+        "overlapping": [pair.as_dict() for pair in overlapping],
+        "apart": [pair.as_dict() for pair in apart],
+    }

@@ -1,0 +1,139 @@
+"""The server's protocol under clients that send requests ahead of answers, over real sockets."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+import uvicorn
+from uvicorn.server import ServerState
+
+from service.server import AHEAD_BYTES, Protocol
+
+REQUEST = b"GET /%d HTTP/1.1\r\nHost: x\r\n\r\n"
+PIECE_BYTES = 256 << 10
+"""That asyncio reads at once, at most."""
+
+SECONDS = 30
+"""After which a test gives up."""
+
+
+class App:
+    """Answers at once, but for one path: there it waits until it is let go, or the client goes."""
+
+    def __init__(self, held: str) -> None:
+        self._held = held
+        self.begun = asyncio.Event()
+        self.gone = asyncio.Event()
+        self.let_go = asyncio.Event()
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        await receive()
+        if scope["path"] == self._held:
+            self.begun.set()
+            listener = asyncio.create_task(self._listen(receive))
+            await self.let_go.wait()
+            listener.cancel()
+        headers = [(b"content-length", b"2")]
+        await send({"type": "http.response.start", "status": 200, "headers": headers})
+        await send({"type": "http.response.body", "body": b"ok"})
+
+    async def _listen(self, receive: Any) -> None:
+        # As the desk does, from before the next request comes.
+        while (await receive())["type"] != "http.disconnect":
+            pass
+        self.gone.set()
+        self.let_go.set()
+
+
+@asynccontextmanager
+async def served(
+    app: App,
+) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter, Protocol]]:
+    """A connection to it, and its protocol at the server's side."""
+    config = uvicorn.Config(app, lifespan="off", log_config=None, access_log=False)
+    config.load()
+    made: list[Protocol] = []
+
+    def make() -> Protocol:
+        made.append(Protocol(config, ServerState(), {}))
+        return made[-1]
+
+    server = await asyncio.get_running_loop().create_server(make, "127.0.0.1", 0)
+    reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
+    try:
+        async with asyncio.timeout(SECONDS):
+            writer.write(REQUEST % 0)
+            if app._held == "/0":
+                await app.begun.wait()
+            else:
+                await answers(reader, 1)
+            yield reader, writer, made[0]
+    finally:
+        app.let_go.set()
+        server.close()
+        for end in (writer.transport, *(protocol.transport for protocol in made)):
+            end.abort()
+        await server.wait_closed()
+
+
+async def answers(reader: asyncio.StreamReader, count: int) -> None:
+    for _ in range(count):
+        head = await reader.readuntil(b"\r\n\r\n")
+        assert head.startswith(b"HTTP/1.1 200")
+        assert await reader.readexactly(2) == b"ok"
+
+
+@pytest.mark.parametrize("reset", [False, True])
+def test_a_client_that_sent_ahead_is_seen_to_go(reset: bool) -> None:
+    async def run() -> None:
+        app = App("/0")
+        async with served(app) as (_, writer, _):
+            writer.write(REQUEST % 1)
+            await writer.drain()
+            writer.transport.abort() if reset else writer.close()
+            await app.gone.wait()
+
+    asyncio.run(run())
+
+
+def test_so_is_one_whose_request_at_work_had_been_sent_ahead() -> None:
+    async def run() -> None:
+        app = App("/2")
+        async with served(app) as (reader, writer, _):
+            writer.write(b"".join(REQUEST % n for n in (1, 2, 3, 4)))
+            await answers(reader, 1)
+            await app.begun.wait()
+            writer.write(REQUEST % 5)
+            writer.close()
+            await app.gone.wait()
+
+    asyncio.run(run())
+
+
+def test_all_that_was_sent_ahead_is_answered() -> None:
+    count = 4 * AHEAD_BYTES // len(REQUEST)
+
+    async def run() -> None:
+        app = App("/0")
+        async with served(app) as (reader, writer, _):
+            writer.write(b"".join(REQUEST % n for n in range(1, count)))
+            app.let_go.set()
+            await answers(reader, count)
+
+    asyncio.run(run())
+
+
+def test_of_what_is_sent_ahead_no_more_than_a_little_is_kept() -> None:
+    async def run() -> None:
+        app = App("/0")
+        async with served(app) as (_, writer, protocol):
+            writer.write(REQUEST % 1 * 1_000_000)
+            while protocol.transport.is_reading():
+                await asyncio.sleep(0.01)
+            kept, _ = protocol.conn.trailing_data
+            assert AHEAD_BYTES <= len(kept) <= AHEAD_BYTES + PIECE_BYTES
+            assert not app.gone.is_set()
+
+    asyncio.run(run())

@@ -1,0 +1,46 @@
+"""A drive, as far as it matters to what it shares with another."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from segments.types import Float64
+from town.drive import levelled, scan_distances
+from town.lidar import HDL_64E
+from town.route import Route
+
+
+@dataclass(frozen=True, slots=True)
+class Traversal:
+    """A drive, driven or only planned.
+
+    Attributes:
+        poses: (n, 4, 4) sensor to town.
+        origin: (4, 4) the drive's world to town.
+    """
+
+    poses: Float64
+    origin: Float64
+
+    @classmethod
+    def of(cls, route: Route, scans: int, spacing: float, height: float = HDL_64E.height) -> Self:
+        """Of the drive that `write_drive` writes, driven or not."""
+        poses = route.poses(scan_distances(scans, spacing), height)
+        return cls(poses, levelled(poses[0]))
+
+    @property
+    def places(self) -> Float64:
+        """Where the sensor was, town frame: (n, 2)."""
+        return np.asarray(self.poses[:, :2, 3])
+
+    def scans_in(self, metres: float) -> int:
+        """How many in so many metres.
+
+        Raises:
+            ValueError: it is too short.
+        """
+        driven = np.linalg.norm(np.diff(self.places, axis=0), axis=1).sum()
+        if not 0 < metres <= driven:
+            raise ValueError(f"a drive of {driven:.0f} m has no stretch of {metres} m")
+        return max(1, round(metres / float(driven) * (len(self.poses) - 1)))
