@@ -364,10 +364,9 @@ def test_evaluate_poses_takes_what_is_prepared_and_tells_of_each_query(
     drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
     first, second = (workshop / "data" / f"{name}.safetensors" for name in ("robot_a", "robot_b"))
     file, answers = tmp_path / "poses.json", tmp_path / "told" / "answers.jsonl"
-    run(
-        *("evaluate-poses", *drives, "--map-recording", first, "--query-recording", second),
-        *("--queries", 5, "--model", workshop / "tiny", "--json", file, "--answers", answers),
-    )
+    prepared = ("--map-recording", first, "--query-recording", second)
+    words = ("--queries", 5, "--model", workshop / "tiny", "--json", file, "--answers", answers)
+    run("evaluate-poses", *drives, *prepared, *words)
     report = json.loads(file.read_text())
     rows = [json.loads(line) for line in answers.read_text().splitlines()]
     assert report["queries"] + report["beyond_the_map"]["queries"] == len(rows) == 5
