@@ -11,11 +11,11 @@ from scipy.spatial import cKDTree
 
 from bench.demo import robots_of_drive
 from bench.local import Local
+from bench.prepared import recording_of
 from bench.robot import Robot, clouds
 from segments.drives import open_drive
-from segments.extraction import Progress, record, silent
+from segments.extraction import Progress, silent
 from segments.localisation import Pose
-from segments.parameters import PROTOCOL_V1
 from segments.types import Float64, Int8, Int64
 
 MAPPED_METRES = 10.0
@@ -27,6 +27,7 @@ class PoseQuery:
     """What a robot asks at one moment.
 
     Attributes:
+        scan: of the asking drive.
         time: seconds.
         metres: driven so far.
         codes: int8 (n, code bytes), of all segments that it sees.
@@ -36,6 +37,7 @@ class PoseQuery:
         mapped: whether the mapping robot was near by.
     """
 
+    scan: int
     time: float
     metres: float
     codes: Int8
@@ -68,24 +70,32 @@ class Pair:
         map_folder: Path,
         query_folder: Path | None = None,
         every: int | None = None,
+        prepared: tuple[Path | None, Path | None] = (None, None),
         progress: Progress = silent,
     ) -> Self:
         """From two drives of a town, or from alternate blocks of one drive.
 
         Args:
             every: a frame every so many scans, as `Parameters.for_drive`.
+            prepared: recordings of the two drives, where there are any.
 
         Raises:
-            ValueError: no common frame of the two is known, or a drive stands still.
+            ValueError: no common frame of the two is known, a drive stands still, or a recording
+                does not fit.
         """
         if query_folder is None:
+            if any(prepared):
+                raise ValueError(
+                    "a recording is of a whole drive, but this drive is cut into blocks; give none"
+                )
             mapper, asker = robots_of_drive(map_folder, progress, every)
             return cls(mapper, asker, blocks=True)
-        origins = [origin_of(folder) for folder in (map_folder, query_folder)]
+        folders = (map_folder, query_folder)
+        origins = [origin_of(folder) for folder in folders]
         robots = []
-        for folder, origin in zip((map_folder, query_folder), origins, strict=True):
+        for folder, origin, file in zip(folders, origins, prepared, strict=True):
             drive = open_drive(folder)
-            recording = record(drive, PROTOCOL_V1.for_drive(len(drive), every), progress=progress)
+            recording = recording_of(drive, every, file, progress)
             robots.append(Robot(folder.name, drive, [recording], origin))
         return cls(robots[0], robots[1], blocks=False)
 
@@ -93,11 +103,12 @@ class Pair:
         """The other way round."""
         return replace(self, mapper=self.asker, asker=self.mapper)
 
-    def queries(self, local: Local, frame: Pose) -> Iterator[PoseQuery]:
+    def queries(self, local: Local, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
         """What the other robot asks, frame by frame.
 
         Args:
             frame: from the drive's world to the robot's own frame, which may be any.
+            most: frames that are asked, spread evenly; all unless given.
         """
         drive = self.asker.drive
         steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
@@ -109,12 +120,17 @@ class Pair:
         )
         mapped = np.unique(np.concatenate([each.frames for each in self.mapper.recordings]))
         positions = cKDTree(self.mapper.drive.poses[mapped, :3, 3])
-        for scan, segments, _ in self.asker.views():
+        frames = sum(len(np.unique(each.frames)) for each in self.asker.recordings)
+        asked = set(spread(frames, most).tolist())
+        for number, (scan, segments, _) in enumerate(self.asker.views()):
+            if number not in asked:
+                continue
             described = local.describe(clouds(segments), segments.sensors)
             good = np.isfinite(described.centroids).all(axis=1)
             where = drive.poses[scan, :3, 3]
             near, _ = positions.query(to_map.apply(where))
             yield PoseQuery(
+                scan=scan,
                 time=float(drive.times[scan]),
                 metres=float(metres[scan]),
                 codes=described.codes[good],
@@ -123,6 +139,13 @@ class Pair:
                 truth=to_map.after(frame.inverse()),
                 mapped=self.blocks or bool(near <= MAPPED_METRES),
             )
+
+
+def spread(count: int, most: int | None = None) -> Int64:
+    """Indices of so many of `count` items, evenly from the first to the last; all unless given."""
+    if most is None or most >= count:
+        return np.arange(count)
+    return np.linspace(0, count - 1, most).round().astype(np.int64)
 
 
 def random_frame(seed: int) -> Pose:

@@ -1,5 +1,6 @@
 """How well robots find their place: `placecell evaluate-poses`, by the protocol of the docs."""
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -24,17 +25,22 @@ def evaluate(
     k: int = 25,
     parameters: LocalisationParameters | None = None,
     session: bool = False,
+    most: int | None = None,
     seed: int = 0,
     *,
     progress: Progress = silent,
-) -> dict[str, Any]:
-    """Ask for every frame of a drive; the report as `placecell evaluate-poses` writes it.
+) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """Ask for every frame of a drive.
 
     Args:
         model: its folder.
         k: candidates a segment.
         session: whether the requests are of one session, at the times of their scans.
+        most: frames that are asked, spread evenly; all unless given.
         seed: of the robot's own frame.
+
+    Returns:
+        the report as `placecell evaluate-poses` writes it, and a row for each query.
 
     Raises:
         ValueError: the drives give no segments.
@@ -43,10 +49,11 @@ def evaluate(
     with Local.open(model) as local:
         compact = pair.mapper.build_map(local, pair.mapper.name)
         size = local.put_map(MAP, compact)
-        queries = [each for each in pair.queries(local, random_frame(seed)) if len(each.codes)]
+        frame = random_frame(seed)
+        queries = [each for each in pair.queries(local, frame, most) if len(each.codes)]
         if not queries or not len(compact):
             raise ValueError(f"{pair.mapper.drive.folder}: the drives give no segments")
-        model_id = local.model.id
+        manifest = local.model.manifest
         # What compiles at its first use does so now.
         local.localise(queries[0].codes, queries[0].centroids, MAP, k, parameters)
         history = History(parameters)
@@ -60,14 +67,16 @@ def evaluate(
             history.add(query.time, found.hypotheses)
             outcomes.append(outcome_of(found, query, milliseconds))
     first = pair.asker.recordings[0].parameters
-    return {
+    robots = (pair.mapper, pair.asker)
+    told = {
         "map_drive": pair.mapper.drive.folder.name,
         "query_drive": pair.asker.drive.folder.name,
         "blocks": pair.blocks,
         "protocol": first.protocol,
         "every": first.frame_step,
         "accumulated_scans": first.accumulated_scans,
-        "model_id": model_id,
+        "model_id": manifest.model_id,
+        "seen": any(manifest.has_seen(each.recordings[0].scan_hashes) for each in robots),
         "motion": parameters.model,
         "session": session,
         "k": k,
@@ -77,7 +86,22 @@ def evaluate(
         "map_bytes": size,
         "query_segments_mean": round(float(np.mean([len(each.codes) for each in queries])), 1),
         "mapped_metres": None if pair.blocks else MAPPED_METRES,
-    } | report(outcomes)
+    }
+    rows = [row_of(*each) for each in zip(queries, outcomes, strict=True)]
+    return told | report(outcomes), rows
+
+
+def row_of(query: PoseQuery, outcome: Outcome) -> dict[str, Any]:
+    """A query and what became of it, as JSON has it: what is infinite or no number is null."""
+    values = asdict(outcome)
+    return {
+        "scan": query.scan,
+        "segments": len(query.codes),
+        "position": query.truth.apply(query.sensor).round(2).tolist(),
+    } | {
+        name: None if isinstance(value, float) and not np.isfinite(value) else value
+        for name, value in values.items()
+    }
 
 
 def outcome_of(found: Localisation, query: PoseQuery, milliseconds: float) -> Outcome:

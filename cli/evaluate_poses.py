@@ -36,9 +36,28 @@ def evaluate_poses(
     session: Annotated[
         bool, typer.Option(help="Requests of one session: those of the last seconds count too.")
     ] = False,
+    queries: Annotated[
+        int | None, typer.Option(min=1, help="So many, spread evenly. (default: all frames)")
+    ] = None,
     seed: Annotated[int, typer.Option(help="Of the asking robot's own frame.")] = 0,
+    map_recording: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="What 'placecell prepare' made of MAP_DRIVE, so as not to cut it again.",
+        ),
+    ] = None,
+    query_recording: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The same of QUERY_DRIVE.")
+    ] = None,
     json_file: Annotated[
         Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
+    ] = None,
+    answers: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Write what became of each query here, a line of JSON each."
+        ),
     ] = None,
     plot: Annotated[
         Path | None,
@@ -57,14 +76,16 @@ def evaluate_poses(
     with clear_errors():
         if motion not in {"yaw", "se3"}:
             raise ValueError(f"--motion is yaw or se3, not {motion!r}")
-        pair = Pair.of(map_drive, query_drive, every, show)
+        pair = Pair.of(map_drive, query_drive, every, (map_recording, query_recording), show)
         parameters = LocalisationParameters(model="se3" if motion == "se3" else "yaw")
-        report = evaluate(
-            pair, model_folder(model or DEFAULT_MODEL), k, parameters, session, seed, progress=show
-        )
+        folder = model_folder(model or DEFAULT_MODEL)
+        report, rows = evaluate(pair, folder, k, parameters, session, queries, seed, progress=show)
         if json_file:
             json_file.parent.mkdir(parents=True, exist_ok=True)
             json_file.write_text(json.dumps(report, indent=2) + "\n")
+        if answers:
+            answers.parent.mkdir(parents=True, exist_ok=True)
+            answers.write_text("".join(json.dumps(row) + "\n" for row in rows))
         if plot:
             draw(report, plot)
     print_report(report)

@@ -69,6 +69,7 @@ def record(
         parts.append(some)
         groups.append(grouper.add_frame(some.centroids()))
     segments = Segments.concatenate(parts)
+    del parts  # Of a long drive they are gigabytes.
     group = np.concatenate(groups)
     return Recording(
         name=drive.folder.name,

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
-from bench.pose_queries import MAPPED_METRES
+from bench.pose_queries import MAPPED_METRES, spread
 from segments.blocks import alternate_blocks
 from segments.drives import Drive
 from segments.extraction import Progress, silent
@@ -133,9 +133,7 @@ def write_frames(
     for old in folder.glob("*.npy"):
         old.unlink()
     frames = [(stretch, scan) for stretch in stretches for scan in stretch.frames]
-    if most is not None and most < len(frames):
-        spread = np.linspace(0, len(frames) - 1, most).round().astype(int)
-        frames = [frames[index] for index in spread]
+    frames = [frames[index] for index in spread(len(frames), most)]
     poses = []
     accumulator: Accumulator | None = None
     for index in progress(range(len(frames)), len(frames), f"local maps, {folder.name}"):

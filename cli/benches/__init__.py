@@ -6,6 +6,7 @@ from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
 from cli.benches.ladder import ladder
+from cli.benches.localisation import localisation
 from cli.benches.localize import localize
 from cli.benches.maps import maps
 from cli.benches.peers import peers
@@ -22,6 +23,7 @@ bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
 bench.command()(localize)
+bench.command()(localisation)
 bench.command()(town)
 bench.command()(views)
 bench.command()(peers)

@@ -1,13 +1,16 @@
 """The figures of `evaluate-poses` by hand, and that drives without a common frame are refused."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy import stats
 
-from bench.pose_queries import Pair, PoseQuery, joined, random_frame
+from bench.pose_queries import Pair, PoseQuery, joined, random_frame, spread
 from bench.pose_report import (
     Outcome,
     bounds,
@@ -17,7 +20,7 @@ from bench.pose_report import (
     shares,
     until_localised,
 )
-from bench.poses import outcome_of
+from bench.poses import outcome_of, row_of
 from segments.localisation import Pose, localise
 from tests.client.map_builders import random_map
 from tests.segments.localisation.scene_builders import scene
@@ -136,8 +139,27 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
 
 def query(truth: Pose, sensor: np.ndarray) -> PoseQuery:
     return PoseQuery(
-        0.0, 0.0, np.zeros((1, 2), np.int8), np.zeros((1, 3)), sensor, truth, mapped=True
+        8, 0.0, 0.0, np.zeros((1, 2), np.int8), np.zeros((1, 3)), sensor, truth, mapped=True
     )
+
+
+def test_a_row_says_where_and_what_as_json_can() -> None:
+    truth = Pose.of_yaw(np.pi / 2, np.array([10.0, 0, 0]))
+    row = row_of(query(truth, np.array([1.0, 0, 0])), LOST)
+    assert (row["scan"], row["segments"], row["position"]) == (8, 1, [10.0, 1.0, 0.0])
+    assert (row["reason"], row["metres"], row["probability"]) == ("inconsistent", None, 0.0)
+    json.dumps(row, allow_nan=False)
+
+
+@given(st.integers(1, 500), st.integers(1, 600))
+def test_chosen_queries_are_spread_evenly(count: int, most: int) -> None:
+    chosen = spread(count, most)
+    assert len(set(chosen.tolist())) == min(count, most)
+    assert chosen[0] == 0
+    if len(chosen) > 1:
+        assert chosen[-1] == count - 1
+        assert np.ptp(np.diff(chosen)) <= 1
+    np.testing.assert_array_equal(spread(count), np.arange(count))
 
 
 def test_a_robot_s_own_frame_is_any() -> None:

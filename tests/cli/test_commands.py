@@ -335,6 +335,7 @@ POSES = {
     *("queries", "localised_right", "wrong_but_sure", "not_localised", "median_position_error_m"),
     *("median_yaw_error_deg", "p50_ms", "p99_ms", "precision_recall", "reliability", "bounds_95"),
     *("metres_until_localised", "model_id", "protocol", "machine", "seed", "beyond_the_map"),
+    "seen",
 }
 
 
@@ -348,12 +349,34 @@ def test_evaluate_poses_writes_the_contract(workshop: Path, tmp_path: Path) -> N
     assert (report["map_drive"], report["query_drive"]) == ("robot_a", "robot_b")
     assert report["queries"] + report["beyond_the_map"]["queries"] == 40
     # The default model finds its way through a town that it has not seen.
+    assert not report["seen"]
     assert report["localised_right"] > 0.5
     assert report["wrong_but_sure"] == 0
     assert plot.read_bytes().startswith(b"\x89PNG")
     # What it finds does not depend on the robot's own frame.
     run("evaluate-poses", *drives, "--json", file, "--seed", 1)
     assert json.loads(file.read_text())["localised_right"] == report["localised_right"]
+
+
+def test_evaluate_poses_takes_what_is_prepared_and_tells_of_each_query(
+    workshop: Path, tmp_path: Path
+) -> None:
+    drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
+    first, second = (workshop / "data" / f"{name}.safetensors" for name in ("robot_a", "robot_b"))
+    file, answers = tmp_path / "poses.json", tmp_path / "told" / "answers.jsonl"
+    prepared = ("--map-recording", first, "--query-recording", second)
+    words = ("--queries", 5, "--model", workshop / "tiny", "--json", file, "--answers", answers)
+    run("evaluate-poses", *drives, *prepared, *words)
+    report = json.loads(file.read_text())
+    rows = [json.loads(line) for line in answers.read_text().splitlines()]
+    assert report["queries"] + report["beyond_the_map"]["queries"] == len(rows) == 5
+    assert (rows[0]["scan"], rows[-1]["scan"]) == (0, 39)
+    told = [row for row in rows if row["mapped"] and not row["reason"]]
+    assert len(told) == report["queries"] - report["counts"]["not_localised"]
+    # The model was trained on robot A's drive.
+    assert report["seen"]
+    wrong = run("evaluate-poses", *drives, "--map-recording", second, status=1)
+    assert "another drive" in wrong.output
 
 
 def test_evaluate_poses_by_blocks_in_a_session(workshop: Path, tmp_path: Path) -> None:

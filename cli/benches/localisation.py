@@ -1,0 +1,37 @@
+"""`placecell bench localisation`: the tables of docs/localisation.md."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.sources import clear_errors
+
+
+def localisation(
+    folders: Annotated[
+        list[Path],
+        typer.Argument(
+            help="One a case, a column each: with MODEL.json of 'placecell evaluate-poses' and "
+            "peers*.json of 'placecell bench peers'."
+        ),
+    ],
+    system: Annotated[
+        str | None,
+        typer.Option(help="Only this one's figures, in full. (default: all systems, in short)"),
+    ] = None,
+) -> None:
+    """Write figures of localisation, measured before, as a table in Markdown."""
+    from bench.pose_table import comparison, in_full, read
+
+    with clear_errors():
+        cases = {folder.name: read(folder) for folder in folders}
+        if empty := [name for name, figures in cases.items() if not figures]:
+            raise ValueError(f"{empty[0]}: holds no figures (*.json)")
+        if system is None:
+            lines = list(comparison(cases))
+        else:
+            lines = list(
+                in_full({name: each[system] for name, each in cases.items() if system in each})
+            )
+    typer.echo("\n".join(lines))

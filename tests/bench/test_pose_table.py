@@ -1,0 +1,74 @@
+"""The tables of localisation say what the reports say."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from bench.pose_table import comparison, in_full, read
+from cli import app
+
+REPORT: dict[str, Any] = {
+    "queries": 3012,
+    "localised_right": 0.9612,
+    "wrong_but_sure": 0.00033,
+    "not_localised": 0.03,
+    "bounds_95": {
+        "localised_right": [0.9537, 0.9678],
+        "wrong_but_sure": [0.00001, 0.00185],
+        "not_localised": [0.0242, 0.0367],
+    },
+    "median_position_error_m": 0.0712,
+    "median_yaw_error_deg": 0.1499,
+    "metres_until_localised": {"median": 0.0, "p95": 4.4, "never": 3},
+    "seen": False,
+}
+PEER = {"name": "scan-context", "localised_right": 0.5, "wrong_but_sure": 0.1}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    case = tmp_path / "town"
+    case.mkdir()
+    (case / "context.json").write_text(json.dumps(REPORT))
+    (case / "group.json").write_text(json.dumps(REPORT | {"seen": True}))
+    (case / "peers.json").write_text(json.dumps({"rows": [PEER]}))
+    return case
+
+
+def test_a_row_a_system_and_a_column_a_case(folder: Path) -> None:
+    table = list(comparison({"town": read(folder), "drive": {"context": REPORT}}))
+    assert table == [
+        "|  | town | drive |",
+        "| --- | --- | --- |",
+        "| context | 96.1 / 0.03 | 96.1 / 0.03 |",
+        "| group | 96.1 / 0.03 * |  |",
+        "| scan-context | 50.0 / 10.00 |  |",
+    ]
+
+
+def test_in_full_with_bounds() -> None:
+    nothing = {"median_position_error_m": None, "median_yaw_error_deg": None}
+    never = {"metres_until_localised": {"median": None, "p95": None, "never": 9}}
+    _, _, told, untold = in_full({"town": REPORT, "lost": REPORT | nothing | never})
+    assert "3,012 | 96.12 (95.37 to 96.78) | 0.03 (0.00 to 0.18) | 3.00 (2.42 to 3.67)" in told
+    assert "| 0.07 m, 0.15 deg | 0 m; 95%: 4 |" in told
+    assert untold.endswith("| - | - |")
+
+
+def test_the_command_writes_either(folder: Path, tmp_path: Path) -> None:
+    def run(*words: object) -> tuple[int, str]:
+        done = CliRunner().invoke(app, ["bench", "localisation", *map(str, words)])
+        return done.exit_code, done.output
+
+    assert "scan-context" in run(folder)[1]
+    status, output = run(folder, "--system", "context")
+    assert status == 0
+    assert "95.37 to" in output
+    assert "scan-context" not in output
+    (tmp_path / "empty").mkdir()
+    status, output = run(folder, tmp_path / "empty")
+    assert status == 1
+    assert "no figures" in output
