@@ -25,6 +25,7 @@ with atheris.instrument_imports(include=["placecell_client", "service.packing", 
         decode_delta,
         encode,
         encode_delta,
+        originated,
     )
     from placecell_client.map_edit import apply, with_optional
     from pydantic import ValidationError
@@ -100,11 +101,16 @@ def seeds() -> dict[str, list[bytes]]:
         frame_orientations=np.array([[0, 0, 0, 1]] * 2, np.float32),
     )
     full = with_optional(small, ("extents", "points", "views", "seen"))
+    merged = originated(full, "yard")
     gone = np.array([2, 3], np.uint32)
     return {
         "msgpack": [msgpack.packb(body) for body in bodies],
-        "map": [encode(small), encode(full)],
-        "delta": [encode_delta(Delta(small, gone, 3, 4)), encode_delta(Delta(full, gone))],
+        "map": [encode(small), encode(full), encode(merged)],
+        "delta": [
+            encode_delta(Delta(small, gone, 3, 4)),
+            encode_delta(Delta(full, gone)),
+            encode_delta(Delta(merged, gone)),
+        ],
     }
 
 

@@ -70,7 +70,12 @@ class Layers:
     def robots(self) -> Counter[str]:
         """How many segments each robot has."""
         buried = self.base.robot[np.flatnonzero(self.gone)]
-        return self.base_robots - _counted(self.base, buried) + robots_of(self.recent)
+        return self.base_robots - _counted(self.base.robots, buried) + robots_of(self.recent)
+
+    @cached_property
+    def sources(self) -> Counter[str]:
+        """How many segments were merged from each map, as far as that is known."""
+        return _sources_of(self.base, ~self.gone) + _sources_of(self.recent)
 
     @cached_property
     def time_span(self) -> tuple[float, float] | None:
@@ -187,12 +192,19 @@ class Layers:
 
 def robots_of(content: CompactMap) -> Counter[str]:
     """How many segments each robot has."""
-    return _counted(content, content.robot)
+    return _counted(content.robots, content.robot)
 
 
-def _counted(content: CompactMap, robot: NDArray[np.uint16]) -> Counter[str]:
-    counts = np.bincount(robot, minlength=len(content.robots)).tolist()
-    return Counter({name: n for name, n in zip(content.robots, counts, strict=True) if n})
+def _sources_of(content: CompactMap, rows: Bool | slice = slice(None)) -> Counter[str]:
+    if content.source is None:
+        return Counter()
+    source = content.source[rows]
+    return _counted(content.sources, source[source > 0] - 1)
+
+
+def _counted(names: tuple[str, ...], indices: NDArray[np.uint16]) -> Counter[str]:
+    counts = np.bincount(indices, minlength=len(names)).tolist()
+    return Counter({name: n for name, n in zip(names, counts, strict=True) if n})
 
 
 def _rows_of(content: CompactMap, ids: UInt32) -> Int64:

@@ -14,6 +14,9 @@ class MapOut(BaseModel):
     model_id: str
     frame: str = Field(description="Name of its coordinate frame.")
     robots: dict[str, int] = Field(description="How many segments each has in it.")
+    sources: dict[str, int] = Field(
+        description="How many segments were merged from each map, as far as that is known."
+    )
     time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
     optional: list[str] = Field(description="Names of the optional columns that it has.")
 

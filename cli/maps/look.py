@@ -10,7 +10,7 @@ from cli.maps.connection import LOCAL, Name, Url, is_delta, service
 from cli.sources import clear_errors, fail
 
 if TYPE_CHECKING:
-    from placecell_client import CompactMap
+    from placecell_client import CompactMap, MapSummary
 
 
 def list_maps(url: Url = LOCAL) -> None:
@@ -40,7 +40,7 @@ def show(
     limit: Annotated[int, typer.Option(min=1, help="Versions to list, at most.")] = 20,
     url: Url = LOCAL,
 ) -> None:
-    """Show a map's versions, newest first: who did what, when."""
+    """Show a map's versions, newest first: who did what, when; and what was merged into it."""
     from rich.console import Console
     from rich.table import Table
 
@@ -51,8 +51,16 @@ def show(
             counts = f"{one.changed:,}", f"{one.removed:,}"
             table.add_row(str(one.sequence), when, one.author, one.operation, *counts)
         Console().print(table)
+        for summary in client.maps():
+            if summary.name == name and summary.sources:
+                typer.echo(_whence(summary))
         if plot:
             draw(client.get_map(name), plot)
+
+
+def _whence(summary: "MapSummary") -> str:
+    merged = (f"{count:,} from {source}" for source, count in summary.sources.items())
+    return f"{summary.segments:,} segments, of these merged: {', '.join(merged)}"
 
 
 def draw(compact_map: "CompactMap", file: Path) -> None:

@@ -13,6 +13,7 @@ from placecell_client.localisation import (
 from placecell_client.map_copy import ChangesPage, MapCopy
 from placecell_client.map_delta import Delta, decode_delta, encode_delta
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
+from placecell_client.map_move import moved, originated
 from placecell_client.results import (
     Candidate,
     Description,
@@ -56,4 +57,6 @@ __all__ = [
     "decode_delta",
     "encode",
     "encode_delta",
+    "moved",
+    "originated",
 ]

@@ -1,6 +1,7 @@
 """The canonical form of a compact map, so that equal maps become equal files."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ def canonical(compact_map: CompactMap) -> CompactMap:
     ordered = compact_map
     if not is_ascending(ordered.ids):
         ordered = take(ordered, np.argsort(ordered.ids, kind="stable"))
-    robots, robot_ranks = _sorted_robots(ordered)
+    robots, robot_ranks = _sorted_names(ordered.robots, ordered.robot)
     table, frame_ranks = _sorted_frames(ordered)
     return replace(
         ordered,
@@ -31,6 +32,7 @@ def canonical(compact_map: CompactMap) -> CompactMap:
         frame_times=table[:, 0].copy(),
         frame_positions=table[:, 1:4].copy(),
         frame_orientations=table[:, 4:].astype(np.float32),
+        **_sorted_sources(ordered),
     )
 
 
@@ -98,9 +100,22 @@ def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArra
     return table, ranks
 
 
-def _sorted_robots(compact_map: CompactMap) -> tuple[tuple[str, ...], NDArray[np.uint16]]:
-    names = compact_map.robots
-    used = np.flatnonzero(_used(compact_map.robot, len(names)))
+def _sorted_sources(compact_map: CompactMap) -> dict[str, Any]:
+    """The columns that tell of sources, where the map has them."""
+    if compact_map.source is None:
+        return {}
+    merged = compact_map.source > 0
+    sources, ranks = _sorted_names(compact_map.sources, compact_map.source[merged] - 1)
+    source = np.zeros_like(compact_map.source)
+    source[merged] = ranks[compact_map.source[merged] - 1] + 1
+    return {"sources": sources, "source": source}
+
+
+def _sorted_names(
+    names: tuple[str, ...], indices: NDArray[np.uint16]
+) -> tuple[tuple[str, ...], NDArray[np.uint16]]:
+    """The names that indices name, ascending, and each name's place among them."""
+    used = np.flatnonzero(_used(indices, len(names)))
     order = sorted(used.tolist(), key=lambda index: names[index])
     ranks = np.zeros(len(names), dtype=np.uint16)
     ranks[order] = np.arange(len(order))

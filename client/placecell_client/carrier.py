@@ -26,10 +26,12 @@ DTYPES = {
     "ids": ("U32",),
     "views": ("U32",),
     "seen": ("U32",),
+    "source_ids": ("U32",),
     "removed": ("U32",),
     "frame_index": ("U16", "U32"),
     "centroids": ("I16",),
     "points": ("U16",),
+    "source": ("U16",),
     "robot": ("U8", "U16"),
     "extents": ("U8",),
     "codes": ("I8",),
@@ -146,7 +148,9 @@ def _head(content: Content, checksum: str) -> bytes:
     text = json.dumps(outer, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 8)
     if len(text) > HEADER_LIMIT:
-        raise MapFileError(f"header: {len(text)} bytes, of robots' names; at most {HEADER_LIMIT}")
+        raise MapFileError(
+            f"header: {len(text)} bytes, of maps' and robots' names; at most {HEADER_LIMIT}"
+        )
     return len(text).to_bytes(8, "little") + text
 
 

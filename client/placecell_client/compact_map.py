@@ -14,6 +14,9 @@ TIME_LIMIT = 9e9
 CODE_LIMIT = 65_535
 """Bytes of codes that a segment may have."""
 
+SOURCE_LIMIT = 65_535
+"""Names of other maps that a `source` tells apart; 0 is the map itself."""
+
 SEGMENT_COLUMNS = ("codes", "centroids", "ids", "robot", "frame_index")
 """Columns of one row a segment that every map has."""
 FRAME_COLUMNS = ("frame_times", "frame_positions", "frame_orientations")
@@ -23,8 +26,13 @@ OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
     "points": (np.uint16, ()),
     "views": (np.uint32, ()),
     "seen": (np.uint32, ()),
+    "source": (np.uint16, ()),
+    "source_ids": (np.uint32, ()),
 }
-"""Columns that a map may have or lack: type, and shape of one segment's value."""
+"""Columns that a map may have or lack: type, and shape of one segment's value.
+
+`source` and `source_ids`, a segment's provenance, come together.
+"""
 
 
 class MapFileError(ValueError):
@@ -58,6 +66,10 @@ class CompactMap:
         views: uint32 (n,), the id of the first view of the same thing, which need not be in the map
             any more; its own id where there is but one. Views of one thing share it.
         seen: uint32 (n,), whole seconds of the clock of `frame_times`, when it was last seen.
+        source: uint16 (n,), the map that it was merged from, `sources[source - 1]`; 0: written to
+            this very map.
+        source_ids: uint32 (n,), its id in that map; its own id where `source` is 0.
+        sources: names of the maps that segments were merged from, each once.
     """
 
     model_id: str
@@ -76,6 +88,9 @@ class CompactMap:
     points: NDArray[np.uint16] | None = None
     views: NDArray[np.uint32] | None = None
     seen: NDArray[np.uint32] | None = None
+    source: NDArray[np.uint16] | None = None
+    source_ids: NDArray[np.uint32] | None = None
+    sources: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -106,6 +121,7 @@ class CompactMap:
         _check_texts(self)
         _check_columns(self)
         _check_values(self)
+        _check_provenance(self)
 
 
 def is_ascending(ids: NDArray[np.uint32]) -> bool:
@@ -118,12 +134,16 @@ def _check_texts(compact_map: CompactMap) -> None:
         "model_id": compact_map.model_id,
         "preprocessing": compact_map.preprocessing,
         "frame": compact_map.frame,
-    } | {f"robots[{index}]": name for index, name in enumerate(compact_map.robots)}
+    }
+    tables = {"robots": compact_map.robots, "sources": compact_map.sources}
+    for table, names in tables.items():
+        texts |= {f"{table}[{index}]": name for index, name in enumerate(names)}
     for name, text in texts.items():
         if not 1 <= len(text) <= 200 or not text.isprintable():
             raise MapFileError(f"{name}: must be 1 to 200 printable characters")
-    if len(set(compact_map.robots)) != len(compact_map.robots):
-        raise MapFileError("robots: a name stands twice")
+    for table, names in tables.items():
+        if len(set(names)) != len(names):
+            raise MapFileError(f"{table}: a name stands twice")
 
 
 def _check_columns(compact_map: CompactMap) -> None:
@@ -176,3 +196,17 @@ def _check_values(compact_map: CompactMap) -> None:
         column = getattr(compact_map, name)
         if len(column) and int(column.max()) >= size:
             raise MapFileError(f"{name}: index {int(column.max())} in a table of {size}")
+
+
+def _check_provenance(compact_map: CompactMap) -> None:
+    source, ids, names = compact_map.source, compact_map.source_ids, compact_map.sources
+    if source is None or ids is None:
+        if source is not None or ids is not None:
+            raise MapFileError("source, source_ids: one of them without the other")
+        if names:
+            raise MapFileError("sources: names, but no columns source and source_ids")
+        return
+    if len(source) and int(source.max()) > len(names):
+        raise MapFileError(f"source: {int(source.max())} in a table of {len(names)} names")
+    if ((ids != compact_map.ids) & (source == 0)).any():
+        raise MapFileError("source_ids: not its own id where the source is 0, the map itself")

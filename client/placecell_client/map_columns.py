@@ -47,7 +47,8 @@ def columns_of(ordered: CompactMap) -> Columns:
 def header_of(ordered: CompactMap) -> dict[str, Any]:
     """The header's part that tells of a canonical map."""
     span = ordered.time_span
-    return {
+    sources = {"sources": list(ordered.sources)} if ordered.source is not None else {}
+    return sources | {
         "model_id": ordered.model_id,
         "preprocessing": ordered.preprocessing,
         "frame": ordered.frame,
@@ -82,6 +83,9 @@ def map_of(header: dict[str, Any], columns: Columns) -> CompactMap:
             frame_times=columns["frame_times"].astype(np.float64, copy=False),
             frame_positions=columns["frame_positions"].astype(np.float64, copy=False),
             frame_orientations=columns["frame_orientations"].astype(np.float32, copy=False),
+            sources=tuple(
+                _text({"sources": name}, "sources") for name in header.get("sources", ())
+            ),
             **{
                 name: columns[name].astype(dtype, copy=False)
                 for name, (dtype, _) in OPTIONAL.items()

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +10,13 @@ from numpy.typing import NDArray
 from placecell_client.canonical import canonical, distinct_rows, frame_rows, take
 from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError
 from placecell_client.map_delta import Delta
-from placecell_client.map_union import check_same_kind, is_same_kind, union, with_optional
+from placecell_client.map_union import (
+    check_same_kind,
+    is_same_kind,
+    places_of,
+    union,
+    with_optional,
+)
 
 __all__ = [
     "apply",
@@ -27,8 +34,8 @@ __all__ = [
 def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
     """The map after a delta: removed segments are gone, changed ones added or replaced by id.
 
-    Optional columns are those of either. What lacks one gets: 0 for `extents` and `points`, its own
-    id for `views`, its frame's time for `seen`.
+    Optional columns are those of either. What lacks one gets: 0 for `extents`, `points` and
+    `source`, its own id for `views` and `source_ids`, its frame's time for `seen`.
 
     Args:
         compact_map: a valid map.
@@ -47,7 +54,8 @@ def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
 def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np.uint32]]:
     """What turns one map into another, where no optional column is lost.
 
-    Segments are compared by value in canonical form, frames and robots too, whatever their index.
+    Segments are compared by value in canonical form, frames, robots and sources too, whatever their
+    index.
 
     Returns:
         The segments of `new` that are new or differ, and the ids that are gone, ascending.
@@ -136,6 +144,9 @@ def empty(
     model_id: str, preprocessing: str, frame: str, code_bytes: int, optional: Iterable[str] = ()
 ) -> CompactMap:
     """A map without segments, with these optional columns."""
+    columns: dict[str, Any] = {
+        name: np.zeros((0, *OPTIONAL[name][1]), OPTIONAL[name][0]) for name in optional
+    }
     return CompactMap(
         model_id=model_id,
         preprocessing=preprocessing,
@@ -149,7 +160,7 @@ def empty(
         frame_times=np.zeros(0),
         frame_positions=np.zeros((0, 3)),
         frame_orientations=np.zeros((0, 4), np.float32),
-        **{name: np.zeros((0, *OPTIONAL[name][1]), OPTIONAL[name][0]) for name in optional},
+        **columns,
     )
 
 
@@ -175,13 +186,15 @@ def _differs(
 ) -> NDArray[np.bool_]:
     """For each pair of segments of one id, whether a value differs."""
     differs = np.zeros(len(rows), dtype=bool)
-    for name in ("codes", "centroids", *after.optional):
+    for name in ("codes", "centroids", *(name for name in after.optional if name != "source")):
         one, other = getattr(before, name)[places], getattr(after, name)[rows]
         unequal = one != other
         differs |= unequal.any(axis=1) if unequal.ndim > 1 else unequal
-    names = {name: place for place, name in enumerate(after.robots)}
-    robots = np.array([names.get(name, -1) for name in before.robots], np.int64)
+    robots = places_of(before.robots, after.robots)
     differs |= robots[before.robot[places]] != after.robot[rows]
+    if before.source is not None and after.source is not None:
+        sources = places_of(("", *before.sources), ("", *after.sources))  # 0: the map itself
+        differs |= sources[before.source[places]] != after.source[rows]
     _, ranks = distinct_rows(np.concatenate([frame_rows(before), frame_rows(after)]))
     old_ranks, new_ranks = np.split(ranks, [len(before.frame_times)])
     differs |= old_ranks[before.frame_index[places]] != new_ranks[after.frame_index[rows]]

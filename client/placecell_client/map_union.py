@@ -12,6 +12,7 @@ from placecell_client.compact_map import (
     FRAME_COLUMNS,
     OPTIONAL,
     SEGMENT_COLUMNS,
+    SOURCE_LIMIT,
     CompactMap,
     MapFileError,
 )
@@ -28,16 +29,17 @@ def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -
         without: rows of the first to leave out.
 
     Raises:
-        MapFileError: the maps do not go together, or have too many robots.
+        MapFileError: the maps do not go together, or have too many robots or sources.
     """
     check_same_kind(maps)
-    names = tuple({name: None for each in maps for name in each.robots})
-    if len(names) > ROBOT_LIMIT:
-        raise MapFileError(f"robots: {len(names)} names; at most {ROBOT_LIMIT}")
+    tables = {
+        "robots": _names(maps, "robots", ROBOT_LIMIT),
+        "sources": _names(maps, "sources", SOURCE_LIMIT),
+    }
     optional = tuple(name for name in OPTIONAL if any(name in each.optional for each in maps))
     frames = np.cumsum([0, *(len(each.frame_times) for each in maps)])
     aligned = [
-        _renumbered(with_optional(each, optional), names, int(before))
+        _renumbered(with_optional(each, optional), tables, int(before))
         for each, before in zip(maps, frames, strict=False)
     ]
     ids = np.concatenate([each.ids for each in aligned])
@@ -57,12 +59,18 @@ def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -
 def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
     """The map with these optional columns.
 
-    Those that it lacks: 0 for `extents` and `points`, a segment's own id for `views`, its frame's
-    time for `seen`, rounded down, within what an uint32 holds.
+    Those that it lacks: 0 for `extents`, `points` and `source`, a segment's own id for `views` and
+    `source_ids`, its frame's time for `seen`, rounded down, within what an uint32 holds.
     """
     missing = [name for name in names if getattr(compact_map, name) is None]
     defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}
     return replace(compact_map, **defaults)
+
+
+def places_of(names: tuple[str, ...], table: tuple[str, ...]) -> NDArray[np.int64]:
+    """Where each name stands in a table; -1: it does not."""
+    places = {name: place for place, name in enumerate(table)}
+    return np.array([places.get(name, -1) for name in names], np.int64)
 
 
 def is_same_kind(one: CompactMap, other: CompactMap) -> bool:
@@ -94,7 +102,7 @@ def _kind(compact_map: CompactMap) -> dict[str, str | int]:
 
 def _default(compact_map: CompactMap, name: str) -> NDArray[Any]:
     dtype, shape = OPTIONAL[name]
-    if name == "views":
+    if name in {"views", "source_ids"}:
         return compact_map.ids
     if name == "seen":
         seconds = np.floor(compact_map.frame_times).clip(0, np.iinfo(np.uint32).max)
@@ -102,13 +110,29 @@ def _default(compact_map: CompactMap, name: str) -> NDArray[Any]:
     return np.zeros((len(compact_map), *shape), dtype)
 
 
-def _renumbered(compact_map: CompactMap, names: tuple[str, ...], frames_before: int) -> CompactMap:
+def _names(maps: Sequence[CompactMap], table: str, limit: int) -> tuple[str, ...]:
+    """The names of all maps' tables, each once."""
+    names = tuple({name: None for each in maps for name in getattr(each, table)})
+    if len(names) > limit:
+        raise MapFileError(f"{table}: {len(names)} names; at most {limit}")
+    return names
+
+
+def _renumbered(
+    compact_map: CompactMap, tables: dict[str, tuple[str, ...]], frames_before: int
+) -> CompactMap:
     """With indices into the joined tables."""
-    places = {name: place for place, name in enumerate(names)}
-    robots = np.array([places[name] for name in compact_map.robots], np.uint16)
+    source = compact_map.source
+    if source is not None:
+        # Before the names stands the map itself, which has none.
+        places = places_of(("", *compact_map.sources), ("", *tables["sources"]))
+        source = places.astype(np.uint16)[source]
+    robots = places_of(compact_map.robots, tables["robots"]).astype(np.uint16)
     return replace(
         compact_map,
-        robots=names,
+        robots=tables["robots"],
         robot=robots[compact_map.robot],
         frame_index=compact_map.frame_index + np.uint32(frames_before),
+        source=source,
+        sources=tables["sources"],
     )

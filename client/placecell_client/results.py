@@ -1,7 +1,7 @@
 """What the service answers, typed."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -101,6 +101,7 @@ class MapSummary:
         robots: how many segments each has in it.
         time_span: earliest and latest time, seconds; None for a map without segments.
         optional: names of the optional columns that it has.
+        sources: how many segments were merged from each map, as far as the service tells.
     """
 
     name: str
@@ -113,6 +114,7 @@ class MapSummary:
     robots: dict[str, int]
     time_span: tuple[float, float] | None
     optional: tuple[str, ...]
+    sources: dict[str, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapSummary":
@@ -129,6 +131,7 @@ class MapSummary:
             robots=dict(content["robots"]),
             time_span=(span[0], span[1]) if span is not None else None,
             optional=tuple(content["optional"]),
+            sources=dict(content.get("sources", {})),  # an earlier service tells none
         )
 
 

@@ -18,6 +18,7 @@ def summary_of(stored: StoredMap) -> MapOut:
         model_id=stored.model_id,
         frame=stored.frame,
         robots=dict(sorted(layers.robots.items())),
+        sources=dict(sorted(layers.sources.items())),
         time_span=layers.time_span,
         optional=sorted(layers.optional),
     )

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta, originated
+from placecell_client.map_edit import apply, take
 from typer.testing import CliRunner, Result
 
 from bench.map_content import map_of
@@ -131,6 +131,22 @@ def test_an_earlier_version_is_pulled(
     assert "9 segments, version 0 to 2" in good("pull", "earlier")
     assert "404" in bad("pull", "earlier", "--version", 3)
     assert not (tmp_path / "earlier@3.map").exists()
+
+
+def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> None:
+    some = take(yard, np.arange(120))
+    rest = take(yard, np.arange(120, 300))
+    site = apply(rest, Delta(originated(some, "east"), np.zeros(0, np.uint32)))
+    with Client(address) as client:
+        stored = client.put_map("site", site)
+        assert stored.sources == {"east": 120}
+        client.put_map("plain", yard)
+        assert "300 segments, of these merged: 120 from east" in good(
+            "show", "site", "--url", address
+        )
+        assert "merged" not in good("show", "plain", "--url", address)
+        client.delete_map("site")
+        client.delete_map("plain")
 
 
 def test_what_cannot_be_reached_is_told() -> None:

@@ -38,10 +38,11 @@ def checksum(data: bytes, header: dict[str, Any]) -> str:
     return digest.hexdigest()
 
 
-def with_inner_header(data: bytes, **changes: object) -> bytes:
-    """The file with other values in its header, and a checksum that fits them."""
+def with_inner_header(data: bytes, *without: str, **changes: object) -> bytes:
+    """The file with other values in its header, or without, and a checksum that fits them."""
     header = inner_header(data) | changes
-    header.pop("sha256")
+    for key in (*without, "sha256"):
+        del header[key]
     header["sha256"] = checksum(data, header)
     outer = outer_header(data)
     outer["__metadata__"]["placecell"] = compact_json(header)

@@ -9,6 +9,11 @@ from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta
 from placecell_client.compact_map import OPTIONAL
 
+PROVENANCE = ("source", "source_ids")
+GROUPS = [*((name,) for name in OPTIONAL if name not in PROVENANCE), PROVENANCE]
+"""Optional columns that come together."""
+SOURCES = ("west", "unused", "east")
+
 
 def random_map(
     segments: int = 20,
@@ -44,11 +49,22 @@ def random_map(
         "points": random.integers(0, 1 << 16, segments).astype(np.uint16),
         "views": given.ids[random.integers(0, max(segments, 1), segments)],
         "seen": random.integers(0, 1 << 32, segments).astype(np.uint32),
+        "source": (np.arange(segments) % 3 + np.arange(segments) % 3 // 2).astype(np.uint16),
     }
-    return replace(given, **{name: columns[name] for name in optional})
+    foreign = random.integers(0, 1 << 32, segments).astype(np.uint32)
+    columns["source_ids"] = np.where(columns["source"], foreign, given.ids)
+    chosen = {name: columns[name] for name in optional}
+    return replace(given, sources=SOURCES if "source" in chosen else (), **chosen)
 
 
-COLUMN_SETS = st.sets(st.sampled_from(list(OPTIONAL)))
+def column_sets(*groups: tuple[str, ...]) -> st.SearchStrategy[set[str]]:
+    """Sets of optional columns, of none to all of these groups."""
+    return st.sets(st.sampled_from(groups)).map(
+        lambda some: {name for each in some for name in each}
+    )
+
+
+COLUMN_SETS = column_sets(*GROUPS)
 ORIENTATIONS = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [1, 0, 0, 0], [-0.0, 0, 0, 1]], np.float32)
 
 
@@ -86,6 +102,10 @@ def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -
     columns: dict[str, Any] = {
         name: column(few, OPTIONAL[name][0], width=widths.get(name, 0)) for name in sorted(chosen)
     }
+    if "source" in chosen:
+        columns["source"] = column(st.integers(0, 2), np.uint16)
+        columns["source_ids"] = np.where(columns["source"], columns["source_ids"], given.ids)
+        columns["sources"] = tuple(draw(st.permutations(["dock", "east", "west"])))
     return replace(given, **columns)
 
 

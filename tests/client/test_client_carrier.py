@@ -3,7 +3,7 @@
 import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from placecell_client.carrier import HEADER_LIMIT, Content
 from placecell_client.compact_map import OPTIONAL
 
 from tests.client.file_surgery import header_length, outer_header, with_outer_header
-from tests.client.map_builders import random_map
+from tests.client.map_builders import PROVENANCE, random_map
 
 
 @dataclass(frozen=True)
@@ -119,6 +119,17 @@ def test_a_header_that_is_too_long_is_not_parsed(kind: Kind) -> None:
         kind.decode(data)
 
 
+def test_a_header_of_too_many_sources_is_not_written() -> None:
+    n = 6000
+    crowd = replace(
+        random_map(segments=n, optional=PROVENANCE),
+        sources=tuple(f"{number:0200}" for number in range(n)),
+        source=np.arange(1, n + 1, dtype=np.uint16),
+    )
+    with pytest.raises(MapFileError, match="maps' and robots' names; at most 1048576"):
+        encode(crowd)
+
+
 def test_a_header_that_would_be_too_long_is_not_written() -> None:
     names = tuple(f"{number:0200}" for number in range(6000))
     crowd = random_map(segments=6000, robots=names)
@@ -200,13 +211,32 @@ def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float)
         kind.decode(carrier.write(Content(content.header, content.columns | {name: column})))
 
 
+@pytest.mark.parametrize("kind", [KINDS["map-all-columns"], KINDS["delta-all-columns"]])
+def test_sources_that_no_map_has_are_refused(kind: Kind) -> None:
+    content = content_of(kind.data)
+    source, ids = content.columns["source"], content.columns["source_ids"]
+    for changed, message in [
+        ({"source": np.full_like(source, 65_535)}, "source: 65535 in a table of 2 names"),
+        ({"source": np.zeros_like(source)}, "source_ids: not its own id"),
+        ({"source": source.astype("u1")}, "source: not of type U16"),
+        ({"source_ids": ids.astype("<f4")}, "source_ids: not of type U32"),
+    ]:
+        data = carrier.write(Content(content.header, content.columns | changed))
+        with pytest.raises(MapFileError, match=message):
+            kind.decode(data)
+    for name in ("source", "source_ids"):
+        columns = {key: column for key, column in content.columns.items() if key != name}
+        with pytest.raises(MapFileError, match="one of them without the other"):
+            kind.decode(carrier.write(Content(content.header, columns)))
+
+
 @each_kind
 @pytest.mark.parametrize("name", ["ids", "frame_times", "frame_orientations"])
 def test_whole_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
     content = content_of(kind.data)
     column = content.columns[name]
     other = -column if name == "frame_orientations" else column[::-1]
-    with pytest.raises(MapFileError, match="canonical"):
+    with pytest.raises(MapFileError, match=r"canonical|source_ids: not its own id"):
         kind.decode(carrier.write(Content(content.header, content.columns | {name: other})))
 
 

@@ -106,6 +106,7 @@ def test_maps_travel_as_files() -> None:
     with client_of(answer) as client:
         summary = client.put_map("yard", given)
         assert summary.time_span == (0, 1)
+        assert summary.sources == {}  # the answer of a service that does not tell
         assert client.get_map_file("yard") == encode(given)
         assert encode(client.get_map("yard")) == encode(decode(encode(given)))
 

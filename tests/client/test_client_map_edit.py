@@ -19,11 +19,18 @@ from placecell_client.map_edit import (
     with_optional,
 )
 
-from tests.client.map_builders import COLUMN_SETS, deltas, maps, random_map
+from tests.client.map_builders import (
+    COLUMN_SETS,
+    PROVENANCE,
+    column_sets,
+    deltas,
+    maps,
+    random_map,
+)
 
 NOTHING = np.zeros(0, np.uint32)
-NARROW = st.sets(st.sampled_from(["extents", "seen"]))
-WIDE = NARROW.map(lambda names: {"extents", "seen", *names, "points"})
+NARROW = column_sets(("extents",), ("seen",), PROVENANCE)
+WIDE = column_sets(("points",)).map(lambda names: {"extents", "seen", *PROVENANCE, *names})
 
 
 def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
@@ -41,6 +48,8 @@ def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
             "position": (compact_map.frame_positions[frame] + 0.0).tolist(),
             "orientation": (turn * np.sign(last) + 0.0).tolist(),
         } | {name: getattr(compact_map, name)[row].tolist() for name in compact_map.optional}
+        if compact_map.source is not None:
+            segments[key]["source"] = ("", *compact_map.sources)[compact_map.source[row]]
     return segments
 
 
@@ -56,6 +65,8 @@ def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
             "points": 0,
             "views": key,
             "seen": max(0, int(np.floor(segment["time"]))),
+            "source": "",
+            "source_ids": key,
         }
         for name in {*compact_map.optional, *delta.changed.optional}:
             segment.setdefault(name, defaults[name])
@@ -209,6 +220,49 @@ def test_more_robots_than_an_index_tells_apart() -> None:
         apply(one, Delta(other, NOTHING))
 
 
+def test_more_sources_than_a_number_tells_apart() -> None:
+    one = replace(
+        random_map(optional=PROVENANCE), sources=tuple(f"a{number}" for number in range(40_000))
+    )
+    other = replace(one, sources=tuple(f"b{number}" for number in range(40_000)))
+    with pytest.raises(MapFileError, match="sources: 80000 names; at most 65535"):
+        apply(one, Delta(other, NOTHING))
+
+
+def test_as_many_sources_as_a_number_tells_apart() -> None:
+    n = 65_535
+    one = replace(
+        random_map(segments=n, dimension=1, optional=PROVENANCE),
+        sources=tuple(f"{number:05}" for number in range(n)),
+        source=np.arange(n, 0, -1).astype(np.uint16),
+    )
+    halves = [take(one, slice(0, n, 2)), take(one, slice(1, n, 2))]
+    back = join([Delta(half, NOTHING) for half in halves]).changed
+    assert back.source is not None
+    assert back.source.tolist() == one.source[np.argsort(one.ids)].tolist()  # type: ignore[index]
+    assert back.sources == one.sources
+
+
+def test_segments_of_the_same_source_are_compared_by_its_name() -> None:
+    one = replace(
+        random_map(segments=3),
+        ids=np.array([1, 2, 3], np.uint32),
+        sources=("west", "east"),
+        source=np.array([0, 1, 2], np.uint16),
+        source_ids=np.array([1, 8, 8], np.uint32),
+    )
+    same = replace(one, sources=("east", "west"), source=np.array([0, 2, 1], np.uint16))
+    assert len(difference(one, same)[0]) == 0
+    renamed = replace(one, sources=("north", "east"))
+    assert difference(one, renamed)[0].ids.tolist() == [2]
+    assert difference(one, renamed)[0].sources == ("north",)
+    bare = replace(one, source=None, source_ids=None, sources=())
+    assert difference(bare, one)[0].ids.tolist() == [2, 3]
+    after = apply(one, Delta(take(bare, np.array([1])), NOTHING))
+    assert after.source is not None
+    assert (after.source.tolist(), after.sources) == ([0, 0, 1], ("east",))
+
+
 def test_defaults_of_columns_that_a_map_lacks() -> None:
     given_map = replace(
         random_map(segments=4, frames=4), frame_times=np.array([-3.5, 1.9, 1.7e9 + 0.5, 8e9])
@@ -222,6 +276,10 @@ def test_defaults_of_columns_that_a_map_lacks() -> None:
     assert filled.points.tolist() == [0] * 4
     assert filled.views.tolist() == given_map.ids.tolist()
     assert filled.seen.tolist() == [0, 1, 1_700_000_000, (1 << 32) - 1]
+    assert filled.source is not None
+    assert filled.source_ids is not None
+    assert (filled.source.tolist(), filled.sources) == ([0] * 4, ())
+    assert filled.source_ids.tolist() == given_map.ids.tolist()
     assert with_optional(filled, OPTIONAL).optional == filled.optional == tuple(OPTIONAL)
     filled.check()
 

@@ -13,9 +13,21 @@ from placecell_client.canonical import take
 from placecell_client.compact_map import OPTIONAL
 
 from tests.client.file_surgery import inner_header, with_inner_header
-from tests.client.map_builders import COLUMN_SETS, maps, random_map
+from tests.client.map_builders import (
+    COLUMN_SETS,
+    GROUPS,
+    PROVENANCE,
+    maps,
+    random_map,
+)
 
 SMALL = encode(random_map(segments=3, frames=2))
+PROVENANCE_OF_3: dict[str, Any] = {
+    "source": np.array([1, 2, 1], np.uint16),
+    "source_ids": np.array([4, 4, 4], np.uint32),
+    "sources": ("yard", "dock"),
+}
+MERGED = encode(random_map(segments=3, frames=2, optional=PROVENANCE))
 
 
 def test_a_map_comes_back_sorted_by_id() -> None:
@@ -98,27 +110,62 @@ def test_the_order_of_rows_and_tables_makes_no_difference(
         frame_times=one.frame_times[frames],
         frame_positions=one.frame_positions[frames],
         frame_orientations=-one.frame_orientations[frames],
+        sources=(one.sources[2], *one.sources[:2]),
+        source=np.array([0, 2, 3, 1], np.uint16)[other.source],
     )
     assert encode(one) == encode(other)
 
 
-@pytest.mark.parametrize("name", OPTIONAL)
-def test_an_optional_column_comes_back(name: str) -> None:
-    given_map = random_map(segments=20, optional=(name,))
+@pytest.mark.parametrize("names", GROUPS)
+def test_an_optional_column_comes_back(names: tuple[str, ...]) -> None:
+    given_map = random_map(segments=20, optional=names)
     back = decode(encode(given_map))
-    assert back.optional == (name,)
-    given_column, column = getattr(given_map, name), getattr(back, name)
-    np.testing.assert_array_equal(column, given_column[np.argsort(given_map.ids)])
-    assert column.dtype == given_column.dtype
+    assert back.optional == names
+    for name in set(names) - {"source"}:
+        given_column, column = getattr(given_map, name), getattr(back, name)
+        np.testing.assert_array_equal(column, given_column[np.argsort(given_map.ids)])
+        assert column.dtype == given_column.dtype
+
+
+def test_where_segments_were_merged_from_comes_back() -> None:
+    one = replace(
+        random_map(segments=4),
+        ids=np.array([9, 3, 5, 7], np.uint32),
+        sources=("west", "unused", "east"),
+        source=np.array([3, 0, 1, 3], np.uint16),
+        source_ids=np.array([70, 3, 70, 71], np.uint32),
+    )
+    back = decode(encode(one))
+    assert back.ids.tolist() == [3, 5, 7, 9]
+    assert back.sources == ("east", "west")
+    assert back.source is not None
+    assert back.source.dtype == np.uint16
+    assert back.source.tolist() == [0, 2, 1, 1]
+    assert back.source_ids is not None
+    assert back.source_ids.tolist() == [3, 70, 71, 70]
+    assert inner_header(encode(one))["sources"] == ["east", "west"]
+    assert "sources" not in inner_header(SMALL)
+
+
+def test_provenance_without_segments_comes_back() -> None:
+    back = decode(encode(random_map(segments=0, optional=PROVENANCE)))
+    assert (back.optional, back.sources) == (PROVENANCE, ())
 
 
 @pytest.mark.parametrize(
-    ("optional", "each"), [("extents", 3), ("points", 2), ("views", 4), ("seen", 4)]
+    ("optional", "each", "entries"),
+    [
+        (("extents",), 3, 1),
+        (("points",), 2, 1),
+        (("views",), 4, 1),
+        (("seen",), 4, 1),
+        (PROVENANCE, 6, 3),  # the names are one more
+    ],
 )
-def test_what_an_optional_column_costs(optional: str, each: int) -> None:
+def test_what_an_optional_column_costs(optional: tuple[str, ...], each: int, entries: int) -> None:
     bare = encode(random_map(segments=10_000, dimension=32, frames=250))
-    more = encode(random_map(segments=10_000, dimension=32, frames=250, optional=(optional,)))
-    assert 0 <= len(more) - len(bare) - 10_000 * each < 100  # for the header's entry
+    more = encode(random_map(segments=10_000, dimension=32, frames=250, optional=optional))
+    assert 0 <= len(more) - len(bare) - 10_000 * each < 100 * entries
 
 
 @pytest.mark.parametrize("extent", [0.0, 600.0, 1e6, 1.9e8])
@@ -232,6 +279,41 @@ def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str)
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
+        ({"sources": ["west", "east"]}, "canonical"),
+        ({"sources": ["east", "unused", "west"]}, "canonical"),
+        ({"sources": ["east"]}, "source: 2 in a table of 1 names"),
+        ({"sources": ["east", "east"]}, "sources: a name stands twice"),
+        ({"sources": ["east", ""]}, r"sources\[1\]: must be 1 to 200 printable"),
+        ({"sources": ["east", "a\nb"]}, "printable"),
+        ({"sources": ["east", "w" * 201]}, "printable"),
+        ({"sources": "ew"}, "canonical"),
+        ({"sources": None}, "wrong type"),
+        ({"sources": [1, 2]}, "sources is not a text"),
+        ({"sources": [["east"], "west"]}, "sources is not a text"),
+    ],
+)
+def test_names_of_sources_that_lie_are_refused(changes: dict[str, object], message: str) -> None:
+    assert inner_header(MERGED)["sources"] == ["east", "west"]
+    assert with_inner_header(MERGED) == MERGED
+    with pytest.raises(MapFileError, match=message):
+        decode(with_inner_header(MERGED, **changes))
+
+
+def test_columns_without_names_and_names_without_columns_are_refused() -> None:
+    with pytest.raises(MapFileError, match="sources: names, but no columns"):
+        decode(with_inner_header(SMALL, sources=["east"]))
+    with pytest.raises(MapFileError, match="canonical"):
+        decode(with_inner_header(SMALL, sources=[]))
+    with pytest.raises(MapFileError, match="source: 2 in a table of 0 names"):
+        decode(with_inner_header(MERGED, "sources"))
+    own = encode(random_map(segments=0, optional=PROVENANCE))
+    with pytest.raises(MapFileError, match="canonical"):
+        decode(with_inner_header(own, "sources"))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
         ({"ids": np.array([1, 1, 2], np.uint32)}, "ids"),
         ({"ids": np.array([1, 2, 3], np.int64)}, "ids"),
         ({"ids": np.array(1, np.uint32)}, "ids"),
@@ -254,6 +336,16 @@ def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str)
         ({"points": np.zeros(3, np.int64)}, "points"),
         ({"views": np.zeros(2, np.uint32)}, "views"),
         ({"seen": np.zeros(3)}, "seen"),
+        ({"source": np.zeros(3, np.uint16)}, "one of them without the other"),
+        ({"source_ids": np.zeros(3, np.uint32)}, "one of them without the other"),
+        ({"sources": ("yard",)}, "sources: names, but no columns"),
+        (PROVENANCE_OF_3 | {"sources": ("yard",)}, "source: 2 in a table of 1 names"),
+        (PROVENANCE_OF_3 | {"sources": ("yard", "yard")}, "sources: a name stands twice"),
+        (PROVENANCE_OF_3 | {"sources": ("yard", "")}, r"sources\[1\]: must be"),
+        (PROVENANCE_OF_3 | {"source": np.zeros(3, np.uint16)}, "source_ids: not its own id"),
+        (PROVENANCE_OF_3 | {"source": np.ones(2, np.uint16)}, r"source: uint16 \(2,\)"),
+        (PROVENANCE_OF_3 | {"source": np.ones(3, np.uint8)}, "source: uint8"),
+        (PROVENANCE_OF_3 | {"source_ids": np.ones(3, np.int64)}, "source_ids: int64"),
     ],
 )
 def test_maps_that_are_not_valid_are_not_written(changes: dict[str, Any], message: str) -> None:

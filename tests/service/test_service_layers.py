@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from placecell_client import CompactMap, Delta, encode
+from placecell_client import CompactMap, Delta, encode, originated
 from placecell_client.map_edit import apply, empty
 
 from segments.quantiser import Quantiser
@@ -18,21 +18,34 @@ QUANTISER = Quantiser(0.1)
 NOTHING = empty("m", "1", "town", 7)
 
 
-def segments(ids: list[int], value: int = 0, robot: str = "ann") -> CompactMap:
+def segments(ids: list[int], value: int = 0, robot: str = "ann", source: str = "") -> CompactMap:
     """Of these ids; their codes tell id and value."""
     codes = np.zeros((len(ids), 7), np.int8)
     codes[:, 0], codes[:, 1] = ids, value
     made = replace(map_of(codes, "m", robot=robot), ids=np.array(ids, np.uint32))
+    if source:
+        made = originated(made, source)
     return apply(NOTHING, Delta(made, np.zeros(0, np.uint32)))
 
 
-def edit(ids: list[int], removed: list[int], value: int, robot: str = "ann") -> Delta:
-    return Delta(segments(ids, value, robot), np.array(sorted({*removed} - {*ids}), np.uint32))
+def edit(
+    ids: list[int], removed: list[int], value: int, robot: str = "ann", source: str = ""
+) -> Delta:
+    changed = segments(ids, value, robot, source)
+    return Delta(changed, np.array(sorted({*removed} - {*ids}), np.uint32))
 
 
 IDS = st.lists(st.integers(0, 12), unique=True)
 EDITS = st.lists(
-    st.builds(edit, IDS, IDS, st.integers(0, 2), st.sampled_from(["ann", "zoe"])), max_size=8
+    st.builds(
+        edit,
+        IDS,
+        IDS,
+        st.integers(0, 2),
+        st.sampled_from(["ann", "zoe"]),
+        st.sampled_from(["", "east", "west"]),
+    ),
+    max_size=8,
 )
 STARTS = IDS.map(sorted).map(segments)
 
@@ -47,6 +60,8 @@ def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[
     assert len(layers) == len(expected)
     assert layers.ids.tolist() == expected.ids.tolist()
     assert layers.robots == robots_of(expected)
+    places = [] if expected.source is None else expected.source.tolist()
+    assert layers.sources == Counter(expected.sources[place - 1] for place in places if place)
     assert layers.time_span == expected.time_span
     wanted = np.arange(0, 20, 3, dtype=np.uint32)
     rows = np.flatnonzero(np.isin(expected.ids, wanted))

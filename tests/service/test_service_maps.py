@@ -55,6 +55,7 @@ def test_put_get_list_delete(service: Any, yard: bytes, manifest: Manifest) -> N
         "model_id": manifest.model_id,
         "frame": "town",
         "robots": {"ann": 30},
+        "sources": {},
         "time_span": [1.7e9, 1.7e9],
         "optional": [],
     }
