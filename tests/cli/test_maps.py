@@ -95,22 +95,6 @@ def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch
     assert "number" in bad("diff", "yard@x", "yard")
 
 
-def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> None:
-    some = take(yard, np.arange(120))
-    rest = take(yard, np.arange(120, 300))
-    site = apply(rest, Delta(originated(some, "east"), np.zeros(0, np.uint32)))
-    with Client(address) as client:
-        stored = client.put_map("site", site)
-        assert stored.sources == {"east": 120}
-        client.put_map("plain", yard)
-        assert "300 segments, of these merged: 120 from east" in good(
-            "show", "site", "--url", address
-        )
-        assert "merged" not in good("show", "plain", "--url", address)
-        client.delete_map("site")
-        client.delete_map("plain")
-
-
 def test_a_delta_file_is_pushed(address: str, tmp_path: Path, yard: CompactMap) -> None:
     file, name = tmp_path / "site.delta", "with-delta"
     bobs = Delta(replace(take(yard, np.arange(10)), robots=("bob",)), np.array([20, 21], np.uint32))
@@ -147,6 +131,22 @@ def test_an_earlier_version_is_pulled(
     assert "9 segments, version 0 to 2" in good("pull", "earlier")
     assert "404" in bad("pull", "earlier", "--version", 3)
     assert not (tmp_path / "earlier@3.map").exists()
+
+
+def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> None:
+    some = take(yard, np.arange(120))
+    rest = take(yard, np.arange(120, 300))
+    site = apply(rest, Delta(originated(some, "east"), np.zeros(0, np.uint32)))
+    with Client(address) as client:
+        stored = client.put_map("site", site)
+        assert stored.sources == {"east": 120}
+        client.put_map("plain", yard)
+        assert "300 segments, of these merged: 120 from east" in good(
+            "show", "site", "--url", address
+        )
+        assert "merged" not in good("show", "plain", "--url", address)
+        client.delete_map("site")
+        client.delete_map("plain")
 
 
 def test_what_cannot_be_reached_is_told() -> None:
