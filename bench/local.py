@@ -14,7 +14,9 @@ from placecell_client import CompactMap, Description, Info, ItemError, encode
 from segments.localisation import Localisation, LocalisationParameters
 from segments.localisation.evidence import Evidence
 from segments.manifest import Manifest
+from segments.map_alignment import AlignmentParameters, MapAlignment
 from segments.types import Float64, Int8
+from service.aligning import align_maps
 from service.keys import ANYONE
 from service.locating import localise_in
 from service.models import Model
@@ -103,4 +105,11 @@ class Local:
         started = perf_counter()
         stored = self._state.maps.get(name)
         found = localise_in(codes, centroids, self.model, stored, k, parameters, Timing(), evidence)
+        return found, 1e3 * (perf_counter() - started)
+
+    def align(self, name: str, other: str) -> tuple[MapAlignment, float]:
+        """As `/maps/{map}/align/{other}`; and the milliseconds that it took."""
+        started = perf_counter()
+        one, another = self._state.maps.get(name), self._state.maps.get(other)
+        found, *_ = align_maps(one, another, self.model, AlignmentParameters())
         return found, 1e3 * (perf_counter() - started)

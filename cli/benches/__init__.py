@@ -2,6 +2,7 @@
 
 import typer
 
+from cli.benches.align import align
 from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
@@ -24,6 +25,7 @@ bench.command()(maps)
 bench.command()(ladder)
 bench.command()(localize)
 bench.command()(localisation)
+bench.command()(align)
 bench.command()(town)
 bench.command()(views)
 bench.command()(peers)

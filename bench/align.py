@@ -1,0 +1,202 @@
+"""How often two maps are laid on each other rightly: pairs of stretches of a town's two drives."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from placecell_client import CompactMap, moved
+from placecell_client.map_edit import take
+
+from bench.local import Local
+from bench.pose_report import bounds
+from bench.prepared import recording_of
+from bench.robot import Robot
+from segments.drives import open_drive
+from segments.extraction import Progress, silent
+from segments.localisation import Pose
+from segments.map_alignment import MapAlignment
+from segments.types import Float64
+from training.evaluation import machine
+from training.figure import figure
+
+RIGHT = (0.5, 1.0)
+"""Metres and degrees, in the middle of what both maps have."""
+
+ENOUGH = 0.2
+"""Of an overlap, for a pair that is to be found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drives:
+    """Two robots' maps, of all that they drove.
+
+    Attributes:
+        maps: in the frames of the drives' worlds.
+        scans: of each map's frames, the scan.
+        first: scans that a frame needs before its own.
+        protocol: of the segments.
+    """
+
+    maps: tuple[CompactMap, CompactMap]
+    scans: tuple[np.ndarray, np.ndarray]
+    first: int
+    protocol: str
+
+    @classmethod
+    def of(
+        cls,
+        folders: Sequence[Path],
+        prepared: Sequence[Path | None],
+        local: Local,
+        progress: Progress,
+    ) -> "Drives":
+        """Cut both drives into segments, unless they are prepared, and describe them."""
+        maps, scans = [], []
+        for folder, file in zip(folders, prepared, strict=True):
+            drive = open_drive(folder)
+            recording = recording_of(drive, None, file, progress)
+            robot = Robot(folder.name, drive, [recording], np.eye(4))
+            maps.append(robot.build_map(local, folder.name))
+            scans.append(np.unique(recording.frames))
+        first = recording.parameters.accumulated_scans - 1
+        return cls((maps[0], maps[1]), (scans[0], scans[1]), first, recording.parameters.protocol)
+
+    def stretch(self, which: int, ends: Sequence[int], frame: Float64) -> CompactMap:
+        """The map of a stretch of one drive, in a frame of its own.
+
+        Args:
+            ends: its first and last scan; frames that need scans before it are left out.
+            frame: (4, 4), from the drive's world.
+        """
+        scan = self.scans[which][self.maps[which].frame_index]
+        part = take(self.maps[which], (scan >= ends[0] + self.first) & (scan <= ends[1]))
+        pose = Pose.of_matrix(frame)
+        return moved(part, pose.rotation, pose.translation, f"stretch {which}")
+
+
+def bench(
+    folder: Path,
+    model: Path,
+    prepared: Sequence[Path | None] = (None, None),
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Align all pairs of a town.
+
+    Args:
+        folder: of `placecell town --pairs`.
+        model: its folder.
+        prepared: recordings of the two drives, where there are any.
+
+    Raises:
+        ValueError: the folder has no pairs, or a recording does not fit.
+    """
+    file = folder / "pairs.json"
+    if not file.is_file():
+        raise ValueError(f"{file}: is not there; 'placecell town --metres M --pairs N' makes it")
+    drawn = json.loads(file.read_text())
+    with Local.open(model) as local:
+        folders = [folder / name for name in drawn["drives"]]
+        drives = Drives.of(folders, prepared, local, progress)
+        pairs = [(kind, pair) for kind in ("overlapping", "apart") for pair in drawn[kind]]
+        rows = []
+        for number in progress(range(len(pairs)), len(pairs), "aligning"):
+            kind, pair = pairs[number]
+            for which, name in enumerate("ab"):
+                frame = np.array(pair[f"frame_{name}"])
+                part = drives.stretch(which, pair[f"scans_{name}"], frame)
+                local.put_map(f"{name}-{number}", part)
+            found, milliseconds = local.align(f"a-{number}", f"b-{number}")
+            rows.append(row_of(kind, pair, found, milliseconds))
+        model_id = local.model.id
+    return {
+        "town": {"seed": drawn["seed"], "street_metres": drawn["street_metres"]},
+        "map_metres": drawn["metres"],
+        "protocol": drives.protocol,
+        "model_id": model_id,
+        "machine": machine(),
+        "right_within": {"metres": RIGHT[0], "degrees": RIGHT[1]},
+        **summary(rows),
+        "rows": rows,
+    }
+
+
+def row_of(
+    kind: str, pair: dict[str, Any], found: MapAlignment, milliseconds: float
+) -> dict[str, Any]:
+    """What became of a pair, against the truth."""
+    metres = degrees = None
+    if found.best is not None and found.pose is not None:
+        truth, middle = Pose.of_matrix(np.array(pair["b_to_a"])), found.best.source.mean(axis=0)
+        metres, angle = found.pose.difference(truth, middle)
+        degrees = float(np.degrees(angle))
+    best = found.best
+    return {
+        "kind": kind,
+        "overlap": pair["overlap"],
+        "look_alike": pair["look_alike"],
+        "aligned": found.pose is not None,
+        "reason": found.reason,
+        "metres": metres,
+        "degrees": degrees,
+        "right": metres is not None
+        and degrees is not None
+        and kind == "overlapping"
+        and metres <= RIGHT[0]
+        and degrees <= RIGHT[1],
+        "pairs": 0 if best is None else len(best),
+        "agreement": 0.0 if best is None else best.agreement,
+        "score": 0.0 if best is None else best.score,
+        "milliseconds": milliseconds,
+    }
+
+
+def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Shares, with 95% bounds."""
+    overlapping = [row for row in rows if row["kind"] == "overlapping"]
+    groups = {
+        "overlapping": overlapping,
+        "overlapping_enough": [row for row in overlapping if row["overlap"] >= ENOUGH],
+        "apart": [row for row in rows if row["kind"] == "apart"],
+    }
+    right = [row for row in rows if row["right"]]
+    return {
+        **{
+            name: {
+                "pairs": len(group),
+                "aligned": sum(row["aligned"] for row in group),
+                "right": sum(row["right"] for row in group),
+                "wrong": sum(row["aligned"] and not row["right"] for row in group),
+                "right_bounds_95": bounds(sum(row["right"] for row in group), len(group)),
+            }
+            for name, group in groups.items()
+            if group
+        },
+        "median_position_error_m": float(np.median([row["metres"] for row in right]))
+        if right
+        else None,
+        "median_yaw_error_deg": float(np.median([row["degrees"] for row in right]))
+        if right
+        else None,
+        "p50_ms": float(np.percentile([row["milliseconds"] for row in rows], 50)),
+        "p99_ms": float(np.percentile([row["milliseconds"] for row in rows], 99)),
+    }
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """How much agrees, against how much the maps overlap, as a PNG."""
+    with figure(file, 1) as (axes,):
+        for label, colour, aligned, right in (
+            ("aligned rightly", "tab:green", True, True),
+            ("aligned wrongly", "tab:red", True, False),
+            ("not aligned", "0.6", False, False),
+        ):
+            wanted = {"aligned": aligned, "right": right}
+            rows = [row for row in report["rows"] if wanted.items() <= row.items()]
+            overlap, agreement = ([row[name] for row in rows] for name in ("overlap", "agreement"))
+            axes.scatter(overlap, agreement, color=colour, s=12, label=f"{label}: {len(rows)}")
+        axes.set(xlabel="overlap of the maps", ylabel="agreement where they overlap")
+        axes.legend()
+        axes.grid(alpha=0.3)
