@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from placecell_client import Client, encode
 
+from bench.meeting import Meeting, elsewhere, meet
+from bench.pose_queries import random_frame
 from bench.robot import Robot, ask
 from bench.score import Score, score
 from bench.server import running_service
@@ -32,10 +34,12 @@ class Outcome:
     Attributes:
         score: candidates right.
         figures: of the map, the requests, the drive; for the terminal and for JSON.
+        meeting: poses, and the map of both; None if they were not asked for.
     """
 
     score: Score
     figures: dict[str, Any]
+    meeting: Meeting | None
 
 
 def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:
@@ -48,7 +52,7 @@ def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> t
         drive = open_drive(path)
         recording = record(drive, PROTOCOL_V1, progress=progress)
         robots.append(Robot(name, drive, [recording], read_origin(path)))
-    return robots[0], robots[1]
+    return robots[0], elsewhere(robots[1], random_frame(seed))
 
 
 def robots_of_drive(
@@ -77,14 +81,15 @@ def robots_of_drive(
 
 
 def run(
-    mapper: Robot, asker: Robot, folder: Path, model: str, picture: Path | None = None
+    mapper: Robot, asker: Robot, folder: Path, model: str, pictures: Path | None = None
 ) -> Outcome:
-    """Start the service, upload A's map, let B ask, score, draw.
+    """Start the service, upload A's map, let B ask, score.
 
     Args:
         folder: for the service's data.
         model: by name.
-        picture: where the matches are drawn, if at all.
+        pictures: folder of the pictures. With one, robot B asks for its pose too, and both maps
+            are merged.
 
     Raises:
         ValueError: a robot saw no segments.
@@ -98,8 +103,10 @@ def run(
         client.put_map(MAP, data)
         views = [(scan, segments) for scan, segments, _ in asker.views() if len(segments)]
         spread = np.unique(np.linspace(0, len(views) - 1, REQUESTS).astype(int))
-        answers, milliseconds = ask(asker, client, [MAP], K, [views[index] for index in spread])
+        asked = [views[index] for index in spread]
+        answers, milliseconds = ask(asker, client, [MAP], K, asked)
         model_id = client.info().model_id
+        meeting = None if pictures is None else meet(mapper, asker, client, MAP, asked)
     result = score(answers, compact.centroids, mapper.to_common)
     p50, p99 = np.percentile(milliseconds, [50, 99])
     figures = {
@@ -116,13 +123,17 @@ def run(
         "request_p50_ms": round(float(p50), 1),
         "request_p99_ms": round(float(p99), 1),
     }
-    if picture is not None:
+    if pictures is not None and meeting is not None:
         from bench.picture import draw_matches
+        from bench.site_picture import draw_site
 
         title = f"What {asker.name} sees, found in the map of {mapper.name}"
         right = result.first_is_right
-        draw_matches(picture, mapper, asker, compact.centroids, answers, right, title)
-    return Outcome(result, figures)
+        matches = pictures / "matches.png"
+        draw_matches(matches, mapper, asker, compact.centroids, answers, right, title)
+        draw_site(pictures / "site.png", mapper, asker, compact.centroids, meeting)
+        figures |= meeting.figures()
+    return Outcome(result, figures, meeting)
 
 
 def is_short(drive: Drive) -> bool:

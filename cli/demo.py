@@ -3,7 +3,7 @@
 import json
 import tempfile
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -21,11 +21,14 @@ def demo(
     seed: Annotated[int, typer.Option(help="Of the town.")] = 7,
     scans: Annotated[int, typer.Option(min=20, help="Scans of each robot in the town.")] = 120,
 ) -> None:
-    """Let robot A share its map through a real service, and robot B find its place in it.
+    """Let robot A share its map through a real service, robot B find its place in it, and merge.
 
-    Ends with status 0 only if robot B was recognised.
+    Robot B is told which segments of the map it sees, and its pose in it; then both maps become
+    one. Ends with status 0 only if that came out right.
     """
     from bench.demo import is_short, robots_of_drive, robots_of_town, run
+    from bench.meeting import elsewhere
+    from bench.pose_queries import random_frame
     from segments.manifest import Manifest
     from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 
@@ -35,6 +38,7 @@ def demo(
             mapper, asker = robots_of_town(Path(scratch), seed, scans, show)
         else:
             mapper, asker = robots_of_drive(drive, show)
+            asker = elsewhere(asker, random_frame(seed))
             if is_short(mapper.drive):
                 typer.echo(
                     f"{drive}: the drive is short ({mapper.drive.path_length():.0f} m, "
@@ -46,27 +50,32 @@ def demo(
             )
             if seen:
                 typer.echo(f"{DEFAULT_MODEL} was trained on scans of this drive.")
-        picture = output / "matches.png"
-        outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, picture)
+        outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
         baseline = run(mapper, asker, Path(scratch) / "baseline", BASELINE)
     figures = outcome.figures | {BASELINE: baseline.figures}
     (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n")
     print_outcome(outcome.figures, baseline.figures)
-    typer.echo(f"picture: {picture}")
+    typer.echo(f"pictures: {output / 'matches.png'}, {output / 'site.png'}")
     if not outcome.score.findable:
         fail("no segment of robot B lies in robot A's map; nothing could be recognised")
     if not outcome.score.recognised:
         fail("robot B was not recognised: its candidates are hardly better than chance")
-    typer.echo("It works: robot B found its place in robot A's map.")
+    short = is_short(mapper.drive)
+    meeting = outcome.meeting
+    assert meeting is not None  # it was asked for
+    if not any(each.is_right for each in meeting.told) and not short:
+        fail("robot B was nowhere told its right pose")
+    if meeting.laid is None and not short:
+        fail("the two maps could not be laid on each other")
+    typer.echo("It works: robot B knows where it is in robot A's map, and both share one map.")
 
 
-def print_outcome(figures: dict[str, object], baseline: dict[str, object]) -> None:
+def print_outcome(figures: dict[str, Any], baseline: dict[str, Any]) -> None:
     """The figures as a table on the terminal, the baseline's beside them."""
     from rich.console import Console
     from rich.table import Table
 
     names = {
-        "model_id": "model",
         "path_m": "metres driven",
         "segments_in_map": "segments in robot A's map",
         "map_bytes": "map file, bytes",
@@ -80,10 +89,22 @@ def print_outcome(figures: dict[str, object], baseline: dict[str, object]) -> No
         "right_at_25": "  among the first 25",
         "request_p50_ms": "milliseconds a request, median",
         "request_p99_ms": "milliseconds a request, p99",
+        "poses_asked": "times that robot B asked where it is",
+        "poses_right": "  told its pose, within 1 m and 3 degrees",
+        "poses_wrong": "  told a wrong one",
+        "not_localised": "  told that it is not known",
+        "pose_median_m": "metres off, median",
+        "pose_median_deg": "degrees off, median",
+        "localize_p50_ms": "milliseconds a request, median",
+        "maps_merged": "both maps merged",
+        "merged_off_m": "metres that they lie off each other",
+        "merged_off_deg": "degrees",
+        "segments_in_site": "segments in the map of both",
+        "repeats_left_out": "segments of robot B left out: seen by robot A",
     }
-    table = Table(show_header=False)
-    for key in figures:
-        table.add_row(names[key], *(shown(key, each[key]) for each in (figures, baseline)))
+    table = Table("", figures["model_id"], baseline["model_id"])
+    for key in [name for name in names if name in figures]:
+        table.add_row(names[key], *(shown(key, each.get(key, "")) for each in (figures, baseline)))
     Console().print(table)
 
 
@@ -91,4 +112,6 @@ def shown(key: str, value: object) -> str:
     """A figure for people to read."""
     if isinstance(value, float) and key.startswith("right"):
         return f"{value:.1%}"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return f"{value:,}" if isinstance(value, int) else str(value)

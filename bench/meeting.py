@@ -1,0 +1,155 @@
+"""Two robots meet: the one is told its pose in the other's map, and both maps become one."""
+
+import time
+from collections.abc import Sequence
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from placecell_client import Client, encode
+
+from bench.pose_report import RIGHT
+from bench.robot import Robot, clouds
+from segments.localisation import Pose
+from segments.recording import Recording
+from segments.segments import Segments
+from segments.types import Float64
+
+SITE = "site"
+"""Name of the map of both."""
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What the service told of one frame.
+
+    Attributes:
+        sensor: float64 (3,), where the robot truly was, metres, in the map's frame.
+        place: float64 (3,), where it is by the pose; None: not localised.
+        metres, degrees: that the pose is off; infinite without one.
+        milliseconds: of the request.
+    """
+
+    sensor: Float64
+    place: Float64 | None
+    metres: float
+    degrees: float
+    milliseconds: float
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the pose is as near to the truth as a right one must be."""
+        return self.metres <= RIGHT[0] and self.degrees <= RIGHT[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """What came of it.
+
+    Attributes:
+        told: of each frame.
+        laid: from the asking robot's frame to the map's, as the merge found it; None: it did not.
+        off: metres and degrees between that and the truth, where the robot drove.
+        segments: of the site; 0 if there is none.
+        repeats: of the asking robot's segments, that the map's already showed.
+    """
+
+    told: Sequence[Told]
+    laid: Pose | None
+    off: tuple[float, float]
+    segments: int
+    repeats: int
+
+    def figures(self) -> dict[str, Any]:
+        """For the terminal and for JSON."""
+        right = [each for each in self.told if each.is_right]
+        told = sum(each.place is not None for each in self.told)
+        milliseconds = [each.milliseconds for each in self.told]
+        return {
+            "poses_asked": len(self.told),
+            "poses_right": len(right),
+            "poses_wrong": told - len(right),
+            "not_localised": len(self.told) - told,
+            "pose_median_m": _median([each.metres for each in right]),
+            "pose_median_deg": _median([each.degrees for each in right]),
+            "localize_p50_ms": round(float(np.median(milliseconds)), 1),
+            "maps_merged": self.laid is not None,
+            "merged_off_m": round(self.off[0], 3) if self.laid else None,
+            "merged_off_deg": round(self.off[1], 3) if self.laid else None,
+            "segments_in_site": self.segments,
+            "repeats_left_out": self.repeats,
+        }
+
+
+def meet(
+    mapper: Robot,
+    asker: Robot,
+    client: Client,
+    name: str,
+    views: Sequence[tuple[int, Segments]],
+) -> Meeting:
+    """Ask where the robot is, view by view; then upload its map, and merge both.
+
+    Args:
+        name: of the mapper's map, which is there.
+        views: frames of the asker.
+    """
+    truth = Pose.of_matrix(mapper.to_common).inverse().after(Pose.of_matrix(asker.to_common))
+    told = [_ask(asker, client, name, scan, segments, truth) for scan, segments in views]
+    own = asker.name.replace(" ", "_")
+    client.put_map(own, encode(asker.build_map(client, frame=asker.name)))
+    merge = client.merge_maps(SITE, [name, own], dry_run=True)
+    part = merge.parts[1]
+    if part.pose is None:
+        return Meeting(told, None, (np.inf, np.inf), 0, 0)
+    merge = client.merge_maps(SITE, [name, own])
+    laid = Pose.of_matrix(part.pose.matrix)
+    middle = asker.drive.poses[:, :3, 3].mean(axis=0)
+    metres, angle = laid.difference(truth, middle)
+    off = metres, float(np.degrees(angle))
+    return Meeting(told, laid, off, merge.segments, merge.parts[1].repeats)
+
+
+def _ask(
+    asker: Robot, client: Client, name: str, scan: int, segments: Segments, truth: Pose
+) -> Told:
+    started = time.perf_counter()
+    answer = client.localize(segments=clouds(segments), sensors=segments.sensors, maps=[name])
+    milliseconds = 1e3 * (time.perf_counter() - started)
+    sensor = asker.drive.poses[scan, :3, 3]
+    here = truth.apply(sensor)
+    if answer.best is None or answer.best.pose is None:
+        return Told(here, None, np.inf, np.inf, milliseconds)
+    pose = Pose.of_matrix(answer.best.pose.matrix)
+    metres, angle = pose.difference(truth, sensor)
+    return Told(here, pose.apply(sensor), metres, float(np.degrees(angle)), milliseconds)
+
+
+def elsewhere(robot: Robot, frame: Pose) -> Robot:
+    """The same robot, with another world: nothing tells how that lies to anybody else's.
+
+    Args:
+        frame: from its world to the other.
+    """
+    drive = copy(robot.drive)
+    drive.poses = frame.matrix @ robot.drive.poses
+    return replace(
+        robot,
+        drive=drive,
+        recordings=[_moved(recording, frame) for recording in robot.recordings],
+        to_common=robot.to_common @ frame.inverse().matrix,
+    )
+
+
+def _moved(recording: Recording, frame: Pose) -> Recording:
+    segments = recording.segments
+    points, sensors = (
+        frame.apply(each.astype(np.float64)).astype(np.float32)
+        for each in (segments.points, segments.sensors)
+    )
+    return replace(recording, segments=Segments(points, segments.ends, sensors))
+
+
+def _median(values: Sequence[float]) -> float | None:
+    return round(float(np.median(values)), 3) if values else None
