@@ -1,6 +1,5 @@
 """The demo: robot A shares its map through the service, robot B finds its place in it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,15 +7,11 @@ from typing import Any
 import numpy as np
 from placecell_client import Client, encode
 
-from bench.meeting import Meeting, elsewhere, meet
-from bench.pose_queries import random_frame
+from bench.meeting import Meeting, meet
 from bench.robot import Robot, ask
 from bench.score import Score, score
 from bench.server import running_service
-from segments.blocks import alternate_blocks
-from segments.drives import Drive, open_drive
-from segments.extraction import Progress, record
-from segments.parameters import PROTOCOL_V1
+from segments.drives import Drive
 
 MAP = "robot_a"
 K = 25
@@ -40,44 +35,6 @@ class Outcome:
     score: Score
     figures: dict[str, Any]
     meeting: Meeting | None
-
-
-def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:
-    """Two robots that drive the same streets of a synthetic town in opposite directions."""
-    from town import read_origin, two_robots
-
-    robots = []
-    paths = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
-    for name, path in zip(("robot A", "robot B"), paths, strict=True):
-        drive = open_drive(path)
-        recording = record(drive, PROTOCOL_V1, progress=progress)
-        robots.append(Robot(name, drive, [recording], read_origin(path)))
-    return robots[0], elsewhere(robots[1], random_frame(seed))
-
-
-def robots_of_drive(
-    folder: Path, progress: Progress, every: int | None = None
-) -> tuple[Robot, Robot]:
-    """One drive as two robots: its odd blocks are the map, its even blocks ask.
-
-    Args:
-        every: a frame every so many scans, as `Parameters.for_drive`.
-
-    Raises:
-        ValueError: the drive stands still, so that it has no second block.
-    """
-    drive = open_drive(folder)
-    odd, even = alternate_blocks(drive)
-    if not even:
-        raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
-    shortest = min(map(len, odd + even))
-    parameters = PROTOCOL_V1.for_drive(len(drive), every).for_block(shortest)
-
-    def robot(name: str, blocks: Sequence[range]) -> Robot:
-        recordings = [record(drive, parameters, block, progress) for block in blocks]
-        return Robot(name, drive, recordings, np.eye(4))
-
-    return robot("robot A", odd), robot("robot B", even)
 
 
 def run(

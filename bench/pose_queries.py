@@ -9,10 +9,10 @@ import numpy as np
 from placecell_client import CompactMap
 from scipy.spatial import cKDTree
 
-from bench.demo import robots_of_drive
 from bench.local import Local
 from bench.prepared import recording_of
 from bench.robot import Robot, clouds
+from bench.robots import robots_of_drive
 from segments.drives import open_drive
 from segments.extraction import Progress, silent
 from segments.localisation import Pose

@@ -26,9 +26,10 @@ def demo(
     Robot B is told which segments of the map it sees, and its pose in it; then both maps become
     one. Ends with status 0 only if that came out right.
     """
-    from bench.demo import is_short, robots_of_drive, robots_of_town, run
+    from bench.demo import is_short, run
     from bench.meeting import elsewhere
     from bench.pose_queries import random_frame
+    from bench.robots import robots_of_drive, robots_of_town
     from segments.manifest import Manifest
     from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 
@@ -38,7 +39,6 @@ def demo(
             mapper, asker = robots_of_town(Path(scratch), seed, scans, show)
         else:
             mapper, asker = robots_of_drive(drive, show)
-            asker = elsewhere(asker, random_frame(seed))
             if is_short(mapper.drive):
                 typer.echo(
                     f"{drive}: the drive is short ({mapper.drive.path_length():.0f} m, "
@@ -50,6 +50,8 @@ def demo(
             )
             if seen:
                 typer.echo(f"{DEFAULT_MODEL} was trained on scans of this drive.")
+        # Nothing but the segments tells how robot B's frame lies to robot A's.
+        asker = elsewhere(asker, random_frame(seed))
         outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
         baseline = run(mapper, asker, Path(scratch) / "baseline", BASELINE)
     figures = outcome.figures | {BASELINE: baseline.figures}

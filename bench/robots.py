@@ -1,0 +1,50 @@
+"""Two robots for the demo and the evaluations: of a town, or of one drive."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from bench.robot import Robot
+from segments.blocks import alternate_blocks
+from segments.drives import open_drive
+from segments.extraction import Progress, record
+from segments.parameters import PROTOCOL_V1
+
+
+def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:
+    """Two robots that drive the same streets of a synthetic town in opposite directions."""
+    from town import read_origin, two_robots
+
+    robots = []
+    paths = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)
+    for name, path in zip(("robot A", "robot B"), paths, strict=True):
+        drive = open_drive(path)
+        recording = record(drive, PROTOCOL_V1, progress=progress)
+        robots.append(Robot(name, drive, [recording], read_origin(path)))
+    return robots[0], robots[1]
+
+
+def robots_of_drive(
+    folder: Path, progress: Progress, every: int | None = None
+) -> tuple[Robot, Robot]:
+    """One drive as two robots: its odd blocks are the map, its even blocks ask.
+
+    Args:
+        every: a frame every so many scans, as `Parameters.for_drive`.
+
+    Raises:
+        ValueError: the drive stands still, so that it has no second block.
+    """
+    drive = open_drive(folder)
+    odd, even = alternate_blocks(drive)
+    if not even:
+        raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
+    shortest = min(map(len, odd + even))
+    parameters = PROTOCOL_V1.for_drive(len(drive), every).for_block(shortest)
+
+    def robot(name: str, blocks: Sequence[range]) -> Robot:
+        recordings = [record(drive, parameters, block, progress) for block in blocks]
+        return Robot(name, drive, recordings, np.eye(4))
+
+    return robot("robot A", odd), robot("robot B", even)
