@@ -10,9 +10,11 @@ from placecell_client.localisation import (
     Localisations,
     Pose,
 )
+from placecell_client.map_alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
 from placecell_client.map_copy import ChangesPage, MapCopy
 from placecell_client.map_delta import Delta, decode_delta, encode_delta
 from placecell_client.map_file import CompactMap, MapFileError, decode, encode
+from placecell_client.map_merge import MapLoop, Merge, MergedPart, MergePair
 from placecell_client.map_move import moved, originated
 from placecell_client.results import (
     Candidate,
@@ -42,12 +44,20 @@ __all__ = [
     "ItemError",
     "Localisation",
     "Localisations",
+    "MapAlignment",
     "MapCopy",
     "MapFileError",
+    "MapHypothesis",
+    "MapLoop",
+    "MapPairs",
     "MapSummary",
     "MapVersion",
     "Maps",
     "Matches",
+    "Merge",
+    "MergePair",
+    "MergedPart",
+    "Overlap",
     "Pose",
     "Retries",
     "ServiceError",

@@ -14,12 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
-from placecell_client.calls import Call
+from placecell_client.calls import ALIGNMENT_SECONDS, Call
 from placecell_client.errors import ServiceError
 from placecell_client.localisation import Localisations, Motion
+from placecell_client.map_alignment import MapAlignment
 from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
+from placecell_client.map_merge import Merge
 from placecell_client.results import (
     Description,
     Info,
@@ -195,6 +197,33 @@ class AsyncClient(Caller):
     ) -> Written:
         """`Client.age_map`."""
         return await self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
+
+    async def align_maps(
+        self,
+        name: str,
+        other: str,
+        *,
+        motion: Motion = "yaw",
+        pairs: bool = False,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> MapAlignment:
+        """`Client.align_maps`."""
+        return await self._send(self._calls.align_maps(name, other, motion, pairs, timeout))
+
+    async def merge_maps(
+        self,
+        site: str,
+        maps: Sequence[str],
+        *,
+        dry_run: bool = False,
+        deduplicate: bool = True,
+        motion: Motion = "yaw",
+        if_match: str | None = None,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> Merge:
+        """`Client.merge_maps`."""
+        call = self._calls.merge_maps(site, maps, dry_run, deduplicate, motion, if_match, timeout)
+        return await self._send(call)
 
     async def compact_map(self, name: str, keep: int = 1) -> int:
         """`Client.compact_map`."""

@@ -2,7 +2,7 @@
 
 import uuid
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
 import httpx
@@ -43,6 +43,10 @@ class Policy:
         if not 0 < self.timeout < float("inf"):
             raise ValueError(f"timeout: {self.timeout}, not a number of seconds above 0")
 
+    def lasting(self, timeout: float) -> "Policy":
+        """For a call that may take so many seconds, and all of them in one attempt."""
+        return replace(self, timeout=timeout, retries=replace(self.retries, longest_attempt=None))
+
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
@@ -77,6 +81,8 @@ class Attempts(Generic[T]):
     """One call, from its first attempt to its result or its last error."""
 
     def __init__(self, call: Call[T], policy: Policy) -> None:
+        if call.timeout is not None:
+            policy = policy.lasting(call.timeout)
         self._call = call
         self._policy = policy
         self._deadline = Deadline(policy.timeout, policy.clock)

@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from placecell_client import map_delta, map_file, reading
 from placecell_client.answer import Answer
 from placecell_client.localisation import Localisations, Motion
+from placecell_client.map_alignment import MapAlignment
 from placecell_client.map_copy import ChangesPage
 from placecell_client.map_delta import Delta, encode_delta
 from placecell_client.map_file import CompactMap, decode, encode
+from placecell_client.map_merge import Merge
 from placecell_client.results import (
     Description,
     Info,
@@ -38,6 +40,9 @@ T = TypeVar("T")
 ANY = "*"
 """In the place of an ETag: whatever version is there."""
 
+ALIGNMENT_SECONDS = 300.0
+"""For a call that aligns or merges maps: as many as the service takes, unless it is told others."""
+
 COMPRESSED_BYTES = 1024
 """Files of less are sent as they are."""
 
@@ -55,6 +60,7 @@ class Call(Generic[T]):
         content: its body, the same bytes in every attempt.
         repeatable: whether it may be sent again when it may have been done already: what others
             wrote since is then not undone.
+        timeout: seconds that it may take, and each attempt too; None: as all others.
     """
 
     method: str
@@ -63,6 +69,7 @@ class Call(Generic[T]):
     headers: dict[str, str] = field(default_factory=dict)
     content: bytes | None = None
     repeatable: bool = True
+    timeout: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,6 +218,41 @@ class Calls:
         call = self._tied("POST", path, reading.written, if_match)
         return replace(call, repeatable=True) if dry_run else call
 
+    def align_maps(
+        self, name: str, other: str, motion: Motion, pairs: bool, timeout: float
+    ) -> Call[MapAlignment]:
+        """`POST /maps/{map}/align/{other}`."""
+        asked = "true" if pairs else None
+        path = _path(name, f"/align/{_quoted(other)}", motion=motion, pairs=asked)
+        return Call("POST", path, reading.alignment, timeout=timeout)
+
+    def merge_maps(
+        self,
+        site: str,
+        maps: Sequence[str],
+        dry_run: bool,
+        deduplicate: bool,
+        motion: Motion,
+        if_match: str | None,
+        timeout: float,
+    ) -> Call[Merge]:
+        """`POST /maps/{map}/merge`."""
+        body = {
+            "maps": list(maps),
+            "dry_run": dry_run,
+            "deduplicate": deduplicate,
+            "motion": motion,
+        }
+        call = self._tied("POST", _path(site, "/merge"), reading.merge, if_match)
+        # It is JSON for all clients: there is nothing large in it.
+        return replace(
+            call,
+            headers=call.headers | {"Content-Type": MEDIA_TYPES["json"]},
+            content=dumps(body, "json"),
+            repeatable=call.repeatable or dry_run,
+            timeout=timeout,
+        )
+
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """`POST /maps/{map}/compact`."""
         path = _path(name, "/compact", keep=keep)
@@ -266,11 +308,16 @@ def _usable(description: Description) -> list[int]:
 
 def _path(name: str, way: str = "", **query: object) -> str:
     """Of a map, and what of it; values that are None are left out of the query."""
-    # Quoted whole, so that a name with a slash is refused by the service, not taken for a path.
-    # Dots too: `..` would be resolved on the way.
-    path = "/maps/" + quote(name, safe="").replace(".", "%2E") + way
+    path = f"/maps/{_quoted(name)}{way}"
     given = {key: value for key, value in query.items() if value is not None}
     return f"{path}?{urlencode(given)}" if given else path
+
+
+def _quoted(name: str) -> str:
+    """One part of a path."""
+    # Quoted whole, so that a name with a slash is refused by the service, not taken for a path.
+    # Dots too: `..` would be resolved on the way.
+    return quote(name, safe="").replace(".", "%2E")
 
 
 def _conditions(if_match: str | None) -> dict[str, str]:

@@ -13,12 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
-from placecell_client.calls import Call
+from placecell_client.calls import ALIGNMENT_SECONDS, Call
 from placecell_client.errors import ServiceError
 from placecell_client.localisation import Localisations, Motion
+from placecell_client.map_alignment import MapAlignment
 from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.map_delta import Delta
 from placecell_client.map_file import CompactMap
+from placecell_client.map_merge import Merge
 from placecell_client.results import (
     Description,
     Info,
@@ -41,12 +43,13 @@ class Client(Caller):
     `httpx.TransportError` when it cannot be reached or does not answer in time. Before that, what
     may pass by itself is tried again: unless the call may have been carried out, and to do so again
     could undo what others wrote since. An `if_match` that is an ETag makes every write safe to
-    repeat; without it `restore_map`, `age_map`, `compact_map`, `delete_map`, and what is written
-    with `if_match="*"`, are not repeated then.
+    repeat; without it `restore_map`, `age_map`, `merge_maps`, `compact_map`, `delete_map`, and what
+    is written with `if_match="*"`, are not repeated then.
 
     Args:
         base_url: such as `http://127.0.0.1:8000`.
-        timeout: seconds for a whole call, all attempts and the waits between them.
+        timeout: seconds for a whole call, all attempts and the waits between them; but
+            `align_maps` and `merge_maps` have their own.
         transport: instead of the network, for tests.
         encoding: of points and descriptors on the wire; `json` is larger and slower, and readable.
         key: that the service asks for, sent as `Authorization: Bearer`.
@@ -306,6 +309,56 @@ class Client(Caller):
             if_match: ETag of the version to do it to.
         """
         return self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
+
+    def align_maps(
+        self,
+        name: str,
+        other: str,
+        *,
+        motion: Motion = "yaw",
+        pairs: bool = False,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> MapAlignment:
+        """How another map lies to a map: the transform between their frames, or why none is told.
+
+        Nothing is written. The service may need minutes for large maps.
+
+        Args:
+            name: of the map in whose frame the answer is.
+            other: name of the map that is laid on it.
+            motion: `yaw`, for both frames are level, or `se3`.
+            pairs: tell the segments that agree, too.
+            timeout: seconds, in place of the client's.
+        """
+        return self._send(self._calls.align_maps(name, other, motion, pairs, timeout))
+
+    def merge_maps(
+        self,
+        site: str,
+        maps: Sequence[str],
+        *,
+        dry_run: bool = False,
+        deduplicate: bool = True,
+        motion: Motion = "yaw",
+        if_match: str | None = None,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> Merge:
+        """Lay maps on each other, and put their segments into a site map; it is made if need be.
+
+        Maps that cannot be laid on the site are left out, which the result tells; if all are, that
+        is a ServiceError with status 409, and nothing is written. The service may need minutes.
+
+        Args:
+            site: name of the map to put them into; a new one takes the frame of the first map.
+            maps: names. Those that have grown since can be merged again.
+            dry_run: only tell what would be done.
+            deduplicate: leave out what another map's segment shows already.
+            motion: `yaw`, for all frames are level, or `se3`.
+            if_match: ETag of the site's version to do it to.
+            timeout: seconds, in place of the client's.
+        """
+        call = self._calls.merge_maps(site, maps, dry_run, deduplicate, motion, if_match, timeout)
+        return self._send(call)
 
     def compact_map(self, name: str, keep: int = 1) -> int:
         """Let go of all but the newest versions; the sequence of the oldest that is kept."""

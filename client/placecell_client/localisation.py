@@ -14,7 +14,7 @@ Motion = Literal["yaw", "se3"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """A rigid transform from the robot's frame, that of the request, to a map's.
+    """A rigid transform to a map's frame: from the robot's, that of the request, or another map's.
 
     Attributes:
         translation: float64 (3,), metres.
@@ -40,7 +40,7 @@ class Pose:
         return matrix
 
     def apply(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Points (n, 3) of the robot's frame, or one (3,), in the map's."""
+        """Points (n, 3) of the robot's or the other map's frame, or one (3,), in the map's."""
         matrix = self.matrix
         return np.asarray(np.asarray(points) @ matrix[:3, :3].T + matrix[:3, 3])
 
@@ -150,7 +150,7 @@ def localisation_of(item: dict[str, Any]) -> Localisation:
     return Localisation(
         map=item["map"],
         frame=item["frame"],
-        pose=None if item["pose"] is None else _pose(item["pose"]),
+        pose=None if item["pose"] is None else pose_of(item["pose"]),
         reason=item["reason"],
         detail=item["detail"],
         probability=item["probability"],
@@ -162,13 +162,14 @@ def localisation_of(item: dict[str, Any]) -> Localisation:
             np.array([each["residual"] for each in inliers], dtype=np.float64),
         ),
         others=tuple(
-            Hypothesis(_pose(each["pose"]), each["score"], each["inliers"])
+            Hypothesis(pose_of(each["pose"]), each["score"], each["inliers"])
             for each in item["others"]
         ),
     )
 
 
-def _pose(item: dict[str, Any]) -> Pose:
+def pose_of(item: dict[str, Any]) -> Pose:
+    """From a pose of the service's answer."""
     return Pose(
         np.array(item["translation"], dtype=np.float64).reshape(3),
         np.array(item["rotation"], dtype=np.float64).reshape(4),

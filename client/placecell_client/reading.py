@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 from placecell_client import map_delta, map_file
 from placecell_client.answer import Answer
 from placecell_client.localisation import Localisations, localisation_of
+from placecell_client.map_alignment import MapAlignment, alignment_of
 from placecell_client.map_copy import ChangesPage
 from placecell_client.map_delta import decode_delta
+from placecell_client.map_merge import Merge, merge_of
 from placecell_client.results import (
     Candidate,
     Description,
@@ -161,6 +163,16 @@ def ids(answer: Answer) -> NDArray[np.uint32]:
 def versions(answer: Answer) -> tuple[MapVersion, ...]:
     """Of `GET /maps/{map}/versions`."""
     return tuple(MapVersion.of(item) for item in _content(answer)["versions"])
+
+
+def alignment(answer: Answer) -> MapAlignment:
+    """Of `POST /maps/{map}/align/{other}`."""
+    return alignment_of(_content(answer))
+
+
+def merge(answer: Answer) -> Merge:
+    """Of `POST /maps/{map}/merge`."""
+    return merge_of(_content(answer))
 
 
 def oldest(answer: Answer) -> int:

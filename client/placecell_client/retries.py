@@ -37,7 +37,8 @@ class Retries:
         first_wait: seconds.
         longest_wait: seconds.
         longest_attempt: seconds after which an attempt is given up and made again; unless said,
-            each has all that is left of the call's timeout. For links that go silent.
+            each has all that is left of the call's timeout. For links that go silent. Not of
+            `align_maps` and `merge_maps`, which are silent for minutes.
     """
 
     attempts: int = 5

@@ -1,7 +1,6 @@
 """`placecell maps` against a running service, as a person uses it."""
 
 import socket
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -10,49 +9,11 @@ import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta, originated
 from placecell_client.map_edit import apply, take
-from typer.testing import CliRunner, Result
+from typer.testing import CliRunner
 
-from bench.map_content import map_of
 from bench.server import running_service
 from cli import app
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
-
-
-@pytest.fixture(scope="module")
-def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("data")
-
-
-@pytest.fixture(scope="module")
-def address(data_dir: Path) -> Iterator[str]:
-    with running_service(data_dir) as address:
-        yield address
-
-
-@pytest.fixture
-def yard() -> CompactMap:
-    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
-    codes = np.random.default_rng(0).integers(-128, 128, (300, manifest.code_bytes))
-    return map_of(codes.astype(np.int8), manifest, "ann")
-
-
-def run(*words: object) -> Result:
-    result: Result = CliRunner().invoke(app, ["maps", *map(str, words)])
-    return result
-
-
-def good(*words: object) -> str:
-    result = run(*words)
-    assert result.exit_code == 0, result.output
-    return result.output
-
-
-def bad(*words: object) -> str:
-    result = run(*words)
-    assert result.exit_code == 1
-    assert "Traceback" not in result.output
-    return result.output
+from tests.cli.maps_command import bad, good
 
 
 def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch) -> None:  # type: ignore[no-untyped-def]

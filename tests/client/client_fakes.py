@@ -61,6 +61,45 @@ PLACE = {
 }  # fmt: skip
 LOCALISED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
 
+ALIGNED = {
+    "map": "yard", "etag": "e-3", "frame": "f", "other": "hall", "other_etag": "h-1",
+    "other_frame": "g", "aligned": True, "reason": None, "detail": "", "pose": POSE,
+    "covariance": [[0.01, 0, 0, 0]] * 4, "overlap": {"of_map": 0.5, "of_other": 0.75},
+    "score": 40.5, "agreement": 0.625, "pairs": 2,
+    "inliers": [
+        {"id": 9, "other_id": 4, "residual": 0.25}, {"id": 7, "other_id": 5, "residual": 0.125},
+    ],
+    "others": [{"pose": POSE, "score": 2.5, "agreement": 0.0625, "pairs": 13}], "later": "field",
+}  # fmt: skip
+LAID = {
+    name: ALIGNED[name]
+    for name in (
+        "map", "other", "aligned", "reason", "detail", "pose", "overlap", "score", "agreement",
+        "pairs",
+    )
+}  # fmt: skip
+PART = {
+    "map": "yard", "etag": "e-3", "merged": True, "pose": POSE, "added": 12, "known": 5,
+    "repeats": 3, "removed": 1, "later": "field",
+}  # fmt: skip
+MERGED = {
+    "map": "site", "frame": "f", "dry_run": False, "sequence": 4, "etag": "s-4", "previous": 3,
+    "segments": 32, "changed": 14, "removed": 1,
+    "parts": [PART, PART | {"map": "shed", "merged": False, "pose": None, "added": 0}],
+    "alignments": [
+        LAID | {"map": "site", "other": "yard", "rejected": False, "proven": True},
+        LAID | {
+            "map": "site", "other": "shed", "aligned": False, "reason": "inconsistent",
+            "detail": "Little agrees.", "pose": None, "overlap": None, "rejected": False,
+            "proven": False,
+        },
+    ],
+    "loops": [
+        {"maps": ["site", "yard", "hall"], "metres": 0.5, "degrees": 0.25, "closes": True}
+    ],
+    "later": "field",
+}  # fmt: skip
+
 
 def packed(content: object) -> httpx.Response:
     headers = {"Content-Type": MSGPACK}

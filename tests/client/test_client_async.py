@@ -14,16 +14,20 @@ from placecell_client import (
     Delta,
     Description,
     Localisations,
+    MapAlignment,
+    Merge,
     encode,
     encode_delta,
 )
 
 from tests.client.client_fakes import (
+    ALIGNED,
     DESCRIBED,
     INFO,
     LISTED,
     LOCALISED,
     MATCHED,
+    MERGED,
     SUMMARY,
     VERSION,
     WRITTEN,
@@ -58,7 +62,7 @@ def test_both_have_the_same_methods() -> None:
     assert set(public(Client)) == {
         "close", "info", "describe", "match", "localize", "maps", "put_map", "edit_map",
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
-        "age_map", "compact_map", "delete_map",
+        "age_map", "align_maps", "merge_maps", "compact_map", "delete_map",
     }  # fmt: skip
 
 
@@ -80,6 +84,8 @@ ANSWERS = {
     ("POST", "/maps/yard/age"): httpx.Response(200, json=WRITTEN),
     ("POST", "/maps/yard/ids"): httpx.Response(200, json={"first": 7, "count": 2}),
     ("POST", "/maps/yard/compact"): httpx.Response(200, json={"oldest": 3}),
+    ("POST", "/maps/yard/align/hall"): httpx.Response(200, json=ALIGNED),
+    ("POST", "/maps/site/merge"): httpx.Response(200, json=MERGED),
     ("GET", "/maps/yard/versions"): httpx.Response(200, json={"versions": [VERSION]}),
     ("GET", "/maps/yard/changes"): httpx.Response(
         200,
@@ -104,6 +110,11 @@ def plain(result: Any) -> Any:
         (found,) = result.maps
         assert found.pose is not None
         return [found.map, found.pose.matrix.tolist(), found.inliers.ids.tolist(), result.skipped]
+    if isinstance(result, MapAlignment):
+        assert result.pose is not None
+        return [result.map, result.pose.matrix.tolist(), result.inliers.ids.tolist(), result.pairs]
+    if isinstance(result, Merge):
+        return [result.etag, [part.map for part in result.parts], result.loops]
     return encode(result) if hasattr(result, "frame_times") else result
 
 
@@ -136,6 +147,8 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
             client.edit_map("yard", Delta(MAP, np.zeros(0, np.uint32)), robot="ann", create=True),
             client.restore_map("yard", 3, if_match="e-3"),
             client.age_map("yard", 1.5, dry_run=True),
+            client.align_maps("yard", "hall", motion="se3", pairs=True),
+            client.merge_maps("site", ["yard", "shed"], deduplicate=False, if_match="s-3"),
             client.reserve_ids("yard", 2).tolist(),
             client.compact_map("yard", keep=2),
             client.versions("yard"),
@@ -144,7 +157,7 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
         ]
         told.append(([plain(result) for result in results], seen))
     assert told[0] == told[1]
-    assert len(told[0][1]) == 19
+    assert len(told[0][1]) == 21
 
 
 def test_maps_are_compressed_if_asked() -> None:

@@ -268,6 +268,8 @@ WRITTEN_OVER: dict[str, Callable[[Any], Any]] = {
     "put": lambda client: client.put_map("yard", random_map(), if_match="*"),
     "edit": lambda client: client.edit_map("yard", EDIT, if_match="*"),
     "age": lambda client: client.age_map("yard", 1.5),
+    "merge": lambda client: client.merge_maps("site", ["yard"]),
+    "merge into any": lambda client: client.merge_maps("site", ["yard"], if_match="*"),
     "compact": lambda client: client.compact_map("yard"),
     "delete": lambda client: client.delete_map("yard"),
 }
@@ -282,6 +284,9 @@ REPEATED: dict[str, Callable[[Any], Any]] = {
     "would age": lambda client: client.age_map("yard", 1.5, dry_run=True),
     "delete": lambda client: client.delete_map("yard", "e-3"),
     "ids": lambda client: client.reserve_ids("yard", 3),
+    "align": lambda client: client.align_maps("yard", "hall"),
+    "merge": lambda client: client.merge_maps("site", ["yard"], if_match="e-3"),
+    "would merge": lambda client: client.merge_maps("site", ["yard"], dry_run=True),
 }
 UNKNOWN: list[Outcome] = [
     busy(502), busy(503), busy(504), httpx.ReadTimeout("silent"), httpx.ReadError("reset"),

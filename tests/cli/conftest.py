@@ -1,0 +1,31 @@
+"""A running service, and a map for it."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from placecell_client import CompactMap
+
+from bench.map_content import map_of
+from bench.server import running_service
+from segments.manifest import Manifest
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def address(data_dir: Path) -> Iterator[str]:
+    with running_service(data_dir) as address:
+        yield address
+
+
+@pytest.fixture
+def yard() -> CompactMap:
+    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    codes = np.random.default_rng(0).integers(-128, 128, (300, manifest.code_bytes))
+    return map_of(codes.astype(np.int8), manifest, "ann")
