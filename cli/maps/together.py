@@ -100,7 +100,7 @@ def print_alignment(found: "MapAlignment") -> None:
         table.add_row("aligned", told(found.pose), *counts)
     for way in found.others:
         counts = str(way.pairs), f"{way.agreement:.0%}", f"{way.score:.1f}"
-        table.add_row("not so", told(way.pose), *counts)
+        table.add_row("another way", told(way.pose), *counts)
     if table.row_count:
         Console().print(table)
     if found.overlap is not None:

@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, moved
+from placecell_client.map_alignment import alignment_of
 from placecell_client.map_edit import take
 from placecell_client.map_merge import merge_of
 
-from cli.maps.together import is_any_laid, print_merge
+from cli.maps.together import is_any_laid, print_alignment, print_merge
 from tests.cli.maps_command import bad, good, run
-from tests.client.client_fakes import LAID, MERGED, PART
+from tests.client.client_fakes import ALIGNED, LAID, MERGED, PART
 
 QUARTER = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
 """A turn to the left."""
@@ -97,6 +98,19 @@ def test_what_cannot_be_merged_is_told() -> None:
     assert "twice" in bad("merge", "site", "yard", "yard")
     assert "two maps" in bad("merge", "site", "yard")
     assert run("merge", "site").exit_code == 2
+
+
+@pytest.mark.parametrize("is_aligned", [True, False])
+def test_other_ways_to_lay_maps_are_told(
+    capsys: pytest.CaptureFixture[str], is_aligned: bool
+) -> None:
+    nothing = {"pose": None, "overlap": None, "covariance": None}
+    print_alignment(alignment_of(ALIGNED | ({} if is_aligned else nothing)))
+    told = capsys.readouterr().out
+    assert "another way" in told
+    assert "2.5" in told
+    assert ("40.5" in told) is is_aligned
+    assert ("both were in 50% of the places of yard, in 75% of those of hall" in told) is is_aligned
 
 
 def test_what_loops_say_is_told(capsys: pytest.CaptureFixture[str]) -> None:
