@@ -26,14 +26,14 @@ def draw_site(
     from matplotlib import pyplot as plt
 
     figure, axes = plt.subplots(figsize=(11, 8), layout="constrained")
-    axes.scatter(centroids[:, 0], centroids[:, 1], s=4, color=MAPPER, alpha=0.35, linewidths=0)
-    axes.plot([], [], "o", color=MAPPER, markersize=4, label=f"segments of {mapper.name}")
+    axes.scatter(centroids[:, 0], centroids[:, 1], s=14, color="0.6", linewidths=0)
+    axes.plot([], [], "o", color="0.6", markersize=4, label=f"segments of {mapper.name}")
     way = mapper.drive.poses[np.unique(np.concatenate([r.frames for r in mapper.recordings]))]
     axes.plot(*way[:, :2, 3].T, ".", color=MAPPER, markersize=3, label=f"way of {mapper.name}")
     if meeting.laid is not None:
         seen = np.concatenate([each.segments.centroids() for each in asker.recordings])
         seen = meeting.laid.apply(seen)
-        axes.scatter(seen[:, 0], seen[:, 1], s=4, color=ASKER, alpha=0.12, linewidths=0)
+        axes.scatter(seen[:, 0], seen[:, 1], s=3, color=ASKER, linewidths=0)
         label = f"segments of {asker.name}, laid on them"
         axes.plot([], [], "o", color=ASKER, markersize=4, label=label)
     told = [each for each in meeting.told if each.place is not None]
