@@ -53,4 +53,5 @@ class AlignmentParameters:
     """Of an alignment. In two towns, one of identical houses alone, right ones had 0.14 and 20 or
     more; wrong ones had at most 0.09 or, where they had more than 10 of score, 0.07."""
     ambiguous: float = 0.8
-    """Another way to lay the maps with this share of the best one's score is as good an answer."""
+    """Another way to lay the maps with this share of the best one's score or agreement is as good
+    an answer."""
