@@ -4,7 +4,7 @@ import numpy as np
 from placecell_client import CompactMap
 
 from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from segments.types import Float64, Int64
+from segments.types import Float64, Int8, Int64
 from service.map_index import MapIndex, index_of
 from service.models import Model
 from service.problems import Problem
@@ -12,6 +12,9 @@ from service.stored_map import StoredMap
 
 K = 25
 """Candidates of each view of a submap's thing."""
+
+BLOCK = 1 << 16
+"""Pairs that are compared at once: their descriptors are much larger than what is told of them."""
 
 
 class MapLooks:
@@ -38,7 +41,11 @@ class MapLooks:
         By the model's classifier; without one, a normal distribution of distances whose deviation
         is the distance of a match.
         """
-        one, other = self._a[a], self._b[b]
+        blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
+        told = [self._likely(self._a[a[block]], self._b[b[block]]) for block in blocks]
+        return np.concatenate([np.zeros(0), *told])
+
+    def _likely(self, one: Int8, other: Int8) -> Float64:
         if self._model.classifier is not None:
             return self._model.classifier.probabilities(other, one)
         quantiser = self._model.manifest.quantiser

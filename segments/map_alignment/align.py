@@ -16,6 +16,7 @@ from segments.map_alignment.map_view import Looks, MapView
 from segments.map_alignment.overlap import Overlap, overlap_of
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.map_alignment.submaps import Submap, candidates_of, cut
+from segments.types import Float64
 
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
@@ -62,6 +63,10 @@ def align(
         overlap_of(a, b, common_pose(members, parameters), looks, parameters)
         for members in consensus(guesses, parameters)
     ]
+    overlaps += [
+        overlap_of(a, b, turned(best.pose, b.stands[best.rows_b]), looks, parameters)
+        for best in distinct(overlaps, parameters)[:1]
+    ]
     return judge(overlaps, parameters)
 
 
@@ -80,6 +85,19 @@ def guess(
     return guesses
 
 
+def turned(pose: Pose, stands: Float64) -> Pose:
+    """The map turned around on the spot, to hold against how it was laid.
+
+    Where much lies densely and looks alike, what agrees does so by chance, and would turned, too.
+
+    Args:
+        stands: float64 (n, 3), metres, from where the robot saw what agrees.
+    """
+    spot = stands.mean(axis=0)
+    there = pose.after(Pose.of_yaw(np.pi, np.zeros(3)))
+    return Pose(there.rotation, pose.apply(spot) - there.rotation @ spot)
+
+
 def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAlignment:
     """Decide whether the best overlap is good enough, and the only one that is."""
     ranked = distinct(overlaps, parameters)
@@ -96,9 +114,12 @@ def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAl
             f"what should; {parameters.least_agreement:.0%} and a score of "
             f"{parameters.least_score:.0f} are needed, not {best.score:.0f}."
         )
-    elif second is not None and second.score >= parameters.ambiguous * best.score:
+    elif second is not None and is_as_good(second, best, parameters):
         reason = "ambiguous"
-        detail = f"Another way to lay them has {second.score / best.score:.0%} of the best's score."
+        detail = (
+            f"Another way to lay them has {second.score / best.score:.0%} of the best's score, and "
+            f"{second.agreement / best.agreement:.0%} of its agreement."
+        )
     elif not degrees <= parameters.local.undetermined_yaw:
         reason = "inconsistent"
         detail = f"The {len(best)} pairs that agree do not tell the direction."
@@ -109,6 +130,17 @@ def is_good(overlap: Overlap, parameters: AlignmentParameters) -> bool:
     """Whether so much agrees, of so much that should, as never does by chance."""
     return (
         overlap.agreement >= parameters.least_agreement and overlap.score >= parameters.least_score
+    )
+
+
+def is_as_good(second: Overlap, best: Overlap, parameters: AlignmentParameters) -> bool:
+    """Whether another way to lay the maps may as well be the right one.
+
+    By all that agrees, or by its share of what should: copies of a street lie on each other with
+    more or less of an overlap, and it is not the largest that is right.
+    """
+    return second.score >= parameters.ambiguous * best.score or (
+        is_good(second, parameters) and second.agreement >= parameters.ambiguous * best.agreement
     )
 
 

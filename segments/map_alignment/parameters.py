@@ -21,6 +21,8 @@ class AlignmentParameters:
     """At most, evenly over the map."""
     views: int = 4
     """Of a thing, that candidates are looked for of."""
+    things: int = 2_000
+    """Of a submap, that candidates are looked for of, at most, evenly over it."""
 
     # Consensus.
     apart: float = 3.0
@@ -39,7 +41,9 @@ class AlignmentParameters:
     alike: float = 0.2
     """Probability that two segments are the same, at least, for them to agree."""
     rows: int = 20_000
-    """Segments of each map that are compared, at most, evenly over the overlap."""
+    """Segments of each map that are compared, and of a submap, at most, evenly over it."""
+    pairs: int = 4_000_000
+    """Of segments that lie near each other and are compared, at most, of some of the segments."""
 
     # Judgement.
     least_pairs: int = 12
@@ -49,4 +53,5 @@ class AlignmentParameters:
     """Of an alignment. In two towns, one of identical houses alone, right ones had 0.14 and 20 or
     more; wrong ones had at most 0.09 or, where they had more than 10 of score, 0.07."""
     ambiguous: float = 0.8
-    """Another way to lay the maps with this share of the best one's score is as good an answer."""
+    """Another way to lay the maps with this share of the best one's score or agreement is as good
+    an answer."""

@@ -31,17 +31,21 @@ def cut(view: MapView, parameters: AlignmentParameters) -> list[Submap]:
     chosen = stands[evenly(np.arange(len(stands)), parameters.submaps)]
     if not len(chosen):
         return []
-    about = cKDTree(view.stands).query_ball_point(chosen, parameters.stand, return_sorted=True)
-    return [
-        Submap(view.centroids[rows].mean(axis=0), np.array(rows, dtype=np.int64)) for rows in about
-    ]
+    tree = cKDTree(view.stands)
+    submaps = []
+    for stand in chosen:
+        about = tree.query_ball_point(stand, parameters.stand, return_sorted=True)
+        rows = evenly(np.array(about, dtype=np.int64), parameters.rows)
+        submaps.append(Submap(view.centroids[rows].mean(axis=0), rows))
+    return submaps
 
 
 def spread(points: Float64, spacing: float) -> Int64:
     """Points that are no closer to each other than the spacing, from one end on, int64 (m,)."""
     numbers = number_places(np.arange(len(points)), points, spacing)
-    _, first = np.unique(numbers, return_index=True)
-    return first.astype(np.int64)
+    # The first point of each number, in the order of `number_places`, is the one that began it.
+    order = np.lexsort((*points.T[::-1], numbers))
+    return order[np.flatnonzero(np.diff(numbers[order], prepend=-1))]
 
 
 def evenly(rows: Int64, most: int) -> Int64:
@@ -62,6 +66,9 @@ def candidates_of(
     numbers = number_places(rows, view.centroids[rows], parameters.local.same_place)
     order = np.argsort(numbers, kind="stable")
     _, starts, counts = np.unique(numbers[order], return_index=True, return_counts=True)
+    means = np.add.reduceat(view.centroids[rows][order], starts) / counts[:, None]
+    asking = evenly(np.arange(len(starts)), parameters.things)
+    starts, counts, means = starts[asking], counts[asking], means[asking]
     # Some of the views of each, spread over them; of few views one stands more than once.
     shares = np.arange(parameters.views) / parameters.views
     places = starts[:, None] + np.floor(shares * counts[:, None]).astype(np.int64)
@@ -71,7 +78,6 @@ def candidates_of(
     found, distances, probabilities = looks.nearest(asked.ravel())
     probabilities = np.where(repeats.ravel()[:, None], 0.0, probabilities)
     things = len(starts)
-    means = np.add.reduceat(view.centroids[rows][order], starts) / counts[:, None]
     return Candidates(
         means,
         found.reshape(things, -1),
