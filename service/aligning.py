@@ -1,5 +1,7 @@
 """From two stored maps to how they lie to each other."""
 
+from collections.abc import Callable
+
 import numpy as np
 from placecell_client import CompactMap
 
@@ -17,17 +19,30 @@ BLOCK = 1 << 16
 """Pairs that are compared at once: their descriptors are much larger than what is told of them."""
 
 
+Check = Callable[[], None]
+"""Raises an exception when nobody waits any longer; is asked for each part of a map."""
+
+
 class MapLooks:
     """`Looks` of two maps, a and b, that one model made."""
 
-    def __init__(self, model: Model, a: CompactMap, b: CompactMap, index: MapIndex) -> None:
+    def __init__(
+        self,
+        model: Model,
+        a: CompactMap,
+        b: CompactMap,
+        index: MapIndex,
+        check: Check = lambda: None,
+    ) -> None:
         """With an index over a."""
         self._model = model
         self._a, self._b = a.codes, b.codes
         self._index = index
+        self._check = check
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
         """Of each row of b the rows of a that look most like it; how far, and how likely."""
+        self._check()
         distinct, inverse = np.unique(rows, return_inverse=True)
         steps, found = self._index.search(self._b[distinct], K)
         asked = np.repeat(distinct, found.shape[1])
@@ -39,7 +54,7 @@ class MapLooks:
         """How likely each row of a and row of b are the same.
 
         By the model's classifier; without one, a normal distribution of distances whose deviation
-        is the distance of a match.
+        is the distance of a match, a step of the quantiser at least.
         """
         blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
         told = [self._likely(self._a[a[block]], self._b[b[block]]) for block in blocks]
@@ -51,18 +66,23 @@ class MapLooks:
         quantiser = self._model.manifest.quantiser
         levels = quantiser.levels(other).astype(np.float64) - quantiser.levels(one)
         distances = quantiser.step * np.linalg.norm(levels, axis=1)
-        return np.asarray(np.exp(-0.5 * (distances / self._model.manifest.pair_threshold) ** 2))
+        deviation = max(self._model.manifest.pair_threshold, quantiser.step)
+        return np.asarray(np.exp(-0.5 * (distances / deviation) ** 2))
 
 
 def align_maps(
-    a: StoredMap, b: StoredMap, model: Model, parameters: AlignmentParameters
+    a: StoredMap,
+    b: StoredMap,
+    model: Model,
+    parameters: AlignmentParameters,
+    check: Check = lambda: None,
 ) -> tuple[MapAlignment, CompactMap, CompactMap]:
     """How b lies to a; and the contents of both, whose rows it names."""
     one, other = a.layers.content(), b.layers.content()
     # The base's index is there already; segments written since are in none.
     is_base = a.index is not None and one is a.layers.base
     index = a.index.base if is_base and a.index else index_of(one.codes, model.manifest.quantiser)
-    looks = MapLooks(model, one, other, index)
+    looks = MapLooks(model, one, other, index, check)
     return align(view_of(one), view_of(other), looks, parameters), one, other
 
 

@@ -1,16 +1,16 @@
 """Maps put into a site, for one request: laid on each other, joined, and written."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from placecell_client import MapFileError
 
 from segments.map_alignment import AlignmentParameters
-from service.aligning import check_same_model
+from service.aligning import Check, check_same_model
 from service.living import SameView
 from service.merging import Plan, plan_merge
 from service.problems import Problem
-from service.site import Part, Share, join, site_of
+from service.site import Part, Share, content_of, join, laid_before, site_of
 from service.stored_map import StoredMap
 from service.versions import commits_of
 from service.writer import Writer, Written, leading_to
@@ -51,12 +51,14 @@ class Merger:
         parameters: of the alignments.
         deduplicate: leave out what another map's segment shows already.
         dry_run: only tell what would be done.
+        check: raises an exception when nobody waits any longer.
     """
 
     writer: Writer
     parameters: AlignmentParameters
     deduplicate: bool
     dry_run: bool
+    check: Check
 
     def merge(self, name: str, names: Sequence[str]) -> Merged:
         """Merge stored maps into a site, which is made if there is none.
@@ -75,7 +77,9 @@ class Merger:
         for each in laid[1:]:
             check_same_model(laid[0], each)
         model = self.writer.models.named(laid[0].model_id)
-        plan = plan_merge(laid, model, self.parameters)
+        plan = plan_merge(laid, model, self.parameters, self.check)
+        if site is not None and laid[0] is site:
+            plan = self._as_before(plan)
         joining = [
             number for number, each in enumerate(laid) if number in plan.poses and each is not site
         ]
@@ -86,8 +90,21 @@ class Merger:
                 f"No map of {', '.join(names)} can be laid on {laid[0].name!r}; nothing was "
                 "changed. With dry_run the answer tells why.",
             )
+        self.check()
         with maps.writing(name):
             return self._write(name, site, plan, joining)
+
+    def _as_before(self, plan: Plan) -> Plan:
+        """Maps that are part of the site already are laid as they were, so that it does not grow by
+        what is a little elsewhere each time.
+        """
+        site = plan.maps[0].layers.content()
+        poses = dict(plan.poses)
+        for number, stored in enumerate(plan.maps[1:], start=1):
+            pose = laid_before(site, content_of(stored), self.parameters)
+            if pose is not None:
+                poses[number] = pose
+        return replace(plan, poses=poses)
 
     def _write(
         self, name: str, before: StoredMap | None, plan: Plan, joining: Sequence[int]
@@ -96,7 +113,7 @@ class Merger:
         stored = maps.find(name)
         self._check_lies_still(name, before, stored)
         parts = [
-            Part(plan.maps[number].name, plan.maps[number].layers.content(), plan.poses[number])
+            Part(plan.maps[number].name, content_of(plan.maps[number]), plan.poses[number])
             for number in joining
         ]
         first_id = 0
@@ -105,7 +122,9 @@ class Merger:
             first_id = stored.head.next_id if self.dry_run else writer.reserve(name, count)
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
-        site = stored.layers.content() if stored is not None else site_of(plan.maps[0])
+        # One without segments is begun anew, in the first map's frame.
+        is_begun = stored is not None and len(stored) > 0
+        site = stored.layers.content() if stored and is_begun else site_of(plan.maps[0])
         try:
             content, found = join(site, parts, first_id, same)
         except MapFileError as error:
@@ -132,12 +151,11 @@ class Merger:
         if before is stored:
             return
         if before is not None and stored is not None and before.head.uid == stored.head.uid:
-            since = [
-                commit.note.operation
-                for commit in commits_of(self.writer.maps.store, stored)
-                if commit.sequence > before.head.sequence
-            ]
-            if KEEPS_FRAME.issuperset(since):
+            since = before.head.sequence + 1
+            kept = commits_of(self.writer.maps.store, stored)
+            done = {each.note.operation for each in kept if each.sequence >= since}
+            # One without segments had no frame yet, and of versions let go of nothing is known.
+            if len(before) and stored.head.oldest <= since and done <= KEEPS_FRAME:
                 return
         raise Problem(
             409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."

@@ -13,7 +13,7 @@ from segments.map_alignment import (
     poses_from,
 )
 from segments.map_alignment.loops import Checked
-from service.aligning import align_maps
+from service.aligning import Check, align_maps
 from service.models import Model
 from service.stored_map import StoredMap
 
@@ -53,10 +53,12 @@ class Plan:
     poses: dict[int, Pose]
 
 
-def plan_merge(maps: Sequence[StoredMap], model: Model, parameters: AlignmentParameters) -> Plan:
+def plan_merge(
+    maps: Sequence[StoredMap], model: Model, parameters: AlignmentParameters, check: Check
+) -> Plan:
     """Align each two, reject what loops rule out, and lay all that is connected on the first."""
     found = {
-        (one, other): align_maps(maps[one], maps[other], model, parameters)[0]
+        (one, other): align_maps(maps[one], maps[other], model, parameters, check)[0]
         for one, other in combinations(range(len(maps)), 2)
     }
     edges = [

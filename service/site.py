@@ -8,10 +8,15 @@ from placecell_client import CompactMap, Delta, moved, originated
 from placecell_client.map_edit import apply, empty, take, with_optional
 
 from segments.localisation import Pose
-from segments.types import Bool, UInt32
+from segments.localisation.registration import register
+from segments.map_alignment import AlignmentParameters
+from segments.types import Bool, Int64, UInt32
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, sighting
 from service.stored_map import StoredMap
+
+ROUNDED = 0.02
+"""Metres: two centroids that are the same but for their rounding, before a turn and after it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,7 +25,7 @@ class Part:
 
     Attributes:
         name: under which it is stored.
-        content: its segments.
+        content: its segments, each with where it comes from.
         pose: from its frame to the site's.
     """
 
@@ -52,6 +57,34 @@ def site_of(stored: StoredMap) -> CompactMap:
     return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
 
 
+def content_of(stored: StoredMap) -> CompactMap:
+    """The segments of a map that is to be merged, each with where it comes from."""
+    return originated(stored.layers.content(), stored.name)
+
+
+def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
+    """How a map lies in a site that it was merged into, from what it gave; None if that is unclear.
+
+    The stands tell it exactly, for they are moved without rounding.
+
+    Args:
+        part: with where its segments come from.
+    """
+    rows, places = shared(part, with_optional(site, ("source", "source_ids")))
+    if len(rows) < parameters.least_pairs:
+        return None
+    stands = part.frame_positions[part.frame_index[rows]]
+    there = site.frame_positions[site.frame_index[places]]
+    pose = register(stands, there, np.ones(len(rows)), parameters.local)
+    moved_by = np.concatenate(
+        [
+            pose.apply(stands) - there,
+            pose.apply(part.centroids[rows]) - site.centroids[places],
+        ]
+    )
+    return pose if np.abs(moved_by).max() <= ROUNDED else None
+
+
 def join(
     site: CompactMap, parts: Sequence[Part], first_id: int, same: SameView | None
 ) -> tuple[CompactMap, list[Share]]:
@@ -70,8 +103,7 @@ def join(
     """
     shares = []
     for part in parts:
-        laid = originated(part.content, part.name)
-        laid = moved(laid, part.pose.rotation, part.pose.translation, site.frame)
+        laid = moved(part.content, part.pose.rotation, part.pose.translation, site.frame)
         site = with_optional(site, ("source", "source_ids"))
         known = keys_in(laid, site)
         gone = ~keys_in(site, laid) & of_source(site, part.name)
@@ -79,7 +111,8 @@ def join(
         first_id += len(added)
         changed, repeats = added, 0
         if same is not None:
-            there = take(site, ~gone)
+            # Not with what the map itself gave before: it is another's that is left out.
+            there = take(site, ~gone & ~keys_in(site, laid))
             about = Layers.of(there).about(added.centroids, RADIUS)
             seen = sighting(added, about, same, itself=False)
             changed, repeats = seen.changed, seen.repeats
@@ -100,6 +133,19 @@ def keys_in(content: CompactMap, other: CompactMap) -> Bool:
         there = of_source(other, name)
         found[here] = np.isin(_source_ids(content)[here], _source_ids(other)[there])
     return found
+
+
+def shared(one: CompactMap, other: CompactMap) -> tuple[Int64, Int64]:
+    """Rows of what both have, by source and id there, int64 (m,) each."""
+    pairs = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
+    for name in set(one.sources) & set(other.sources):
+        here, there = (np.flatnonzero(of_source(each, name)) for each in (one, other))
+        _, rows, places = np.intersect1d(
+            _source_ids(one)[here], _source_ids(other)[there], return_indices=True
+        )
+        pairs.append((here[rows], there[places]))
+    rows, places = (np.concatenate(each) for each in zip(*pairs, strict=True))
+    return rows, places
 
 
 def of_source(content: CompactMap, name: str) -> Bool:

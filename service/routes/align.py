@@ -2,6 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
+from anyio.from_thread import check_cancelled
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import JSONResponse
 from pydantic import ValidationError
@@ -71,7 +72,7 @@ def _aligned(
     one: StoredMap, other: StoredMap, model: Model, motion: Literal["yaw", "se3"], pairs: bool
 ) -> AlignmentOut:
     parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
-    found, here, there = align_maps(one, other, model, parameters)
+    found, here, there = align_maps(one, other, model, parameters, check_cancelled)
     return alignment_of(found, one, other, (here.ids, there.ids) if pairs else None)
 
 
@@ -102,7 +103,7 @@ async def merge(
     async with state.alignments.admit(request, (JSON,), timing) as body:
         asked = _read(body.content, name, state, holder)
         parameters = AlignmentParameters(local=LocalisationParameters(model=asked.motion))
-        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run)
+        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check_cancelled)
         merged = await state.store(merger.merge, name, asked.maps)
     timing.lap("commit")
     if merged.written is not None:

@@ -22,7 +22,9 @@ PROBLEM = "application/problem+json"
 MSGPACK = "application/msgpack"
 
 
-def write_eigenvalue_model(models_dir: Path, name: str = "tiny", step: float = STEP) -> Manifest:
+def write_eigenvalue_model(
+    models_dir: Path, name: str = "tiny", step: float = STEP, pair_threshold: float = 0.0
+) -> Manifest:
     """A model that needs no network: seven standardised features."""
     manifest = Manifest(
         name=name,
@@ -32,6 +34,7 @@ def write_eigenvalue_model(models_dir: Path, name: str = "tiny", step: float = S
         quantiser=Quantiser(step),
         preprocessing=preprocessing_of(PROTOCOL_V1),
         standardisation={"mean": [0.3] * 7, "deviation": [0.2] * 7},
+        pair_threshold=pair_threshold,
     )
     (models_dir / name).mkdir(parents=True)
     manifest.save(models_dir / name)

@@ -9,7 +9,7 @@ from segments.localisation import Pose
 from segments.map_alignment import MapAlignment, MapView
 from segments.types import Float64, Int64
 
-DIMENSION = 6
+DIMENSION = 7
 MATCH = 0.6
 """Distance of descriptors at which two segments are the same with a probability of 0.6."""
 
@@ -82,7 +82,9 @@ def chance(distances: Float64) -> Float64:
     return np.asarray(np.exp(-0.5 * (distances / MATCH) ** 2))
 
 
-def street(random: np.random.Generator, length: float, gap: float = 3.0, begin: float = 0.0) -> Street:
+def street(
+    random: np.random.Generator, length: float, gap: float = 3.0, begin: float = 0.0
+) -> Street:
     """Things on both sides, one each so many metres, all of which look different."""
     count = int(length / gap)
     places = np.stack(

@@ -1,0 +1,112 @@
+"""Submaps, and what is looked for of them, against what is counted by hand."""
+
+from dataclasses import replace
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from segments.map_alignment import AlignmentParameters, MapView
+from segments.map_alignment.submaps import Submap, candidates_of, cut, evenly, spread
+from segments.types import Float64, Int64
+
+PARAMETERS = AlignmentParameters()
+
+
+def along_x(stands: list[float]) -> MapView:
+    """A segment 2 m to the left of each stand."""
+    places = np.array([[x, 0.0, 0.0] for x in stands]).reshape(-1, 3)
+    return MapView(places + (0.0, 2.0, 0.0), places)
+
+
+def test_a_submap_holds_what_was_seen_from_about_one_place() -> None:
+    submaps = cut(along_x([0, 4, 8, 10, 13, 18, 40]), PARAMETERS)
+    # A stand begins a submap unless it is less than 10 m from one that did.
+    assert [each.rows.tolist() for each in submaps] == [[0, 1, 2, 3], [0, 1, 2, 3, 4, 5], [6]]
+    np.testing.assert_allclose(submaps[0].middle, [5.5, 2.0, 0.0])
+    assert submaps[0].rows.dtype == np.int64
+
+
+def test_of_a_long_way_submaps_are_taken_evenly() -> None:
+    parameters = replace(PARAMETERS, submaps=3)
+    submaps = cut(along_x([10.0 * x for x in range(101)]), parameters)
+    np.testing.assert_allclose([each.middle[0] for each in submaps], [5, 500, 995])
+
+
+def test_of_no_stands_there_are_no_submaps() -> None:
+    assert cut(along_x([]), PARAMETERS) == []
+
+
+def test_a_robot_that_stood_still_gives_one_submap_of_so_many_rows() -> None:
+    (submap,) = cut(along_x([5.0] * 1_000), replace(PARAMETERS, rows=100))
+    assert len(submap.rows) == 100
+    assert submap.rows[[0, -1]].tolist() == [0, 999]
+    assert (np.diff(submap.rows) > 0).all()
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(0, 10_000), st.integers(0, 60))
+def test_what_is_spread_is_apart_and_near_all(seed: int, count: int) -> None:
+    random = np.random.default_rng(seed)
+    points = random.uniform(0, 30, (count, 3))
+    chosen = points[spread(points, 10.0)]
+    apart = np.linalg.norm(chosen[:, None] - chosen, axis=2)
+    assert (apart[~np.eye(len(chosen), dtype=bool)] >= 10.0).all()
+    if count:
+        assert (np.linalg.norm(points[:, None] - chosen, axis=2).min(axis=1) < 10.0).all()
+    # And does not depend on how the points are numbered.
+    shuffled = random.permutation(points)
+    np.testing.assert_array_equal(shuffled[spread(shuffled, 10.0)], chosen)
+
+
+def test_evenly_keeps_both_ends() -> None:
+    assert evenly(np.arange(10), 4).tolist() == [0, 3, 6, 9]
+    assert evenly(np.arange(3), 4).tolist() == [0, 1, 2]
+    assert evenly(np.arange(0), 4).tolist() == []
+
+
+class Listing:
+    """Looks that write down which rows are asked for, and tell rows 2 r and 2 r + 1 of each."""
+
+    def __init__(self) -> None:
+        self.asked: list[int] = []
+
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+        self.asked += rows.tolist()
+        found = np.stack([2 * rows, 2 * rows + 1], axis=1)
+        return found, np.full(found.shape, 0.5), np.full(found.shape, 0.9)
+
+    def likely(self, a: Int64, b: Int64) -> Float64:
+        raise NotImplementedError
+
+
+def test_views_of_a_thing_ask_together() -> None:
+    # Three things at x = 0, 10, 20, of six views, two, and one, 0.1 m apart.
+    x = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 10.0, 10.1, 20.0]
+    view, looks = along_x(x), Listing()
+    other = MapView(np.arange(60.0).reshape(20, 3), np.zeros((20, 3)))
+    submap = Submap(np.zeros(3), np.arange(9))
+    found = candidates_of(submap, view, other, looks, PARAMETERS)
+    # Four views of each: spread over the six; of two and of one some more than once,
+    assert looks.asked == [0, 1, 3, 4, 6, 6, 7, 7, 8, 8, 8, 8]
+    np.testing.assert_allclose(found.centroids[:, 0], [0.25, 10.05, 20.0])
+    assert found.rows.tolist()[0] == [0, 1, 2, 3, 6, 7, 8, 9]
+    np.testing.assert_array_equal(found.places, other.centroids[found.rows])
+    # which count once.
+    assert found.probabilities is not None
+    assert (found.probabilities > 0).tolist() == [
+        [True] * 8,
+        [True, True, False, False] * 2,
+        [True, True] + [False] * 6,
+    ]
+
+
+def test_of_many_things_some_ask() -> None:
+    looks = Listing()
+    other = MapView(np.zeros((200, 3)), np.zeros((200, 3)))
+    parameters = replace(PARAMETERS, things=10)
+    view = along_x([2.0 * x for x in range(100)])
+    found = candidates_of(Submap(np.zeros(3), np.arange(100)), view, other, looks, parameters)
+    assert len(found) == 10
+    assert found.centroids[[0, -1], 0].tolist() == [0.0, 198.0]
+    assert sorted(set(looks.asked)) == (found.centroids[:, 0] / 2).tolist()

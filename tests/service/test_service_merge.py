@@ -1,0 +1,554 @@
+"""`/maps/{map}/merge` over HTTP: a site of what robots mapped along one street."""
+
+import threading
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from placecell_client import CompactMap, Delta, decode, encode, encode_delta
+from placecell_client.map_edit import take
+
+from segments.localisation import Pose
+from segments.manifest import Manifest
+from segments.map_alignment import MapAlignment
+from service import merger as merger_module
+from service import merging
+from tests.service.service_builders import assert_problem, map_of, random_codes
+from tests.service.site_builders import driven, merge, models_that_judge, put, relative
+from tests.service.test_service_keys import made
+
+NONE = np.zeros(0, np.uint32)
+
+
+@pytest.fixture(scope="session")
+def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return models_that_judge(tmp_path_factory.mktemp("models"))
+
+
+@pytest.fixture
+def maps(manifest: Manifest) -> dict[str, CompactMap]:
+    """Three robots' maps, at different times, of stretches that overlap."""
+    stretches = {"east": (0, 150), "west": (60, 210), "north": (30, 180)}
+    return {
+        name: driven(manifest.model_id, name, *ends, time=1e9 + 1e6 * number)
+        for number, (name, ends) in enumerate(stretches.items())
+    }
+
+
+@pytest.fixture
+def stocked(service: Any, maps: dict[str, CompactMap]) -> Any:
+    for name, content in maps.items():
+        put(service, name, content)
+    return service
+
+
+def content(service: Any, name: str = "site") -> CompactMap:
+    response = service.get(f"/maps/{name}")
+    assert response.status_code == 200, response.text
+    return decode(response.content)
+
+
+def origins(site: CompactMap) -> list[tuple[str, int]]:
+    """Of each segment the map and the id there."""
+    assert site.source is not None
+    assert site.source_ids is not None
+    names = ("", *site.sources)
+    return [
+        (names[number], id_)
+        for number, id_ in zip(site.source.tolist(), site.source_ids.tolist(), strict=True)
+    ]
+
+
+def rows_from(site: CompactMap, name: str) -> np.ndarray:
+    return np.array([row for row, (source, _) in enumerate(origins(site)) if source == name])
+
+
+def edited(service: Any, name: str, changed: CompactMap, removed: Any = NONE) -> None:
+    edit = encode_delta(Delta(changed, np.asarray(removed, np.uint32)))
+    answer = service.post(f"/maps/{name}/segments", content=edit, headers={"If-Match": "*"})
+    assert answer.status_code == 200, answer.text
+
+
+def assert_lies_as_driven(site: CompactMap, maps: dict[str, CompactMap], frame: str) -> None:
+    """Every segment lies where its robot truly saw it, in the frame of one map."""
+    where = {
+        (name, id_): relative(frame, name).apply(place)
+        for name, each in maps.items()
+        for id_, place in zip(each.ids.tolist(), each.centroids, strict=True)
+    }
+    truth = np.array([where[key] for key in origins(site)])
+    assert np.linalg.norm(site.centroids - truth, axis=1).max() < 0.5
+
+
+def test_a_new_site_holds_all_in_the_first_map_s_frame(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    response = merge(stocked, "site", ["east", "west", "north"], deduplicate=False)
+    assert response.status_code == 201, response.text
+    told = response.json()
+    assert response.headers["etag"] == f'"{told["etag"]}"'
+    assert stocked.get("/maps/site").headers["etag"] == response.headers["etag"]
+    total = sum(map(len, maps.values()))
+    assert (told["map"], told["frame"], told["dry_run"]) == ("site", "east's odometry", False)
+    assert (told["sequence"], told["previous"]) == (1, None)
+    assert (told["segments"], told["changed"], told["removed"]) == (total, total, 0)
+    for name, part in zip(maps, told["parts"], strict=True):
+        assert part["map"] == name
+        assert part["merged"]
+        assert stocked.get(f"/maps/{name}").headers["etag"] == f'"{part["etag"]}"'
+        counts = [part[key] for key in ("added", "known", "repeats", "removed")]
+        assert counts == [len(maps[name]), 0, 0, 0]
+    pairs = {(each["map"], each["other"]): each for each in told["alignments"]}
+    assert list(pairs) == [("east", "west"), ("east", "north"), ("west", "north")]
+    for each in pairs.values():
+        assert each["aligned"]
+        assert each["proven"]
+        assert not each["rejected"]
+    (loop,) = told["loops"]
+    assert loop["closes"]
+    assert sorted(loop["maps"]) == sorted(maps)
+    assert loop["metres"] < 1.0
+
+    site = content(stocked)
+    assert site.frame == "east's odometry"
+    assert_lies_as_driven(site, maps, "east")
+    # Each with its map, its id there, its robot, its moment and its look.
+    assert sorted(origins(site)) == sorted(
+        (name, id_) for name, each in maps.items() for id_ in each.ids.tolist()
+    )
+    assert len(set(site.ids.tolist())) == total
+    for name, each in maps.items():
+        rows = rows_from(site, name)
+        assert site.source_ids is not None
+        theirs = np.searchsorted(each.ids, site.source_ids[rows])
+        assert {site.robots[number] for number in site.robot[rows]} == {f"{name} robot"}
+        np.testing.assert_array_equal(site.codes[rows], each.codes[theirs])
+        np.testing.assert_array_equal(
+            site.frame_times[site.frame_index[rows]], each.frame_times[each.frame_index[theirs]]
+        )
+        stands = relative("east", name).apply(each.frame_positions[each.frame_index[theirs]])
+        assert np.abs(site.frame_positions[site.frame_index[rows]] - stands).max() < 0.5
+    (summary,) = [each for each in stocked.get("/maps").json()["maps"] if each["name"] == "site"]
+    assert summary["sources"] == {name: len(each) for name, each in sorted(maps.items())}
+    assert summary["robots"] == {f"{name} robot": len(each) for name, each in sorted(maps.items())}
+    # The parts are as they were.
+    for name, each in maps.items():
+        assert stocked.get(f"/maps/{name}").content == encode(each)
+
+
+def test_what_another_map_shows_is_left_out(stocked: Any, maps: dict[str, CompactMap]) -> None:
+    whole = merge(stocked, "whole", ["east", "west"], deduplicate=False).json()
+    told = merge(stocked, "site", ["east", "west"]).json()
+    east, west = told["parts"]
+    # The first map is whole, though it shows many things more than once.
+    assert (east["added"], east["repeats"]) == (len(maps["east"]), 0)
+    assert west["added"] + west["repeats"] == len(maps["west"])
+    assert 0.2 < west["repeats"] / len(maps["west"]) < 0.8
+    assert told["segments"] == whole["segments"] - west["repeats"]
+    # What is left out lies where both were.
+    kept = {id_ for name, id_ in origins(content(stocked)) if name == "west"}
+    west_map = maps["west"]
+    out = west_map.centroids[~np.isin(west_map.ids, [*kept])]
+    along = relative("east", "west").apply(out)[:, 0]
+    assert along.max() < 180
+
+
+def test_what_two_robots_saw_at_the_same_time_is_the_same_all_the_same(
+    service: Any, manifest: Manifest
+) -> None:
+    for name, ends in {"east": (0, 150), "west": (0, 150)}.items():
+        put(service, name, driven(manifest.model_id, name, *ends, time=1e9))
+    told = merge(service, "site", ["east", "west"]).json()
+    assert told["parts"][1]["repeats"] > 50
+
+
+def test_a_dry_run_tells_what_would_be_and_changes_nothing(stocked: Any) -> None:
+    before = stocked.get("/maps").json()
+    response = merge(stocked, "site", ["east", "west"], dry_run=True)
+    assert response.status_code == 200
+    assert "etag" not in response.headers
+    would = response.json()
+    assert would["dry_run"]
+    assert would["sequence"] is would["etag"] is would["previous"] is None
+    assert stocked.get("/maps").json() == before
+    assert stocked.get("/maps/site").status_code == 404
+    done = merge(stocked, "site", ["east", "west"]).json()
+    same = ("parts", "alignments", "loops", "segments", "changed", "removed", "frame")
+    assert {key: would[key] for key in same} == {key: done[key] for key in same}
+
+    # Into a site that is there.
+    before = [stocked.get(path).content for path in ("/maps", "/maps/site", "/maps/site/versions")]
+    etag = stocked.get("/maps/site").headers["etag"]
+    would = merge(stocked, "site", ["north"], dry_run=True).json()
+    assert would["previous"] == 1
+    after = [stocked.get(path).content for path in ("/maps", "/maps/site", "/maps/site/versions")]
+    assert after == before
+    assert stocked.get("/maps/site").headers["etag"] == etag
+    done = merge(stocked, "site", ["north"]).json()
+    same = ("parts", "segments", "changed", "removed")
+    assert {key: would[key] for key in same} == {key: done[key] for key in same}
+
+
+def test_a_merge_is_undone_byte_for_byte(stocked: Any) -> None:
+    merge(stocked, "site", ["east", "west"])
+    before = stocked.get("/maps/site").content
+    told = merge(stocked, "site", ["north"]).json()
+    assert (told["sequence"], told["previous"]) == (2, 1)
+    assert told["changed"] > 50
+    versions = stocked.get("/maps/site/versions").json()["versions"]
+    assert versions[0]["operation"] == "merge"
+    assert stocked.get("/maps/site").content != before
+    assert stocked.post(f"/maps/site/versions/{told['previous']}/restore").status_code == 200
+    assert stocked.get("/maps/site").content == before
+    # A new site is undone by removing it.
+    assert stocked.delete("/maps/site").status_code == 204
+    assert stocked.get("/maps/site").status_code == 404
+
+
+def test_merged_again_nothing_changes(stocked: Any) -> None:
+    names = ["east", "west", "north"]
+    merge(stocked, "site", names)
+    before = stocked.get("/maps/site")
+    for again in (names, names[::-1], ["west"]):
+        response = merge(stocked, "site", again)
+        assert response.status_code == 200
+        told = response.json()
+        assert (told["changed"], told["removed"], told["sequence"]) == (0, 0, 1), told["parts"]
+        assert [part["added"] for part in told["parts"]] == [0] * len(again)
+        after = stocked.get("/maps/site")
+        assert after.content == before.content
+        assert after.headers["etag"] == before.headers["etag"]
+
+
+def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest: Manifest) -> None:
+    west = driven(manifest.model_id, "west", 60, 210, time=2e9)
+    first = take(west, west.ids < 250)
+    put(service, "east", driven(manifest.model_id, "east", 0, 150))
+    put(service, "west", first)
+    merge(service, "site", ["east", "west"], deduplicate=False)
+    before = content(service)
+    gone = np.arange(10, 40)
+    edited(service, "west", take(west, west.ids >= 250), gone)
+    told = merge(service, "site", ["west"], deduplicate=False).json()
+    (part,) = told["parts"]
+    counts = [part[key] for key in ("added", "known", "repeats", "removed")]
+    assert counts == [len(west) - 250, 220, 0, 30]
+    assert (told["changed"], told["removed"]) == (len(west) - 250, 30)
+    after = content(service)
+    assert {id_ for name, id_ in origins(after) if name == "west"} == {
+        *range(10),
+        *range(40, len(west)),
+    }
+    # What was known is as it was, under its id; no id is given twice.
+    rows, places = np.isin(before.ids, after.ids), np.isin(after.ids, before.ids)
+    np.testing.assert_array_equal(before.centroids[rows], after.centroids[places])
+    assert rows.sum() == len(before) - 30
+    assert after.ids[~places].min() > before.ids.max()
+    assert_lies_as_driven(after, {"east": content(service, "east"), "west": west}, "east")
+
+
+def test_a_site_in_a_site_keeps_where_all_comes_from(stocked: Any) -> None:
+    merge(stocked, "inner", ["west", "north"], deduplicate=False)
+    told = merge(stocked, "site", ["east", "inner"], deduplicate=False).json()
+    site = content(stocked)
+    assert site.sources == ("east", "north", "west")
+    assert told["segments"] == len(site)
+    # So a map that came by way of another site is known.
+    again = merge(stocked, "site", ["west"], deduplicate=False).json()
+    (part,) = again["parts"]
+    assert (part["added"], part["removed"], again["changed"]) == (0, 0, 0)
+    assert part["known"] == len(content(stocked, "west"))
+
+
+def test_what_was_written_to_the_site_itself_stays(stocked: Any) -> None:
+    merge(stocked, "site", ["east", "west"])
+    own = take(content(stocked, "east"), np.arange(5))
+    own = replace(own, ids=own.ids + np.uint32(90_000))
+    edited(stocked, "site", own)
+    merge(stocked, "site", ["north"])
+    assert Counter(name for name, _ in origins(content(stocked)))[""] == 5
+
+
+def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -> None:
+    put(stocked, "far", driven(manifest.model_id, "north", 300, 340, robot="far"))
+    told = merge(stocked, "site", ["east", "west", "far"]).json()
+    far = told["parts"][2]
+    assert not far["merged"]
+    assert far["pose"] is None
+    assert far["added"] == far["known"] == far["repeats"] == 0
+    reasons = {(each["map"], each["other"]): each["reason"] for each in told["alignments"]}
+    assert reasons["east", "far"] == "inconsistent"
+    assert content(stocked).sources == ("east", "west")
+
+    before = stocked.get("/maps").json()
+    for site in ("site", "new"):
+        names = ["far"] if site == "site" else ["east", "far"]
+        refused = merge(stocked, site, names)
+        assert_problem(refused, 409, "not-aligned", "nothing was changed")
+        would = merge(stocked, site, names, dry_run=True)
+        assert would.status_code == 200
+        assert not would.json()["parts"][-1]["merged"]
+    assert stocked.get("/maps").json() == before
+
+
+@pytest.fixture
+def misled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """East and west are laid on each other wrongly, with a great score."""
+    real = merging.align_maps
+
+    def wrong(a: Any, b: Any, *rest: Any) -> Any:
+        found, *contents = real(a, b, *rest)
+        if {a.name, b.name} == {"east", "west"}:
+            away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
+            best = replace(found.best, pose=away, score=1e6)
+            found = MapAlignment(best, None, None, "")
+        return found, *contents
+
+    monkeypatch.setattr(merging, "align_maps", wrong)
+
+
+def test_an_alignment_that_the_loops_rule_out_is_rejected(
+    misled: None, stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
+) -> None:
+    put(stocked, "south", driven(manifest.model_id, "north", 40, 190, robot="south", seed=7))
+    told = merge(stocked, "site", ["east", "west", "north", "south"], deduplicate=False).json()
+    rejected = [each for each in told["alignments"] if each["rejected"]]
+    assert [(each["map"], each["other"]) for each in rejected] == [("east", "west")]
+    assert not rejected[0]["proven"]
+    assert all(each["proven"] for each in told["alignments"] if not each["rejected"])
+    assert any(not loop["closes"] for loop in told["loops"])
+    site = content(stocked)
+    rows = rows_from(site, "west")
+    assert len(rows) == len(maps["west"])
+    part = take(site, np.sort(np.concatenate([rows, rows_from(site, "east")])))
+    assert_lies_as_driven(part, maps, "east")
+
+
+def test_conditions_are_kept(stocked: Any) -> None:
+    stale = {"If-Match": '"0123456789abcdef-1"'}
+    assert_problem(
+        merge(stocked, "site", ["east", "west"], headers=stale), 412, "precondition-failed"
+    )
+    assert stocked.get("/maps/site").status_code == 404
+    new = {"If-None-Match": "*"}
+    first = merge(stocked, "site", ["east", "west"], headers=new)
+    assert first.status_code == 201
+    before = stocked.get("/maps/site").content
+    for headers in (stale, new):
+        refused = merge(stocked, "site", ["north"], headers=headers)
+        assert_problem(refused, 412, "precondition-failed")
+    assert stocked.get("/maps/site").content == before
+    seen = {"If-Match": first.headers["etag"]}
+    assert merge(stocked, "site", ["north"], headers=seen).status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("body", "pointer"),
+    [
+        ({}, "maps"),
+        ({"maps": []}, "maps"),
+        ({"maps": ["east"]}, "two maps or more"),
+        ({"maps": ["east", "east"]}, "stands twice"),
+        ({"maps": ["east", "site"]}, "is the site"),
+        ({"maps": ["east", "-bad"]}, "maps"),
+        ({"maps": ["east", 7]}, "maps"),
+        ({"maps": "east"}, "maps"),
+        ({"maps": ["east", "west"], "dryrun": True}, "dryrun"),
+        ({"maps": ["east", "west"], "dry_run": 1}, "dry_run"),
+        ({"maps": ["east", "west"], "deduplicate": None}, "deduplicate"),
+        ({"maps": ["east", "west"], "motion": "any"}, "motion"),
+        ({"maps": [f"m{n}" for n in range(13)]}, "the limit is 12"),
+        ([], ""),
+        (None, ""),
+        ("site", ""),
+    ],
+)
+def test_what_is_no_request_is_told(stocked: Any, body: Any, pointer: str) -> None:
+    before = stocked.get("/maps").json()
+    answer = stocked.post("/maps/site/merge", json=body)
+    assert answer.status_code == 422, answer.text
+    assert pointer in answer.text
+    assert stocked.get("/maps").json() == before
+
+
+@pytest.mark.parametrize("body", [b"", b"{", b"\xff\xfe", b"NaN", b'{"maps": ["a", "b"]'])
+def test_what_is_no_json_is_told(stocked: Any, body: bytes) -> None:
+    answer = stocked.post(
+        "/maps/site/merge", content=body, headers={"Content-Type": "application/json"}
+    )
+    assert 400 <= answer.status_code < 500, answer.text
+    assert answer.headers["content-type"] == "application/problem+json"
+    packed = {"Content-Type": "application/msgpack"}
+    assert_problem(
+        stocked.post("/maps/site/merge", content=b"\x80", headers=packed),
+        415,
+        "unsupported-media-type",
+    )
+
+
+def test_what_cannot_be_merged_is_told(
+    stocked: Any, other_manifest: Manifest, manifest: Manifest
+) -> None:
+    assert_problem(merge(stocked, "site", ["east", "none"]), 404, "unknown-map", "none")
+    bad = stocked.post("/maps/-bad/merge", json={"maps": ["east", "west"]})
+    assert_problem(bad, 422, "invalid-map-name")
+    put(stocked, "other", map_of(random_codes(20), other_manifest.model_id))
+    assert_problem(merge(stocked, "site", ["east", "other"]), 409, "other-model")
+    assert_problem(merge(stocked, "other", ["east"]), 409, "other-model")
+    assert stocked.get("/maps/site").status_code == 404
+
+
+def test_keys(start: Any, tmp_path: Path, maps: dict[str, CompactMap]) -> None:
+    file = tmp_path / "keys.toml"
+    writes, reads = made(file, "writer", "--write"), made(file, "reader")
+    bound = made(file, "bound", "--write", "--map", "site", "--map", "east")
+    robots = made(file, "robot", "--write", "--robot", "east robot")
+    with start(keys_file=file) as service:
+        for name, each in maps.items():
+            put(service, name, each, **writes)
+        for headers in (reads, bound, robots):
+            refused = merge(service, "site", ["east", "west"], headers=headers)
+            assert_problem(refused, 403, "forbidden")
+        assert_problem(merge(service, "north", ["east"], headers=bound), 403, "forbidden")
+        assert_problem(merge(service, "site", ["east", "west"]), 401, "unauthorized")
+        assert service.get("/maps/site", headers=writes).status_code == 404
+        assert merge(service, "site", ["east", "west"], headers=writes).status_code == 201
+        # Nor does a robot's key add others' segments to a site that is there.
+        assert_problem(merge(service, "site", ["north"], headers=robots), 403, "forbidden")
+
+
+def test_quotas_are_kept(start: Any, maps: dict[str, CompactMap]) -> None:
+    most = max(map(len, maps.values()))
+    with start(limits={"map_segments": most + 20}) as service:
+        for name, each in maps.items():
+            put(service, name, each)
+        before = service.get("/maps").json()
+        refused = merge(service, "site", ["east", "west"], deduplicate=False)
+        assert_problem(refused, 507, "quota-exceeded", "The map would have")
+        assert service.get("/maps").json() == before
+
+
+def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
+    """What somebody else does once between the alignments and the writing."""
+    real, acts = merger_module.plan_merge, [act]
+
+    def then(*args: Any) -> Any:
+        plan = real(*args)
+        if acts:
+            acts.pop()()
+        return plan
+
+    monkeypatch.setattr(merger_module, "plan_merge", then)
+
+
+def test_a_site_that_was_replaced_meanwhile_is_not_written(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def put_anew() -> None:
+        put(stocked, "site", maps["north"], **{"If-Match": "*"})
+
+    def put_and_forgotten() -> None:
+        put_anew()
+        edited(stocked, "site", take(maps["north"], NONE), [3])
+        assert stocked.post("/maps/site/compact?keep=1").is_success
+
+    def removed() -> None:
+        assert stocked.delete("/maps/site").status_code == 204
+
+    def removed_and_made_anew() -> None:
+        removed()
+        put(stocked, "site", maps["north"])
+
+    def restored() -> None:
+        assert stocked.post("/maps/site/versions/1/restore").status_code == 200
+
+    for act in (put_anew, put_and_forgotten, removed, removed_and_made_anew, restored):
+        stocked.delete("/maps/site")
+        merge(stocked, "site", ["east", "north"])
+        edited(stocked, "site", take(content(stocked), NONE), [7])
+        meanwhile(monkeypatch, act)
+        answer = merge(stocked, "site", ["west"])
+        assert_problem(answer, 409, "map-changed", "try again")
+        now = stocked.get("/maps/site")
+        assert now.status_code == 404 or "west" not in decode(now.content).sources
+
+
+def test_a_site_that_came_to_be_meanwhile_is_not_written(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    meanwhile(monkeypatch, lambda: put(stocked, "site", maps["north"]))
+    assert_problem(merge(stocked, "site", ["east", "west"]), 409, "map-changed")
+    assert stocked.get("/maps/site").content == encode(maps["north"])
+
+
+def test_a_site_without_segments_takes_the_first_map_s_frame(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(stocked, "site", take(maps["north"], NONE))
+    # Of what is written into it meanwhile nobody knows how it lies.
+    meanwhile(monkeypatch, lambda: edited(stocked, "site", take(maps["north"], np.arange(4))))
+    assert_problem(merge(stocked, "site", ["east", "west"]), 409, "map-changed")
+    edited(stocked, "site", take(maps["north"], NONE), np.arange(4))
+    told = merge(stocked, "site", ["east", "west"], deduplicate=False)
+    assert told.status_code == 200, told.text
+    assert told.json()["frame"] == content(stocked).frame == "east's odometry"
+    assert_lies_as_driven(content(stocked), maps, "east")
+    before = told.json()["previous"]
+    assert stocked.post(f"/maps/site/versions/{before}/restore").status_code == 200
+    assert len(content(stocked)) == 0
+    assert content(stocked).frame == "north's odometry"
+
+
+def test_edits_meanwhile_are_kept(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    merge(stocked, "site", ["east", "north"])
+    own = take(content(stocked, "east"), np.arange(3))
+    own = replace(own, ids=own.ids + np.uint32(70_000))
+    meanwhile(monkeypatch, lambda: edited(stocked, "site", own, [7]))
+    told = merge(stocked, "site", ["west"])
+    assert told.status_code == 200, told.text
+    assert (told.json()["previous"], told.json()["sequence"]) == (2, 3)
+    now = content(stocked)
+    assert set(own.ids.tolist()) <= set(now.ids.tolist())
+    assert 7 not in now.ids
+    assert "west" in now.sources
+
+
+def test_it_is_whole_after_a_restart(start: Any, maps: dict[str, CompactMap]) -> None:
+    with start() as service:
+        for name, each in maps.items():
+            put(service, name, each)
+        merge(service, "site", ["east", "west"])
+        merge(service, "site", ["north"])
+        before = [service.get(path) for path in ("/maps", "/maps/site", "/maps/site?version=1")]
+    with start() as service:
+        after = [service.get(path) for path in ("/maps", "/maps/site", "/maps/site?version=1")]
+        assert [each.content for each in after] == [each.content for each in before]
+        assert merge(service, "site", ["north"]).json()["changed"] == 0
+
+
+def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+    real = merging.align_maps
+
+    def slow(a: Any, b: Any, *rest: Any) -> Any:
+        asked.append(b.name)
+        threading.Event().wait(0.3)
+        return real(a, b, *rest)
+
+    monkeypatch.setattr(merging, "align_maps", slow)
+    late = {"Placecell-Timeout": "0.2"}
+    refused = merge(stocked, "site", ["east", "west", "north"], headers=late)
+    assert_problem(refused, 504, "deadline-exceeded")
+    assert len(asked) == 1
+    assert stocked.get("/maps/site").status_code == 404
+
+
+def test_a_merge_leaves_a_line_in_the_log(stocked: Any, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO")
+    told = merge(stocked, "site", ["east", "west"]).json()
+    (line,) = [one for one in caplog.records if one.name == "placecell.audit"]
+    assert f"merge map site, {told['changed']} segments changed" in line.getMessage()
