@@ -95,8 +95,9 @@ class Merger:
             return self._write(name, site, plan, joining)
 
     def _as_before(self, plan: Plan) -> Plan:
-        """Maps that are part of the site already are laid as they were, so that it does not grow by
-        what is a little elsewhere each time.
+        """Lay maps that are part of the site already as they were laid.
+
+        So merging them again changes nothing, where alignment would lay them a little elsewhere.
         """
         site = plan.maps[0].layers.content()
         poses = dict(plan.poses)

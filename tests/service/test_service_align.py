@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from placecell_client import Delta, decode, encode, encode_delta
+from placecell_client import Delta, decode, encode_delta
 from placecell_client.map_edit import take
 from scipy.spatial.transform import Rotation
 
@@ -28,9 +28,19 @@ from tests.service.site_builders import (
 from tests.service.test_service_keys import made
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return models_that_judge(tmp_path_factory.mktemp("models"))
+
+
+@pytest.fixture(scope="module")
+def manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "tiny")
+
+
+@pytest.fixture(scope="module")
+def other_manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "other")
 
 
 @pytest.fixture
@@ -56,8 +66,7 @@ def assert_aligned(told: dict[str, Any], truth: Pose, at: np.ndarray) -> None:
 
 
 def middle(service: Any, name: str) -> np.ndarray:
-    centroids: np.ndarray = decode(service.get(f"/maps/{name}").content).centroids
-    return centroids.mean(axis=0)
+    return np.asarray(decode(service.get(f"/maps/{name}").content).centroids.mean(axis=0))
 
 
 def test_how_two_maps_lie_is_told(stocked: Any) -> None:
@@ -204,19 +213,13 @@ def test_what_cannot_be_asked(stocked: Any) -> None:
 
 
 def test_maps_of_two_models_do_not_compare(
-    stocked: Any, manifest: Manifest, other_manifest: Manifest
+    start: Any, manifest: Manifest, other_manifest: Manifest
 ) -> None:
-    put(stocked, "other", map_of(random_codes(20), other_manifest.model_id))
-    answer = stocked.post("/maps/east/align/other")
-    assert_problem(answer, 409, "other-model", manifest.model_id)
-
-
-def test_a_model_that_is_not_there_is_told(stocked: Any) -> None:
-    strange = map_of(random_codes(20), "gone-1234567890abcdef")
-    stocked.put("/maps/strange", content=encode(strange))
-    if stocked.get("/maps/strange").status_code == 404:
-        pytest.skip("maps of models that are not loaded are not taken in")
-    assert stocked.post("/maps/strange/align/strange").status_code == 409
+    with start(also=["other"]) as service:
+        put(service, "east", driven(manifest.model_id, "east", 0, 150))
+        put(service, "other", map_of(random_codes(20), other_manifest.model_id))
+        answer = service.post("/maps/east/align/other")
+        assert_problem(answer, 409, "other-model", manifest.model_id)
 
 
 def test_keys_open_both_maps_or_none(start: Any, tmp_path: Path, manifest: Manifest) -> None:

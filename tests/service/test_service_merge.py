@@ -15,8 +15,7 @@ from placecell_client.map_edit import take
 from segments.localisation import Pose
 from segments.manifest import Manifest
 from segments.map_alignment import MapAlignment
-from service import merger as merger_module
-from service import merging
+from service import aligning, merging
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.site_builders import driven, merge, models_that_judge, put, relative
 from tests.service.test_service_keys import made
@@ -24,9 +23,19 @@ from tests.service.test_service_keys import made
 NONE = np.zeros(0, np.uint32)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return models_that_judge(tmp_path_factory.mktemp("models"))
+
+
+@pytest.fixture(scope="module")
+def manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "tiny")
+
+
+@pytest.fixture(scope="module")
+def other_manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "other")
 
 
 @pytest.fixture
@@ -298,12 +307,13 @@ def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -
 @pytest.fixture
 def misled(monkeypatch: pytest.MonkeyPatch) -> None:
     """East and west are laid on each other wrongly, with a great score."""
-    real = merging.align_maps
+    real = aligning.align_maps
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
         found, *contents = real(a, b, *rest)
         if {a.name, b.name} == {"east", "west"}:
             away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
+            assert found.best is not None
             best = replace(found.best, pose=away, score=1e6)
             found = MapAlignment(best, None, None, "")
         return found, *contents
@@ -363,7 +373,6 @@ def test_conditions_are_kept(stocked: Any) -> None:
         ({"maps": ["east", "west"], "motion": "any"}, "motion"),
         ({"maps": [f"m{n}" for n in range(13)]}, "the limit is 12"),
         ([], ""),
-        (None, ""),
         ("site", ""),
     ],
 )
@@ -391,15 +400,17 @@ def test_what_is_no_json_is_told(stocked: Any, body: bytes) -> None:
 
 
 def test_what_cannot_be_merged_is_told(
-    stocked: Any, other_manifest: Manifest, manifest: Manifest
+    start: Any, maps: dict[str, CompactMap], other_manifest: Manifest
 ) -> None:
-    assert_problem(merge(stocked, "site", ["east", "none"]), 404, "unknown-map", "none")
-    bad = stocked.post("/maps/-bad/merge", json={"maps": ["east", "west"]})
-    assert_problem(bad, 422, "invalid-map-name")
-    put(stocked, "other", map_of(random_codes(20), other_manifest.model_id))
-    assert_problem(merge(stocked, "site", ["east", "other"]), 409, "other-model")
-    assert_problem(merge(stocked, "other", ["east"]), 409, "other-model")
-    assert stocked.get("/maps/site").status_code == 404
+    with start(also=["other"]) as service:
+        put(service, "east", maps["east"])
+        assert_problem(merge(service, "site", ["east", "none"]), 404, "unknown-map", "none")
+        bad = service.post("/maps/-bad/merge", json={"maps": ["east", "none"]})
+        assert_problem(bad, 422, "invalid-map-name")
+        put(service, "other", map_of(random_codes(20), other_manifest.model_id))
+        assert_problem(merge(service, "site", ["east", "other"]), 409, "other-model")
+        assert_problem(merge(service, "other", ["east"]), 409, "other-model")
+        assert service.get("/maps/site").status_code == 404
 
 
 def test_keys(start: Any, tmp_path: Path, maps: dict[str, CompactMap]) -> None:
@@ -434,7 +445,7 @@ def test_quotas_are_kept(start: Any, maps: dict[str, CompactMap]) -> None:
 
 def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
     """What somebody else does once between the alignments and the writing."""
-    real, acts = merger_module.plan_merge, [act]
+    real, acts = merging.plan_merge, [act]
 
     def then(*args: Any) -> Any:
         plan = real(*args)
@@ -442,7 +453,7 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
             acts.pop()()
         return plan
 
-    monkeypatch.setattr(merger_module, "plan_merge", then)
+    monkeypatch.setattr("service.merger.plan_merge", then)
 
 
 def test_a_site_that_was_replaced_meanwhile_is_not_written(
@@ -532,7 +543,7 @@ def test_it_is_whole_after_a_restart(start: Any, maps: dict[str, CompactMap]) ->
 
 def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
-    real = merging.align_maps
+    real = aligning.align_maps
 
     def slow(a: Any, b: Any, *rest: Any) -> Any:
         asked.append(b.name)

@@ -105,7 +105,7 @@ def test_one_that_is_good_goes_before_one_that_is_only_large() -> None:
 def test_nothing_is_inconsistent() -> None:
     found = judge([], PARAMETERS)
     assert found.reason == "inconsistent"
-    assert found.best is found.second is found.pose is None
+    assert (found.best, found.second, found.pose) == (None, None, None)
     assert found.detail
 
 

@@ -1,5 +1,6 @@
 """The figures of an overlap, counted by hand."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -34,7 +35,7 @@ class Table:
         return np.asarray(self._table[a, b])
 
 
-def view(centroids: list[tuple[float, ...]], stands: list[tuple[float, ...]]) -> MapView:
+def view(centroids: Sequence[tuple[float, ...]], stands: Sequence[tuple[float, ...]]) -> MapView:
     return MapView(np.array(centroids, float), np.array(stands, float))
 
 
