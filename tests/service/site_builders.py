@@ -48,7 +48,7 @@ def as_map(
         robots=(robot,),
         robot=np.zeros(count, np.uint16),
         frame_index=frame_index.ravel().astype(np.uint32),
-        frame_times=time + 10.0 * np.arange(len(stands)),
+        frame_times=np.array([time + 10.0 * moment for moment in range(len(stands))]),
         frame_positions=stands,
         frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (len(stands), 1)),
     )

@@ -198,8 +198,8 @@ def test_a_dry_run_tells_what_would_be_and_changes_nothing(stocked: Any) -> None
     assert after == before
     assert stocked.get("/maps/site").headers["etag"] == etag
     done = merge(stocked, "site", ["north"]).json()
-    same = ("parts", "segments", "changed", "removed")
-    assert {key: would[key] for key in same} == {key: done[key] for key in same}
+    for key in ("parts", "segments", "changed", "removed"):
+        assert would[key] == done[key]
 
 
 def test_a_merge_is_undone_byte_for_byte(stocked: Any) -> None:
@@ -311,9 +311,8 @@ def misled(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
         found, *contents = real(a, b, *rest)
-        if {a.name, b.name} == {"east", "west"}:
+        if {a.name, b.name} == {"east", "west"} and found.best is not None:
             away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
-            assert found.best is not None
             best = replace(found.best, pose=away, score=1e6)
             found = MapAlignment(best, None, None, "")
         return found, *contents
