@@ -1,8 +1,9 @@
 """Fit what a pose's probability follows from: `placecell fit-confidence`.
 
 Two robots drive each town, the same streets in opposite directions. Each frame of one is asked in
-the other's map, whole and as a few of its segments; in the map of all towns side by side; and in
-another town's map, where no answer is right.
+the other's map, whole and as a few of its segments; in the map of all towns side by side; and where
+no answer is right: in another town's map, and in the other's map without all that is near, so that
+at best a street is found that looks like this one.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from placecell_client.map_edit import take
 from scipy.optimize import minimize
 
 from bench.local import Local
@@ -27,6 +29,9 @@ FEW = (6, 8, 12, 20)
 
 APART = 3_000.0
 """Metres between the towns of the joined map."""
+
+NEAR = 80.0
+"""Metres: what is this near to the robot is taken out of a map that it shall not be found in."""
 
 K = 25
 """Candidates a segment."""
@@ -143,9 +148,13 @@ def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> C
         elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
         for query in both[index].queries(local, frame):
             there = Pose(np.eye(3), shifts[town]).after(query.truth)
+            place = query.truth.apply(query.sensor)
+            far = np.linalg.norm(maps[index].centroids - place, axis=1) > NEAR
+            local.replace_map("without", take(maps[index], far))
             asked = [
                 (query, names[index], query.truth),
                 (query, elsewhere, None),
+                *((each, "without", None) for each in (query, *parts(query, random, (20,)))),
                 *((each, names[index], query.truth) for each in parts(query, random)),
                 *((each, f"joined-{way}", there) for each in (query, *parts(query, random, (12,)))),
             ]

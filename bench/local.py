@@ -92,6 +92,12 @@ class Local:
         Writer(state.maps, state.models, ANYONE, Preconditions()).put(name, data)
         return len(data)
 
+    def replace_map(self, name: str, compact_map: CompactMap) -> None:
+        """As `DELETE /maps/{map}`, if there is such a map, and `PUT`."""
+        if self._state.maps.find(name) is not None:
+            self._state.maps.delete(name)
+        self.put_map(name, compact_map)
+
     def localise(
         self,
         codes: Int8,
