@@ -76,6 +76,8 @@ class Merger:
         laid = parts if site is None or not len(site) else [site, *parts]
         for each in laid[1:]:
             check_same_model(laid[0], each)
+        # It is checked again when the site is written; but that is minutes later.
+        self.writer.conditions.check(None if site is None else site.tag)
         model = self.writer.models.named(laid[0].model_id)
         plan = plan_merge(laid, model, self.parameters, self.check)
         if site is not None and laid[0] is site:
@@ -83,7 +85,10 @@ class Merger:
         joining = [
             number for number, each in enumerate(laid) if number in plan.poses and each is not site
         ]
-        if len(plan.poses) < 2 and not self.dry_run:
+        if len(plan.poses) < 2:
+            if self.dry_run:
+                segments, previous = (len(site), site.head.sequence) if site else (0, None)
+                return Merged(plan, {}, segments, None, previous, 0, 0)
             raise Problem(
                 409,
                 "not-aligned",

@@ -112,12 +112,13 @@ def merged_of(merged: Merged, name: str, names: Sequence[str]) -> MergedOut:
 
 
 def _part(merged: Merged, number: int) -> MergedPartOut:
-    stored, pose = merged.plan.maps[number], merged.plan.poses.get(number)
+    stored, is_merged = merged.plan.maps[number], number in merged.shares
+    pose = merged.plan.poses[number] if is_merged else None
     share = merged.shares.get(number, Share(0, 0, 0, 0))
     return MergedPartOut(
         map=stored.name,
         etag=stored.tag,
-        merged=pose is not None,
+        merged=is_merged,
         pose=None if pose is None else PoseOut(**pose_of(pose)),
         added=share.added,
         known=share.known,
