@@ -39,6 +39,10 @@ K = 25
 PENALTY = 1.0
 """Of the squared weights."""
 
+SIGNS = {name: -1.0 if name == "residual" else 1.0 for name in FEATURES}
+"""More agreement never makes a pose less likely, nor does less of what is left over; else of two
+features that grow together one would be held against the other, to no good on other data."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cases:
@@ -118,7 +122,9 @@ def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
         value = np.logaddexp(0.0, -margins).sum() + 0.5 * ridge @ weights
         return float(value), np.asarray(standard.T @ pull + ridge)
 
-    found = minimize(loss, np.zeros(standard.shape[1]), jac=True, method="L-BFGS-B").x
+    bounds = [(0.0, None) if SIGNS[name] > 0 else (None, 0.0) for name in FEATURES]
+    start = np.zeros(standard.shape[1])
+    found = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=[*bounds, (None, None)]).x
     return Confidence(
         tuple(means.tolist()),
         tuple(deviations.tolist()),
