@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from placecell_client import Client, encode
+from placecell_client import Client, ServiceError, encode
 
 from bench.pose_report import RIGHT
 from bench.robot import Robot, clouds
@@ -99,16 +99,19 @@ def meet(
     told = [_ask(asker, client, name, scan, segments, truth) for scan, segments in views]
     own = asker.name.replace(" ", "_")
     client.put_map(own, encode(asker.build_map(client, frame=asker.name)))
-    merge = client.merge_maps(SITE, [name, own], dry_run=True)
-    part = merge.parts[1]
-    if part.pose is None:
+    try:
+        merge = client.merge_maps(SITE, [name, own])
+    except ServiceError as error:
+        if not error.type.endswith(":not-aligned"):
+            raise
         return Meeting(told, None, (np.inf, np.inf), 0, 0)
-    merge = client.merge_maps(SITE, [name, own])
+    part = merge.parts[1]
+    assert part.pose is not None  # else the answer would be that error
     laid = Pose.of_matrix(part.pose.matrix)
     middle = asker.drive.poses[:, :3, 3].mean(axis=0)
     metres, angle = laid.difference(truth, middle)
     off = metres, float(np.degrees(angle))
-    return Meeting(told, laid, off, merge.segments, merge.parts[1].repeats)
+    return Meeting(told, laid, off, merge.segments, part.repeats)
 
 
 def _ask(
