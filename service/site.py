@@ -106,13 +106,14 @@ def join(
         laid = moved(part.content, part.pose.rotation, part.pose.translation, site.frame)
         site = with_optional(site, ("source", "source_ids"))
         known = keys_in(laid, site)
-        gone = ~keys_in(site, laid) & of_source(site, part.name)
+        given = keys_in(site, laid)
+        gone = ~given & of_source(site, part.name)
         added = renumbered(take(laid, ~known), first_id)
         first_id += len(added)
         changed, repeats = added, 0
         if same is not None:
             # Not with what the map itself gave before: it is another's that is left out.
-            there = take(site, ~gone & ~keys_in(site, laid))
+            there = take(site, ~gone & ~given)
             about = Layers.of(there).about(added.centroids, RADIUS)
             seen = sighting(added, about, same, itself=False)
             changed, repeats = seen.changed, seen.repeats
@@ -126,11 +127,9 @@ def join(
 
 def keys_in(content: CompactMap, other: CompactMap) -> Bool:
     """Which segments of one map the other has too, by source and id there, bool (n,)."""
-    names = {name: number for number, name in enumerate(dict.fromkeys(content.sources), start=1)}
     found = np.zeros(len(content), dtype=bool)
-    for name, number in names.items():
-        here = content.source == number
-        there = of_source(other, name)
+    for name in content.sources:
+        here, there = of_source(content, name), of_source(other, name)
         found[here] = np.isin(_source_ids(content)[here], _source_ids(other)[there])
     return found
 

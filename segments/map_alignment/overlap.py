@@ -57,22 +57,24 @@ def overlap_of(
     a: MapView, b: MapView, pose: Pose, looks: Looks, parameters: AlignmentParameters
 ) -> Overlap:
     """Refine a pose with all that agrees, and see how much of what should agree does."""
-    moved = b.moved(pose)
-    rows_b = evenly(np.flatnonzero(near_stands(moved, a, parameters)), parameters.rows)
-    rows_a = evenly(np.flatnonzero(near_stands(a, moved.take(rows_b), parameters)), parameters.rows)
+    guessed = b.moved(pose)
+    rows_b = evenly(np.flatnonzero(near_stands(guessed, a, parameters)), parameters.rows)
+    laid = guessed.take(rows_b)
+    rows_a = evenly(np.flatnonzero(near_stands(a, laid, parameters)), parameters.rows)
     here, there = b.take(rows_b), a.take(rows_a)
     radius = parameters.local.same_place
     things_b, things_a = (
         number_places(np.arange(len(view)), view.centroids, radius) for view in (here, there)
     )
-    pairs_a, pairs_b, likely = alike(there, here.moved(pose), rows_a, rows_b, looks, parameters)
+    pairs_a, pairs_b, likely = alike(there, laid, rows_a, rows_b, looks, parameters)
     found, chosen = pairs_of_things(there, here, (pairs_a, pairs_b, likely), things_a, things_b)
     pose, support = refine(pose, found, parameters.local)
-    agreeing, moved = found.take(support), here.moved(pose)
+    agreeing, whole = found.take(support), b.moved(pose)
+    laid = whole.take(rows_b)
     off = residuals(pose, agreeing)
     worth = agreeing.weights * kernel(off, parameters.local.kernel)
-    seen_a = np.unique(things_a[should_be_seen(there, moved, parameters)])
-    seen_b = np.unique(things_b[should_be_seen(moved, there, parameters)])
+    seen_a = np.unique(things_a[should_be_seen(there, laid, parameters)])
+    seen_b = np.unique(things_b[should_be_seen(laid, there, parameters)])
     return Overlap(
         pose=pose,
         covariance=covariance_of(pose, agreeing.source, agreeing.target, parameters.local),
@@ -86,7 +88,7 @@ def overlap_of(
             float(worth[np.isin(agreeing.places, seen_a)].sum()),
             float(worth[np.isin(agreeing.queries, seen_b)].sum()),
         ),
-        parts=(part(a, b.moved(pose), parameters), part(b.moved(pose), a, parameters)),
+        parts=(part(a, whole, parameters), part(whole, a, parameters)),
     )
 
 
