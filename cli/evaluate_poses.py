@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cli.benches.options import write_json
 from cli.sources import clear_errors, show
 
 
@@ -80,9 +81,7 @@ def evaluate_poses(
         parameters = LocalisationParameters(model="se3" if motion == "se3" else "yaw")
         folder = model_folder(model or DEFAULT_MODEL)
         report, rows = evaluate(pair, folder, k, parameters, session, queries, seed, progress=show)
-        if json_file:
-            json_file.parent.mkdir(parents=True, exist_ok=True)
-            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        write_json(report, json_file)
         if answers:
             answers.parent.mkdir(parents=True, exist_ok=True)
             answers.write_text("".join(json.dumps(row) + "\n" for row in rows))

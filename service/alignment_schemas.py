@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from segments.localisation.localise import Reason
 from service.localise_schemas import PoseOut
 from service.map_store import NAME_PATTERN
 
@@ -47,9 +48,7 @@ class AlignmentOut(BaseModel):
     other_etag: str
     other_frame: str
     aligned: bool
-    reason: Literal["too-few-segments", "inconsistent", "ambiguous"] | None = Field(
-        description="Why the maps are not aligned; null if they are."
-    )
+    reason: Reason | None = Field(description="Why the maps are not aligned; null if they are.")
     detail: str = Field(description="The reason in words; empty if there is none.")
     pose: PoseOut | None = Field(
         description="Of the second map's frame in the first's; null if they are not aligned."
@@ -99,7 +98,7 @@ class MergePairOut(BaseModel):
     aligned: bool
     rejected: bool = Field(description="Loops rule the alignment out.")
     proven: bool = Field(description="The alignment is part of a loop that closes.")
-    reason: Literal["too-few-segments", "inconsistent", "ambiguous"] | None
+    reason: Reason | None
     detail: str
     pose: PoseOut | None = Field(description="Of the other map's frame in the map's.")
     overlap: OverlapOut | None

@@ -4,6 +4,7 @@ from typing import Annotated, Generic, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from segments.localisation.localise import Reason
 from service.schemas import (
     EXAMPLE,
     Codes,
@@ -84,9 +85,7 @@ class LocalisationOut(BaseModel):
     map: str
     frame: str = Field(description="Name of the map's frame.")
     localised: bool
-    reason: Literal["too-few-segments", "inconsistent", "ambiguous"] | None = Field(
-        description="Why the robot is not localised; null if it is."
-    )
+    reason: Reason | None = Field(description="Why the robot is not localised; null if it is.")
     detail: str = Field(description="The reason in words; empty if there is none.")
     probability: float = Field(
         description="That the best hypothesis is right: within 1 m and 3 degrees."

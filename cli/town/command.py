@@ -4,10 +4,10 @@ import json
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import typer
 
+from cli.benches.options import write_json
 from cli.sources import clear_errors, show
 from cli.town import options
 from cli.town.large import pairs_of, planned
@@ -88,8 +88,7 @@ def town(
             from town.picture import draw_plan
 
             draw_plan(picture, city, way, drives)
-        if json_file:
-            write_json(figures, json_file)
+        write_json(figures, json_file)
     typer.echo(json.dumps(figures))
 
 
@@ -123,9 +122,3 @@ def small_town(
     )
     for drive in drives:
         typer.echo(f"{drive}: {scans} scans")
-
-
-def write_json(content: dict[str, Any], file: Path) -> None:
-    """Write a file for programs."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(content, indent=2) + "\n")

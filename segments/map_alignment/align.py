@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from segments.localisation import Pose
 from segments.localisation.correspondences import correspond
 from segments.localisation.covariance import rotation_deviation
 from segments.localisation.hypothesis import find_hypotheses, same_place
+from segments.localisation.localise import Reason
 from segments.localisation.voting import most_voted
 from segments.map_alignment.consensus import Guess, common_pose, consensus
 from segments.map_alignment.map_view import Looks, MapView
@@ -17,8 +17,6 @@ from segments.map_alignment.overlap import Overlap, overlap_of
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.map_alignment.submaps import Submap, candidates_of, cut
 from segments.types import Float64
-
-Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
 PARAMETERS = AlignmentParameters()
 
