@@ -36,6 +36,9 @@ NEAR = 80.0
 K = 25
 """Candidates a segment."""
 
+QUERIES = 150
+"""Frames that each robot asks in each town, spread evenly: more towns teach more than frames."""
+
 PENALTY = 1.0
 """Of the squared weights."""
 
@@ -92,6 +95,7 @@ def fit(
             "model_id": model_id,
             "cases": len(cases.right),
             "right": int(cases.right.sum()),
+            "queries": QUERIES,
             "k": K,
             "seed": seed,
             "machine": machine(),
@@ -152,7 +156,7 @@ def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> C
     for index in progress(range(len(both)), len(both), "asking"):
         town, way = index % len(pairs), index // len(pairs)
         elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
-        for query in both[index].queries(local, frame):
+        for query in both[index].queries(local, frame, QUERIES):
             there = Pose(np.eye(3), shifts[town]).after(query.truth)
             place = query.truth.apply(query.sensor)
             far = np.linalg.norm(maps[index].centroids - place, axis=1) > NEAR

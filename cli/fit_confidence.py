@@ -9,15 +9,15 @@ import typer
 
 from cli.sources import clear_errors, show
 
-LOOK_ALIKES = 0.5
-"""Share of the streets that identical houses line: where else is one wrong and sure?"""
+TOWNS = {51: 0.5, 52: 0.5, 53: 0.5, 54: 0.5, 61: 1.0, 62: 1.0, 63: 1.0}
+"""Seeds, and the share of the streets that identical houses line: where is one wrong and sure?"""
 
 
-def two_drives(folder: Path, seed: int, scans: int) -> tuple[Path, Path]:
+def two_drives(folder: Path, seed: int, scans: int, look_alikes: float) -> tuple[Path, Path]:
     """Two robots' drives through the same streets of a large town, opposite ways."""
     from town import City, several_robots
 
-    city = City.build(seed, 1.6 * scans, LOOK_ALIKES)
+    city = City.build(seed, 1.6 * scans, look_alikes)
     # The inner lane of a turn is shorter than the middle of the street.
     route = city.route(city.planner.every_street()).cut(0.0, max(1.1 * scans, scans + 10.0))
     one, other = several_robots(folder, city, route, 2, scans=scans, oncoming=10.0, progress=show)
@@ -27,7 +27,15 @@ def two_drives(folder: Path, seed: int, scans: int) -> tuple[Path, Path]:
 def fit_confidence(
     town: Annotated[
         list[int] | None,
-        typer.Option(help="Seed of a town; repeat for two or more. (default: 51 to 54)"),
+        typer.Option(help="Seed of a town; repeat for two or more. (default: 51 to 54, 61 to 63)"),
+    ] = None,
+    look_alikes: Annotated[
+        float | None,
+        typer.Option(
+            min=0.0,
+            max=1.0,
+            help="Share of the streets that identical houses line. (default: half; 61 to 63: all)",
+        ),
     ] = None,
     scans: Annotated[int, typer.Option(min=20, help="Of each robot in each town.")] = 600,
     model: Annotated[
@@ -42,23 +50,29 @@ def fit_confidence(
 ) -> None:
     """Fit the constants of the probability that a pose is right, on drives through towns.
 
-    Identical houses line half of their streets. Writes the constants with how true the
-    probabilities are in towns that each was not fitted on.
+    Each model has its own. Writes them, into the model's folder or for the default model to where
+    all find them, with how true the probabilities are in towns that each was not fitted on.
     """
     from bench.confidence import fit
     from bench.pose_queries import Pair
-    from segments.localisation.confidence import FILE
+    from segments.localisation.confidence import NAME, SHIPPED
     from segments.models import DEFAULT_MODEL, model_folder
 
-    seeds = town or list(range(51, 55))
+    folder_of_model = model_folder(model or DEFAULT_MODEL)
+    is_default = folder_of_model == model_folder(DEFAULT_MODEL)
+    file = output or (SHIPPED if is_default else folder_of_model / NAME)
+    seeds = town or list(TOWNS)
+    shares = [TOWNS.get(each, 0.5) if look_alikes is None else look_alikes for each in seeds]
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-towns-") as folder:
         if len(set(seeds)) < 2:
             raise ValueError("two or more towns are needed: each is left out in turn")
-        drives = [two_drives(Path(folder) / str(each), each, scans) for each in seeds]
+        drives = [
+            two_drives(Path(folder) / str(each), each, scans, share)
+            for each, share in zip(seeds, shares, strict=True)
+        ]
         pairs = [Pair.of(*both, progress=show) for both in drives]
-        content = fit(pairs, model_folder(model or DEFAULT_MODEL), seed, progress=show)
-        content["fitted_on"] |= {"towns": seeds, "look_alikes": LOOK_ALIKES}
-        file = output or FILE
+        content = fit(pairs, folder_of_model, seed, progress=show)
+        content["fitted_on"] |= {"towns": seeds, "look_alikes": shares}
         file.write_text(json.dumps(content, indent=2) + "\n")
     held_out = content["held_out"]
     for row in held_out["reliability"]:

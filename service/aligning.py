@@ -6,7 +6,8 @@ import numpy as np
 from placecell_client import CompactMap
 
 from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from segments.types import Float64, Int8, Int64
+from segments.types import Float64, Int64
+from service.likeness import likely
 from service.map_index import MapIndex, index_of
 from service.models import Model
 from service.problems import Problem
@@ -51,23 +52,10 @@ class MapLooks:
         return found[inverse], distances[inverse], likely[inverse]
 
     def likely(self, a: Int64, b: Int64) -> Float64:
-        """How likely each row of a and row of b are the same.
-
-        By the model's classifier; without one, a normal distribution of distances whose deviation
-        is the distance of a match, a step of the quantiser at least.
-        """
+        """How likely each row of a and row of b are the same."""
         blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
-        told = [self._likely(self._a[a[block]], self._b[b[block]]) for block in blocks]
+        told = [likely(self._model, self._b[b[block]], self._a[a[block]]) for block in blocks]
         return np.concatenate([np.zeros(0), *told])
-
-    def _likely(self, one: Int8, other: Int8) -> Float64:
-        if self._model.classifier is not None:
-            return self._model.classifier.probabilities(other, one)
-        quantiser = self._model.manifest.quantiser
-        levels = quantiser.levels(other).astype(np.float64) - quantiser.levels(one)
-        distances = quantiser.step * np.linalg.norm(levels, axis=1)
-        deviation = max(self._model.manifest.pair_threshold, quantiser.step)
-        return np.asarray(np.exp(-0.5 * (distances / deviation) ** 2))
 
 
 def align_maps(

@@ -19,6 +19,7 @@ from placecell_client.map_edit import (
     with_optional,
 )
 
+from segments.localisation.near import within
 from segments.types import Bool, Float64, Int64, UInt32
 
 
@@ -111,14 +112,20 @@ class Layers:
         """The segments within a box that holds these places, (p, 3), and so many metres more."""
         if not len(places):
             return self.take(self.recent.ids[:0])
-        low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
-
-        def inside(layer: CompactMap) -> Bool:
-            return np.asarray(((layer.centroids >= low) & (layer.centroids <= high)).all(axis=1))
-
-        base = take(self.base, inside(self.base) & ~self.gone)
-        recent = take(self.recent, inside(self.recent))
+        rows = self.rows_about(places, metres)
+        above = rows >= len(self.base)
+        base, recent = (
+            take(self.base, rows[~above]),
+            take(self.recent, rows[above] - len(self.base)),
+        )
         return apply(base, Delta(recent, np.zeros(0, dtype=np.uint32)))
+
+    def rows_about(self, places: Float64, metres: float) -> Int64:
+        """Rows of the map within a box that holds these places, (p, 3), and so many metres more."""
+        base, recent = (
+            within(layer.centroids, places, metres) for layer in (self.base, self.recent)
+        )
+        return np.concatenate([base[~self.gone[base]], recent + len(self.base)])
 
     def column(self, name: str, rows: Int64) -> NDArray[Any]:
         """Values of a column that every map has, at rows of the map, of any shape."""

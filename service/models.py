@@ -7,6 +7,7 @@ from pathlib import Path
 from threading import Lock
 
 from segments.extractor import load_extractor
+from segments.localisation.confidence import NAME, Confidence, shipped
 from segments.manifest import FILE, Manifest, ModelError
 from segments.pairs import PairClassifier, load_pair_classifier
 from service.describer import Describer
@@ -24,10 +25,12 @@ class Model:
     Attributes:
         describer: that runs it.
         classifier: its pair classifier, if it has one.
+        confidence: how probable a pose is that was found from its descriptors.
     """
 
     describer: Describer
     classifier: PairClassifier | None
+    confidence: Confidence
 
     @property
     def manifest(self) -> Manifest:
@@ -131,6 +134,7 @@ class Models:
         return Model(
             Describer(extractor, self._settings.limits, self._metrics),
             load_pair_classifier(folder, extractor.manifest),
+            _confidence_of(folder, extractor.manifest),
         )
 
     def _tell(self) -> None:
@@ -138,3 +142,15 @@ class Models:
         for model in self.all():
             role = "default" if model is self.default else "beside"
             self._metrics.models.labels(model.id, role).set(1)
+
+
+def _confidence_of(folder: Path, manifest: Manifest) -> Confidence:
+    """The folder's own, if it was fitted for this model; else the default model's."""
+    file = folder / NAME
+    if not file.is_file():
+        return shipped()
+    try:
+        return Confidence.load(file, manifest.model_id)
+    except (ValueError, KeyError, TypeError) as error:
+        logger.warning("probabilities of poses are by the default model's constants: %s", error)
+        return shipped()

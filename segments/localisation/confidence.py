@@ -1,7 +1,8 @@
 """How probably a pose is right: a logistic model of a few figures, fitted on drives.
 
 `confidence.json` holds its constants, what they were fitted on, and how well they hold there;
-`placecell fit-confidence` makes it anew.
+`placecell fit-confidence` makes it anew. What looks alike to one model does not to another, so each
+model's folder has its own; the one beside this file, of the default model, is for those without.
 """
 
 import json
@@ -15,13 +16,15 @@ import numpy as np
 from segments.localisation.hypothesis import Hypothesis
 from segments.types import Float64
 
-FILE = Path(__file__).with_name("confidence.json")
+NAME = "confidence.json"
 
-FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
+SHIPPED = Path(__file__).with_name(NAME)
+
+FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "alike")
 
 
 def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Float64:
-    """What the probability follows from, float64 (6,), in the order of `FEATURES`.
+    """What the probability follows from, float64 (7,), in the order of `FEATURES`.
 
     Args:
         score: of the best hypothesis, with the support of earlier requests.
@@ -33,12 +36,13 @@ def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Fl
     spread = np.sqrt(max(np.linalg.eigvalsh(plan.T @ plan / len(best))[0], 0.0))
     return np.array(
         [
-            np.log(score),
+            np.log(max(score, 1e-9)),
             1 - rival,
             np.log(len(best)),
             len(best) / usable,
             np.sqrt(np.mean(best.residuals**2)),
             np.log1p(spread),
+            best.alike / usable,
         ]
     )
 
@@ -66,21 +70,27 @@ class Confidence:
         return float(self.probabilities(features[None])[0])
 
     def probabilities(self, features: Float64) -> Float64:
-        """Of many poses: features (n, 6), probabilities float64 (n,)."""
+        """Of many poses: features (n, 7), probabilities float64 (n,)."""
         standard = (features - np.array(self.means)) / np.array(self.deviations)
         logits = np.clip(standard @ np.array(self.weights) + self.bias, -500.0, 500.0)
         return np.asarray(np.minimum(1 / (1 + np.exp(-logits)), self.highest))
 
     @classmethod
-    def load(cls, file: Path = FILE) -> Self:
+    def load(cls, file: Path = SHIPPED, model_id: str | None = None) -> Self:
         """From a file of `placecell fit-confidence`.
 
+        Args:
+            model_id: that it has to be fitted for, if any.
+
         Raises:
-            ValueError: it is of other features than this program's.
+            ValueError: it is of other features than this program's, or for another model.
         """
         content = json.loads(file.read_text())
         if tuple(content["features"]) != FEATURES:
             raise ValueError(f"{file}: of the features {content['features']}, not {FEATURES}")
+        fitted_for = content["fitted_on"]["model_id"]
+        if model_id not in {None, fitted_for}:
+            raise ValueError(f"{file}: for model {fitted_for}, not {model_id}")
         model = content["model"]
         return cls(
             tuple(model["means"]),
@@ -93,5 +103,5 @@ class Confidence:
 
 @cache
 def shipped() -> Confidence:
-    """The one that was fitted on towns."""
+    """The one of the default model."""
     return Confidence.load()

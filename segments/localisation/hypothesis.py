@@ -23,11 +23,13 @@ class Hypothesis:
     Attributes:
         pose: from the robot's frame to the map's.
         covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
-        score: sum of the weights of the correspondences that agree.
+        score: sum of the weights of what agrees.
         queries: int64 (inliers,), ascending, indices of the candidates' queries.
         rows: int64 (inliers,), the map's row that each was found as.
         source: float64 (inliers, 3), the queries' centroids, metres, in the robot's frame.
         residuals: float64 (inliers,), metres.
+        alike: how many segments look like what lies where the pose puts them, as far as that was
+            looked at (`look_again`).
     """
 
     pose: Pose
@@ -37,6 +39,7 @@ class Hypothesis:
     rows: Int64
     source: Float64
     residuals: Float64
+    alike: float = 0.0
 
     def __len__(self) -> int:
         return len(self.queries)

@@ -9,6 +9,7 @@ from segments.localisation.candidates import Candidates
 from segments.localisation.confidence import Confidence, features_of, shipped
 from segments.localisation.correspondences import correspond
 from segments.localisation.evidence import Evidence
+from segments.localisation.guided_matching import AmongCandidates, Surroundings, look_again
 from segments.localisation.hypothesis import Hypothesis, find_hypotheses
 from segments.localisation.parameters import LocalisationParameters
 from segments.localisation.pose import Pose
@@ -53,6 +54,7 @@ def localise(
     parameters: LocalisationParameters = PARAMETERS,
     confidence: Confidence | None = None,
     evidence: Evidence | None = None,
+    there: Surroundings | None = None,
 ) -> Localisation:
     """Find the robot's frame in the map's.
 
@@ -60,6 +62,7 @@ def localise(
         candidates: what each of its segments may be.
         confidence: gives the probability; the shipped one unless said.
         evidence: what the robot's requests of the last seconds found.
+        there: the map; as much of it as the candidates show unless given.
     """
     correspondences = correspond(candidates, parameters)
     if correspondences.usable < parameters.least_segments:
@@ -73,6 +76,8 @@ def localise(
     hypotheses = find_hypotheses(voted, parameters, guesses)
     if not hypotheses:
         return _unknown("inconsistent", "No place in the map has the segments as they lie here.")
+    there = there or AmongCandidates(candidates)
+    hypotheses = [look_again(each, candidates, there, parameters) for each in hypotheses]
     return judge(hypotheses, correspondences.usable, parameters, confidence or shipped(), evidence)
 
 
@@ -86,7 +91,7 @@ def judge(
     """Decide whether the best hypothesis is good enough.
 
     Args:
-        hypotheses: one or more, best first, each at another place.
+        hypotheses: one or more, each at another place.
         usable: how many queries had candidates.
     """
     support = [evidence.support(each) if evidence else 0.0 for each in hypotheses]

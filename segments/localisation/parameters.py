@@ -50,6 +50,11 @@ class LocalisationParameters:
     """Of a covariance, how many times it is larger than if centroids erred independently: measured
     are 0.9 in towns, 1.3 and 2.4 on recorded drives (`covariance_ratio` of evaluate-poses)."""
 
+    # Looking again.
+    most_pairs: int = 200_000
+    """Of segments here and in the map that lie near each other under a hypothesis and are compared,
+    at most, of some of the segments."""
+
     # Judgement.
     least_segments: int = 4
     """That agree: three fit somewhere by chance."""

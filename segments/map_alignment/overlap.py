@@ -8,10 +8,10 @@ from scipy.spatial import cKDTree
 from segments.localisation import Pose
 from segments.localisation.correspondences import Correspondences, number_places
 from segments.localisation.covariance import covariance_of
+from segments.localisation.near import evenly, near_pairs
 from segments.localisation.refinement import kernel, refine, residuals
 from segments.map_alignment.map_view import Looks, MapView
 from segments.map_alignment.parameters import AlignmentParameters
-from segments.map_alignment.submaps import evenly
 from segments.types import Bool, Float64, Int64
 
 
@@ -131,29 +131,12 @@ def alike(
     Returns:
         Indices into the parts, int64 (m,) each, and how likely the two of a pair are the same.
     """
-    pairs_a, pairs_b = near_pairs(a.centroids, b.centroids, parameters)
+    pairs_a, pairs_b = near_pairs(
+        a.centroids, b.centroids, parameters.local.wide_gate, parameters.pairs
+    )
     likely = looks.likely(rows_a[pairs_a], rows_b[pairs_b])
     kept = likely >= parameters.alike
     return pairs_a[kept], pairs_b[kept], likely[kept]
-
-
-def near_pairs(a: Float64, b: Float64, parameters: AlignmentParameters) -> tuple[Int64, Int64]:
-    """Points of a (n, 3) and of b (m, 3) that lie near each other, indices, int64 (p,) each.
-
-    Where these are too many, of fewer and fewer of the points, evenly: segments may lie so densely
-    that each is near all others.
-    """
-    gate, share = parameters.local.wide_gate, 1.0
-    while True:
-        of_a = evenly(np.arange(len(a)), int(np.ceil(share * len(a))))
-        of_b = evenly(np.arange(len(b)), int(np.ceil(share * len(b))))
-        here, there = cKDTree(a[of_a]), cKDTree(b[of_b])
-        count = int(there.count_neighbors(here, gate))
-        if count <= parameters.pairs:
-            break
-        share *= 0.9 * np.sqrt(parameters.pairs / count)
-    near = there.sparse_distance_matrix(here, gate, output_type="ndarray")
-    return of_a[near["j"]], of_b[near["i"]]
 
 
 def pairs_of_things(

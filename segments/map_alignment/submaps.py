@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 
 from segments.localisation import Candidates
 from segments.localisation.correspondences import number_places
+from segments.localisation.near import evenly
 from segments.map_alignment.map_view import Looks, MapView
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.types import Float64, Int64
@@ -46,13 +47,6 @@ def spread(points: Float64, spacing: float) -> Int64:
     # The first point of each number, in the order of `number_places`, is the one that began it.
     order = np.lexsort((*points.T[::-1], numbers))
     return order[np.flatnonzero(np.diff(numbers[order], prepend=-1))]
-
-
-def evenly(rows: Int64, most: int) -> Int64:
-    """So many of the rows at most, evenly."""
-    if len(rows) <= most:
-        return rows
-    return rows[np.linspace(0, len(rows) - 1, most).round().astype(np.int64)]
 
 
 def candidates_of(

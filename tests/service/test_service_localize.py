@@ -139,7 +139,7 @@ def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
     strange = by_codes(manifest, random_codes(40, 9), random.uniform(-30, 30, (40, 3)))
     (told,) = stocked.post("/localize", json=strange).json()["localisations"]
     assert not told["localised"]
-    assert told["reason"] == "inconsistent"
+    assert told["reason"] == "too-few-segments"
     assert told["detail"]
     assert told["pose"] is told["covariance"] is None
     assert told["inliers"] == []

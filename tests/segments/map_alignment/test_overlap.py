@@ -9,7 +9,6 @@ import pytest
 from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters, MapView
 from segments.map_alignment.overlap import (
-    near_pairs,
     near_stands,
     overlap_of,
     pairs_of_things,
@@ -155,23 +154,3 @@ def test_things_are_paired_by_the_views_that_look_most_alike() -> None:
     assert found.weights.tolist() == [0.9, 0.5]
     np.testing.assert_array_equal(found.source, b.centroids[[1, 1]])
     np.testing.assert_array_equal(found.target, a.centroids[[0, 2]])
-
-
-def test_near_pairs_are_those_within_three_metres() -> None:
-    random = np.random.default_rng(1)
-    a, b = random.uniform(0, 10, (40, 3)), random.uniform(0, 10, (50, 3))
-    here, there = near_pairs(a, b, PARAMETERS)
-    expected = np.argwhere(np.linalg.norm(a[:, None] - b, axis=2) <= 3.0).tolist()
-    assert sorted(zip(here.tolist(), there.tolist(), strict=True)) == [
-        tuple(row) for row in expected
-    ]
-
-
-def test_where_pairs_are_too_many_fewer_points_are_compared() -> None:
-    few = replace(PARAMETERS, pairs=500)
-    a = np.random.default_rng(2).uniform(0, 1, (300, 3))
-    here, there = near_pairs(a, a, few)
-    # 90,000 otherwise; each with each of what is left.
-    assert 300 < len(here) <= 500
-    assert len(here) == len(np.unique(here)) * len(np.unique(there))
-    assert np.unique(here)[[0, -1]].tolist() == [0, 299]

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from segments.map_alignment import AlignmentParameters, MapView
-from segments.map_alignment.submaps import Submap, candidates_of, cut, evenly, spread
+from segments.map_alignment.submaps import Submap, candidates_of, cut, spread
 from segments.types import Float64, Int64
 
 PARAMETERS = AlignmentParameters()
@@ -57,12 +57,6 @@ def test_what_is_spread_is_apart_and_near_all(seed: int, count: int) -> None:
     # And does not depend on how the points are numbered.
     shuffled = random.permutation(points)
     np.testing.assert_array_equal(shuffled[spread(shuffled, 10.0)], chosen)
-
-
-def test_evenly_keeps_both_ends() -> None:
-    assert evenly(np.arange(10), 4).tolist() == [0, 3, 6, 9]
-    assert evenly(np.arange(3), 4).tolist() == [0, 1, 2]
-    assert evenly(np.arange(0), 4).tolist() == []
 
 
 class Listing:

@@ -1,0 +1,154 @@
+"""Whether what lies where a hypothesis puts a robot's segments looks like them."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from segments.localisation import Candidates, Hypothesis, LocalisationParameters, Pose, localise
+from segments.localisation.guided_matching import AmongCandidates, look_again
+from segments.localisation.near import within
+from segments.types import Float64, Int64
+
+PARAMETERS = LocalisationParameters()
+HERE = Pose.of_yaw(0.0, np.zeros(3))
+
+
+class Things:
+    """A map whose rows look like the queries as far as they do, [query, row]."""
+
+    def __init__(self, centroids: Float64, likely: Float64) -> None:
+        self.centroids = centroids
+        self.looks = likely
+
+    def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
+        rows = within(self.centroids, places, metres)
+        return rows, np.array(self.centroids[rows], dtype=np.float64)
+
+    def likely(self, queries: Int64, rows: Int64) -> Float64:
+        return np.array(self.looks[queries, rows], dtype=np.float64)
+
+
+def grid(count: int) -> Float64:
+    """Places 10 m apart."""
+    return np.arange(count)[:, None] * np.array([10.0, 0.0, 0.0])
+
+
+def elsewhere(centroids: Float64, believed: float) -> Candidates:
+    """Queries with a candidate each, far away, of row 99."""
+    shape = (len(centroids), 1)
+    beliefs = np.full(shape, believed)
+    return Candidates(
+        centroids, np.full(shape, 99), np.full((*shape, 3), 1e4), 1 - beliefs, beliefs
+    )
+
+
+def guess(pose: Pose = HERE) -> Hypothesis:
+    """That nothing speaks for yet."""
+    nothing = np.zeros(0, dtype=np.int64)
+    return Hypothesis(pose, np.eye(4), 0.0, nothing, nothing, np.zeros((0, 3)), np.zeros(0))
+
+
+def held(centroids: Float64, there: Things, pose: Pose = HERE, believed: float = 0.5) -> Hypothesis:
+    return look_again(guess(pose), elsewhere(centroids, believed), there, PARAMETERS)
+
+
+def test_by_hand() -> None:
+    off = np.array([[0.0, 0, 0], [0.5, 0, 0], [0, 1.4, 0], [0, 0, 1.6]])
+    found = held(grid(4), Things(grid(4) + off, np.diag([0.8, 0.4, 0.5, 1.0])))
+    # Geman and McClure: 1 where they meet, a quarter at half a metre; nothing beyond 1.5 m.
+    near = np.array([1, 1 / 4, 1 / (1 + 2.8**2) ** 2])
+    likely = np.array([0.8, 0.4, 0.5])
+    assert found.alike == pytest.approx(likely @ near)
+    # Each segment may also be what is far away, believed with 0.5; a hundredth is chance.
+    share = likely / (likely + 0.5)
+    assert found.score == pytest.approx(np.log1p(share / 0.01) @ near)
+
+
+def test_a_row_that_is_a_candidate_is_no_rival_of_itself() -> None:
+    beliefs = np.array([[0.6, 0.2]])
+    rows = np.array([[0, 7]])
+    places = np.array([[[0.0, 0, 0], [1e4, 0, 0]]])
+    candidates = Candidates(grid(1), rows, places, 1 - beliefs, beliefs)
+    found = look_again(guess(), candidates, Things(grid(1), np.array([[0.6]])), PARAMETERS)
+    assert found.score == pytest.approx(np.log1p(0.75 / 0.01))
+
+
+def test_what_looks_like_much_tells_less() -> None:
+    there = Things(grid(4), np.diag(np.full(4, 0.5)))
+    one, many = held(grid(4), there, believed=0.01), held(grid(4), there, believed=1.0)
+    assert one.alike == many.alike == pytest.approx(2.0)
+    assert one.score > 1.2 * many.score > 0
+
+
+def test_each_segment_and_each_thing_counts_once() -> None:
+    # Two views of one thing, and two segments that both look like them.
+    looks = np.array([[0.9, 0.6], [0.6, 0.9]])
+    close = np.array([[0.0, 0, 0], [0.2, 0, 0]])
+    assert held(close, Things(close, looks)).alike == pytest.approx(0.9)
+    apart = np.array([[0.0, 0, 0], [1.2, 0, 0]])
+    assert held(apart, Things(apart, looks)).alike == pytest.approx(1.8)
+
+
+def test_elsewhere_nothing_looks_alike() -> None:
+    there = Things(grid(4), np.ones((4, 4)))
+    away = Pose.of_yaw(0.0, np.array([0.0, 500.0, 0.0]))
+    found = held(grid(4), there, away)
+    assert (found.score, found.alike) == (0.0, 0.0)
+
+
+def test_a_segment_that_is_nowhere_is_left_out() -> None:
+    there = Things(grid(4), np.diag(np.full(4, 0.5)))
+    lost = grid(4)
+    lost[2] = np.nan
+    assert held(lost, there).alike == pytest.approx(1.5)
+
+
+@given(st.integers(0, 10_000))
+def test_wherever_the_robot_s_frame_is_the_same_is_found(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    centroids = random.uniform(-30, 30, (20, 3))
+    there = Things(centroids + random.normal(0, 0.3, (20, 3)), random.uniform(0, 1, (20, 20)))
+    pose = Pose.of_yaw(random.uniform(-3, 3), random.uniform(-100, 100, 3))
+    order = random.permutation(20)
+    seen = pose.inverse().apply(centroids)
+    told = held(centroids, there)
+    assert held(seen, there, pose).score == pytest.approx(told.score)
+    there.looks = there.looks[order]
+    assert held(seen[order], there, pose).score == pytest.approx(told.score)
+
+
+def test_of_candidates_what_is_none_does_not_look_alike() -> None:
+    rows = np.array([[7, 3], [3, 9]])
+    places = grid(10)[rows]
+    believed = np.array([[0.9, 0.2], [0.0, 0.7]])
+    known = AmongCandidates(Candidates(grid(2), rows, places, 1 - believed, believed))
+    # Row 3 is a candidate of the first query; that of the second is not believed in.
+    found, centroids = known.about(grid(10)[[3, 7]], 1.0)
+    assert found.tolist() == [3, 7]
+    np.testing.assert_array_equal(centroids, grid(10)[[3, 7]])
+    asked = known.likely(np.array([0, 0, 0, 1, 1, 1]), np.array([3, 7, 9, 3, 7, 9]))
+    assert asked.tolist() == [0.2, 0.9, 0.0, 0.0, 0.0, 0.7]
+
+
+def test_the_place_where_all_looks_alike_is_found_though_few_candidates_lie_there() -> None:
+    """Of a street of identical houses the candidates of most segments are another street's."""
+    random = np.random.default_rng(4)
+    things = random.uniform(-30, 30, (20, 3)) * (1, 1, 0.1)
+    copy = Pose.of_yaw(np.pi, np.array([300.0, 0.0, 0.0])).apply(things[:12])
+    rows = np.concatenate([things, copy])
+    chosen = np.where(np.arange(20) < 12, 20 + np.arange(20), np.arange(20))[:, None]
+    likely = np.full((20, 1), 0.8)
+    candidates = Candidates(things, chosen, rows[chosen], 1 - likely, likely)
+    misled = localise(candidates)
+    assert misled.best is not None
+    assert misled.best.pose.translation[0] == pytest.approx(300.0, abs=0.1)
+    looks = np.zeros((20, 32))
+    looks[np.arange(20), np.arange(20)] = looks[np.arange(12), 20 + np.arange(12)] = 0.8
+    found = localise(candidates, there=Things(rows, looks))
+    assert found.best is not None
+    assert found.second is not None
+    assert found.best.pose.translation == pytest.approx(np.zeros(3), abs=0.1)
+    assert len(found.best) == 8
+    assert found.best.alike == pytest.approx(16.0)
+    assert found.second.alike == pytest.approx(9.6)
