@@ -23,15 +23,15 @@ class Things:
 
     def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
         rows = within(self.centroids, places, metres)
-        return rows, np.array(self.centroids[rows], dtype=np.float64)
+        return rows, np.asarray(self.centroids[rows])
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
-        return np.array(self.looks[queries, rows], dtype=np.float64)
+        return np.asarray(self.looks[queries, rows])
 
 
 def grid(count: int) -> Float64:
     """Places 10 m apart."""
-    return np.arange(count)[:, None] * np.array([10.0, 0.0, 0.0])
+    return np.asarray(np.arange(count)[:, None] * (10.0, 0.0, 0.0))
 
 
 def elsewhere(centroids: Float64, believed: float) -> Candidates:
