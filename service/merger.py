@@ -104,10 +104,10 @@ class Merger:
 
         So merging them again changes nothing, where alignment would lay them a little elsewhere.
         """
-        site = plan.maps[0].layers.content()
+        site = plan.sides[0].content
         poses = dict(plan.poses)
-        for number, stored in enumerate(plan.maps[1:], start=1):
-            pose = laid_before(site, content_of(stored), self.parameters)
+        for number, side in enumerate(plan.sides[1:], start=1):
+            pose = laid_before(site, content_of(side), self.parameters)
             if pose is not None:
                 poses[number] = pose
         return replace(plan, poses=poses)
@@ -119,7 +119,7 @@ class Merger:
         stored = maps.find(name)
         self._check_lies_still(name, before, stored)
         parts = [
-            Part(plan.maps[number].name, content_of(plan.maps[number]), plan.poses[number])
+            Part(plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number])
             for number in joining
         ]
         first_id = 0

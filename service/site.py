@@ -11,6 +11,7 @@ from segments.localisation import Pose
 from segments.localisation.registration import register
 from segments.map_alignment import AlignmentParameters
 from segments.types import Bool, Int64, UInt32
+from service.aligning import MapSide
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, sighting
 from service.stored_map import StoredMap
@@ -57,9 +58,9 @@ def site_of(stored: StoredMap) -> CompactMap:
     return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
 
 
-def content_of(stored: StoredMap) -> CompactMap:
+def content_of(side: MapSide) -> CompactMap:
     """The segments of a map that is to be merged, each with where it comes from."""
-    return originated(stored.layers.content(), stored.name)
+    return originated(side.content, side.stored.name)
 
 
 def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:

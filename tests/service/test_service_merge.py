@@ -16,6 +16,8 @@ from segments.localisation import Pose
 from segments.manifest import Manifest
 from segments.map_alignment import MapAlignment
 from service import aligning, merging
+from service.layers import Layers
+from service.map_index import index_of
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.site_builders import driven, merge, models_that_judge, put, relative
 from tests.service.test_service_keys import made
@@ -304,18 +306,45 @@ def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -
     assert stocked.get("/maps").json() == before
 
 
+def test_a_map_is_made_ready_once_however_many_it_is_held_against(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [*maps]
+    for name, each in maps.items():  # so that none has an index over all of it
+        edited(stocked, name, take(each, np.arange(0)), [3])
+    joined, indexed = [], []
+    content = Layers.content
+
+    def counted(layers: Layers) -> CompactMap:
+        joined.append(layers)
+        return content(layers)
+
+    def indexing(codes: Any, quantiser: Any) -> Any:
+        indexed.append(len(codes))
+        return index_of(codes, quantiser)
+
+    monkeypatch.setattr(Layers, "content", counted)
+    monkeypatch.setattr("service.aligning.index_of", indexing)
+    told = merge(stocked, "site", names)
+    assert told.status_code == 201, told.text
+    assert all(part["merged"] for part in told.json()["parts"])
+    assert len(joined) == len(names)
+    # Nothing is held against the last.
+    assert indexed == [len(maps[name]) - 1 for name in names[:-1]]
+
+
 @pytest.fixture
 def misled(monkeypatch: pytest.MonkeyPatch) -> None:
     """East and west are laid on each other wrongly, with a great score."""
     real = aligning.align_maps
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
-        found, *contents = real(a, b, *rest)
-        if {a.name, b.name} == {"east", "west"} and found.best is not None:
+        found = real(a, b, *rest)
+        if {a.stored.name, b.stored.name} == {"east", "west"} and found.best is not None:
             away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
             best = replace(found.best, pose=away, score=1e6)
             found = MapAlignment(best, None, None, "")
-        return found, *contents
+        return found
 
     monkeypatch.setattr(merging, "align_maps", wrong)
 
@@ -545,7 +574,7 @@ def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.M
     real = aligning.align_maps
 
     def slow(a: Any, b: Any, *rest: Any) -> Any:
-        asked.append(b.name)
+        asked.append(b.stored.name)
         threading.Event().wait(0.3)
         return real(a, b, *rest)
 
