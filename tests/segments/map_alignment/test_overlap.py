@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters, MapView
@@ -175,3 +176,18 @@ def test_where_pairs_are_too_many_fewer_points_are_compared() -> None:
     assert 300 < len(here) <= 500
     assert len(here) == len(np.unique(here)) * len(np.unique(there))
     assert np.unique(here)[[0, -1]].tolist() == [0, 299]
+
+
+def test_of_each_view_one_tree_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[Float64] = []
+
+    def counted(points: Float64) -> cKDTree:
+        made.append(points)
+        return cKDTree(points)
+
+    monkeypatch.setattr("segments.map_alignment.map_view.cKDTree", counted)
+    a, b = (view(corner(), [(x, 0, 0)] * 4) for x in (0, 3))
+    for _ in range(3):
+        overlap_of(a, b, NOWHERE, Table(np.eye(4)), PARAMETERS)
+    # Of a itself one; of what of both is compared, and of b where each pose puts it, one each time.
+    assert len(made) == 1 + 3 * 4
