@@ -375,6 +375,27 @@ def test_a_map_put_anew_under_its_name_is_taken_anew(
     assert_lies_as_driven(content(stocked), {"east": maps["east"], "west": other}, "east")
 
 
+def test_a_map_that_was_corrected_is_laid_anew_where_it_moved(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    """As after a loop was closed: some stands, and what was seen from them, lie elsewhere."""
+    west = maps["west"]
+    merge(stocked, "site", ["east", "west"], deduplicate=False)
+    bent = west.frame_index < 4
+    move = np.array([0.0, 2.0, 0.0])
+    positions, centroids = west.frame_positions.copy(), west.centroids.copy()
+    positions[:4] += move
+    centroids[bent] += move
+    put_anew(stocked, "west", replace(west, frame_positions=positions, centroids=centroids))
+    (part,) = merge(stocked, "site", ["west"], deduplicate=False).json()["parts"]
+    count = int(bent.sum())
+    assert [part[key] for key in ("added", "known", "removed")] == [
+        count, len(west) - count, count,
+    ]  # fmt: skip
+    (part,) = merge(stocked, "site", ["west"], deduplicate=False).json()["parts"]
+    assert [part[key] for key in ("added", "known", "removed")] == [0, len(west), 0]
+
+
 def test_only_the_map_that_a_segment_was_written_to_replaces_it(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
