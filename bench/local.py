@@ -16,7 +16,7 @@ from segments.localisation.evidence import Evidence
 from segments.manifest import Manifest
 from segments.map_alignment import AlignmentParameters, MapAlignment
 from segments.types import Float64, Int8
-from service.aligning import align_maps
+from service.aligning import MapSide, align_maps
 from service.keys import ANYONE
 from service.locating import localise_in
 from service.models import Model
@@ -116,6 +116,6 @@ class Local:
     def align(self, name: str, other: str) -> tuple[MapAlignment, float]:
         """As `/maps/{map}/align/{other}`; and the milliseconds that it took."""
         started = perf_counter()
-        one, another = self._state.maps.get(name), self._state.maps.get(other)
-        found, *_ = align_maps(one, another, self.model, AlignmentParameters())
+        one, another = (MapSide.of(self._state.maps.get(each)) for each in (name, other))
+        found = align_maps(one, another, one.index(self.model), self.model, AlignmentParameters())
         return found, 1e3 * (perf_counter() - started)

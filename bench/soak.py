@@ -42,12 +42,14 @@ class Soak:
         share: of what it bears, offered by clients that behave.
         bad_clients: of each bad kind, all the time.
         every: seconds between looks at its memory.
+        full: seconds at full load before, which tell how much it bears.
     """
 
     seconds: float = 600.0
     share: float = 0.8
     bad_clients: int = 2
     every: float = 5.0
+    full: float = 10.0
 
 
 def soak(scans: Sequence[Segments], plan: Soak, seed: int = 0) -> dict[str, Any]:
@@ -88,7 +90,7 @@ async def _run(
     address: str, sent: tuple[bytes, ...], plan: Soak, folder: Path, seed: int
 ) -> tuple[Outcome, list[dict[str, float]], dict[str, Counter[str]]]:
     host, port = address_of(address)
-    full = await sent_by_process(Load(host, port, sent, 0, 10.0), folder)
+    full = await sent_by_process(Load(host, port, sent, 0, plan.full), folder)
     rate = plan.share * full.statuses.count(200) / full.elapsed
     bad: dict[str, Counter[str]] = {kind: Counter() for kind in BAD}
     watched: list[dict[str, float]] = []

@@ -1,6 +1,7 @@
 """From two stored maps to how they lie to each other."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from placecell_client import CompactMap
@@ -22,6 +23,35 @@ BLOCK = 1 << 16
 
 Check = Callable[[], None]
 """Raises an exception when nobody waits any longer; is asked for each part of a map."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapSide:
+    """A stored map made ready to be aligned, once for all maps that it is held against.
+
+    Attributes:
+        stored: the map.
+        content: all of it in one piece, whose rows an alignment names.
+        view: where its segments are, and were seen from.
+    """
+
+    stored: StoredMap
+    content: CompactMap
+    view: MapView
+
+    @classmethod
+    def of(cls, stored: StoredMap) -> "MapSide":
+        """Of a map as it is now."""
+        content = stored.layers.content()
+        stands = content.frame_positions[content.frame_index]
+        return cls(stored, content, MapView(content.centroids, stands))
+
+    def index(self, model: Model) -> MapIndex:
+        """Over its content: the map's own, or a new one if the map was written to since."""
+        stored = self.stored
+        if stored.index is not None and self.content is stored.layers.base:
+            return stored.index.base
+        return index_of(self.content.codes, model.manifest.quantiser)
 
 
 class MapLooks:
@@ -59,24 +89,16 @@ class MapLooks:
 
 
 def align_maps(
-    a: StoredMap,
-    b: StoredMap,
+    a: MapSide,
+    b: MapSide,
+    index: MapIndex,
     model: Model,
     parameters: AlignmentParameters,
     check: Check = lambda: None,
-) -> tuple[MapAlignment, CompactMap, CompactMap]:
-    """How b lies to a; and the contents of both, whose rows it names."""
-    one, other = a.layers.content(), b.layers.content()
-    # The base's index is there already; segments written since are in none.
-    is_base = a.index is not None and one is a.layers.base
-    index = a.index.base if is_base and a.index else index_of(one.codes, model.manifest.quantiser)
-    looks = MapLooks(model, one, other, index, check)
-    return align(view_of(one), view_of(other), looks, parameters), one, other
-
-
-def view_of(content: CompactMap) -> MapView:
-    """Where a map's segments are, and were seen from."""
-    return MapView(content.centroids, content.frame_positions[content.frame_index])
+) -> MapAlignment:
+    """How b lies to a, with a's index."""
+    looks = MapLooks(model, a.content, b.content, index, check)
+    return align(a.view, b.view, looks, parameters)
 
 
 def check_same_model(a: StoredMap, b: StoredMap) -> None:

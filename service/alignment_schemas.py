@@ -128,7 +128,9 @@ class MergedPartOut(BaseModel):
     repeats: int = Field(
         description="Segments left out, for another map's segment shows the same (`deduplicate`)."
     )
-    removed: int = Field(description="Segments merged before that the map no longer has.")
+    removed: int = Field(
+        description="Segments merged before that the map no longer has, or has replaced."
+    )
 
 
 class MergedOut(BaseModel):

@@ -35,7 +35,7 @@ class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Ce
     session: SessionId | None = Field(
         None,
         description="Any id that the robot alone uses, for requests in one odometry frame: those "
-        "of the last seconds support each other.",
+        "of the last seconds support each other, one that is sent again once.",
     )
 
     @model_validator(mode="after")

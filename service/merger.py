@@ -1,16 +1,17 @@
 """Maps put into a site, for one request: laid on each other, joined, and written."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from placecell_client import MapFileError
 
+from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters
 from service.aligning import Check, check_same_model
-from service.living import SameView
+from service.living import RADIUS, SameView
 from service.merging import Plan, plan_merge
 from service.problems import Problem
-from service.site import Part, Share, content_of, join, laid_before, site_of
+from service.site import ROUNDED, Part, Share, content_of, join, laid_before, site_of
 from service.stored_map import StoredMap
 from service.versions import commits_of
 from service.writer import Writer, Written, leading_to
@@ -80,11 +81,16 @@ class Merger:
         self.writer.conditions.check(None if site is None else site.tag)
         model = self.writer.models.named(laid[0].model_id)
         plan = plan_merge(laid, model, self.parameters, self.check)
+        before: dict[int, Pose] = {}
         if site is not None and laid[0] is site:
-            plan = self._as_before(plan)
-        joining = [
-            number for number, each in enumerate(laid) if number in plan.poses and each is not site
-        ]
+            before = self._as_before(plan)
+            plan = replace(plan, poses=plan.poses | before)
+        # What lies as it lay is known within its rounding, else within how well maps are aligned.
+        joining = {
+            number: ROUNDED if number in before else RADIUS
+            for number, each in enumerate(laid)
+            if number in plan.poses and each is not site
+        }
         if len(plan.poses) < 2:
             if self.dry_run:
                 segments, previous = (len(site), site.head.sequence) if site else (0, None)
@@ -99,28 +105,29 @@ class Merger:
         with maps.writing(name):
             return self._write(name, site, plan, joining)
 
-    def _as_before(self, plan: Plan) -> Plan:
-        """Lay maps that are part of the site already as they were laid.
+    def _as_before(self, plan: Plan) -> dict[int, Pose]:
+        """How maps that are part of the site already were laid, by number.
 
         So merging them again changes nothing, where alignment would lay them a little elsewhere.
         """
-        site = plan.maps[0].layers.content()
-        poses = dict(plan.poses)
-        for number, stored in enumerate(plan.maps[1:], start=1):
-            pose = laid_before(site, content_of(stored), self.parameters)
+        site = plan.sides[0].content
+        poses = {}
+        for number, side in enumerate(plan.sides[1:], start=1):
+            pose = laid_before(site, content_of(side), self.parameters)
             if pose is not None:
                 poses[number] = pose
-        return replace(plan, poses=poses)
+        return poses
 
     def _write(
-        self, name: str, before: StoredMap | None, plan: Plan, joining: Sequence[int]
+        self, name: str, before: StoredMap | None, plan: Plan, joining: Mapping[int, float]
     ) -> Merged:
+        """Join these parts, by number, each with its slack, and store the site."""
         writer, maps = self.writer, self.writer.maps
         stored = maps.find(name)
         self._check_lies_still(name, before, stored)
         parts = [
-            Part(plan.maps[number].name, content_of(plan.maps[number]), plan.poses[number])
-            for number in joining
+            Part(plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack)
+            for number, slack in joining.items()
         ]
         first_id = 0
         if stored is not None:

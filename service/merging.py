@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 from segments.localisation import Pose
 from segments.map_alignment import (
@@ -13,7 +12,7 @@ from segments.map_alignment import (
     poses_from,
 )
 from segments.map_alignment.loops import Checked
-from service.aligning import Check, align_maps
+from service.aligning import Check, MapSide, align_maps
 from service.models import Model
 from service.stored_map import StoredMap
 
@@ -41,26 +40,31 @@ class Plan:
     """How maps lie to the first of them.
 
     Attributes:
-        maps: the first is the one that the others are laid on.
+        sides: the maps; the first is the one that the others are laid on.
         pairings: of each two.
         checked: what the loops say.
         poses: by number, from the map's frame to the first's, of those that can be laid on it.
     """
 
-    maps: tuple[StoredMap, ...]
+    sides: tuple[MapSide, ...]
     pairings: tuple[Pairing, ...]
     checked: Checked
     poses: dict[int, Pose]
+
+    @property
+    def maps(self) -> tuple[StoredMap, ...]:
+        """As they are stored."""
+        return tuple(side.stored for side in self.sides)
 
 
 def plan_merge(
     maps: Sequence[StoredMap], model: Model, parameters: AlignmentParameters, check: Check
 ) -> Plan:
     """Align each two, reject what loops rule out, and lay all that is connected on the first."""
-    found = {
-        (one, other): align_maps(maps[one], maps[other], model, parameters, check)[0]
-        for one, other in combinations(range(len(maps)), 2)
-    }
+    sides = tuple(MapSide.of(stored) for stored in maps)
+    found: dict[tuple[int, int], MapAlignment] = {}
+    for one in range(len(sides) - 1):
+        found |= _with_later(one, sides, model, parameters, check)
     edges = [
         Alignment(
             one,
@@ -83,4 +87,22 @@ def plan_merge(
         )
         for pair, each in found.items()
     )
-    return Plan(tuple(maps), pairings, checked, poses_from(0, edges, checked))
+    return Plan(sides, pairings, checked, poses_from(0, edges, checked))
+
+
+def _with_later(
+    one: int,
+    sides: Sequence[MapSide],
+    model: Model,
+    parameters: AlignmentParameters,
+    check: Check,
+) -> dict[tuple[int, int], MapAlignment]:
+    """How each map after this one lies to it.
+
+    By itself, so that no two indices are there at once: one may be larger than its map.
+    """
+    index = sides[one].index(model)
+    return {
+        (one, other): align_maps(sides[one], sides[other], index, model, parameters, check)
+        for other in range(one + 1, len(sides))
+    }

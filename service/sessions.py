@@ -54,19 +54,24 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._by_key)
 
-    def evidence(self, key: SessionKey) -> Evidence | None:
-        """What the session's earlier requests say now; None if there is none."""
+    def evidence(self, key: SessionKey, digest: bytes) -> Evidence | None:
+        """What the session's earlier requests say now; None if there is none.
+
+        Args:
+            key: of the session.
+            digest: of what is asked now: a request that is sent again does not support itself.
+        """
         with self._lock:
             now = self._clock()
             known = self._by_key.get(key)
-            return known[1].at(now) if known is not None else None
+            return known[1].at(now, digest) if known is not None else None
 
-    def remember(self, key: SessionKey, hypotheses: Sequence[Hypothesis]) -> None:
-        """Add what a request found by itself."""
+    def remember(self, key: SessionKey, hypotheses: Sequence[Hypothesis], digest: bytes) -> None:
+        """Add what a request found by itself, once however often it is sent."""
         with self._lock:
             now = self._clock()
             _, history = self._by_key.pop(key, (now, History(self._parameters)))
-            history.add(now, hypotheses)
+            history.add(now, hypotheses, digest)
             self._by_key[key] = now, history
             while self._by_key:
                 oldest, (last, _) = next(iter(self._by_key.items()))

@@ -10,7 +10,8 @@ from placecell_client.map_edit import apply, empty, take, with_optional
 from segments.localisation import Pose
 from segments.localisation.registration import register
 from segments.map_alignment import AlignmentParameters
-from segments.types import Bool, Int64, UInt32
+from segments.types import Bool, Float64, Int64, UInt32
+from service.aligning import MapSide
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, sighting
 from service.stored_map import StoredMap
@@ -27,11 +28,13 @@ class Part:
         name: under which it is stored.
         content: its segments, each with where it comes from.
         pose: from its frame to the site's.
+        slack: metres along an axis, up to which what was merged before lies where it lay.
     """
 
     name: str
     content: CompactMap
     pose: Pose
+    slack: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +45,7 @@ class Share:
         added: new in the site.
         known: were merged before, and stay as they are.
         repeats: not stored, for another map's segment shows the same.
-        removed: were merged before, and are gone from the part.
+        removed: were merged before, and are gone from the part, or replaced there.
     """
 
     added: int
@@ -57,32 +60,32 @@ def site_of(stored: StoredMap) -> CompactMap:
     return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
 
 
-def content_of(stored: StoredMap) -> CompactMap:
+def content_of(side: MapSide) -> CompactMap:
     """The segments of a map that is to be merged, each with where it comes from."""
-    return originated(stored.layers.content(), stored.name)
+    return originated(side.content, side.stored.name)
 
 
 def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
     """How a map lies in a site that it was merged into, from what it gave; None if that is unclear.
 
-    The stands tell it exactly, for they are moved without rounding.
+    The stands tell it exactly, for they are moved without rounding. Where all lies on one line or
+    spot they do not tell the direction; then the centroids of most show that it is wrong.
 
     Args:
         part: with where its segments come from.
     """
     rows, places = shared(part, with_optional(site, ("source", "source_ids")))
+    same = moments_of(part, rows) == moments_of(site, places)  # else it was seen anew, elsewhere
+    rows, places = rows[same], places[same]
     if len(rows) < parameters.least_pairs:
         return None
     stands = part.frame_positions[part.frame_index[rows]]
     there = site.frame_positions[site.frame_index[places]]
     pose = register(stands, there, np.ones(len(rows)), parameters.local)
-    moved_by = np.concatenate(
-        [
-            pose.apply(stands) - there,
-            pose.apply(part.centroids[rows]) - site.centroids[places],
-        ]
-    )
-    return pose if np.abs(moved_by).max() <= ROUNDED else None
+    if np.abs(pose.apply(stands) - there).max() > ROUNDED:
+        return None
+    off = np.abs(pose.apply(part.centroids[rows]) - site.centroids[places]).max(axis=1)
+    return pose if np.median(off) <= ROUNDED else None
 
 
 def join(
@@ -91,7 +94,8 @@ def join(
     """The site with the parts in it, one after the other.
 
     A segment is known by the map that it was written to first, and its id there; so a map can be
-    merged again when it has grown, and parts may share what was merged into both.
+    merged again when it has grown, and parts may share what was merged into both. What that map
+    itself has replaced since under the same id is taken out, and anew.
 
     Args:
         site: in canonical form.
@@ -107,6 +111,8 @@ def join(
         site = with_optional(site, ("source", "source_ids"))
         known = keys_in(laid, site)
         given = keys_in(site, laid)
+        rows, places = replaced(part, laid, site)
+        known[rows], given[places] = False, False
         gone = ~given & of_source(site, part.name)
         added = renumbered(take(laid, ~known), first_id)
         first_id += len(added)
@@ -123,6 +129,31 @@ def join(
             Share(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
         )
     return site, shares
+
+
+def replaced(part: Part, laid: CompactMap, site: CompactMap) -> tuple[Int64, Int64]:
+    """What the part has replaced since it was merged, rows of both, int64 (m,) each.
+
+    Told by codes, moment and place. Only what was written to the part first: of the rest it may
+    have an older version than the site.
+
+    Args:
+        laid: the part's content, in the site's frame.
+    """
+    rows, places = shared(laid, site)
+    off = np.abs(laid.centroids[rows] - site.centroids[places]).max(axis=1)
+    differs = (
+        (laid.codes[rows] != site.codes[places]).any(axis=1)
+        | (moments_of(laid, rows) != moments_of(site, places))
+        | (off > part.slack)
+    )
+    differs &= of_source(laid, part.name)[rows]
+    return rows[differs], places[differs]
+
+
+def moments_of(content: CompactMap, rows: Int64) -> Float64:
+    """When these segments were seen, seconds, float64 (m,)."""
+    return content.frame_times[content.frame_index[rows]]
 
 
 def keys_in(content: CompactMap, other: CompactMap) -> Bool:

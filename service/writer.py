@@ -48,8 +48,11 @@ Check = Callable[[CompactMap, Delta], None]
 class Writer:
     """Whoever sent a request, at work on the maps.
 
-    What leads to where the map is already is done, not refused: so a write whose answer was lost
-    can be sent again.
+    What leads to where the map is already is done, not refused, and makes no version: so a `put` or
+    an `edit` whose answer was lost can be sent again; at worst that brings back what others removed
+    since. Under If-Match: *, or if it is an `age`, a `restore`, a merge or a `delete`, it would
+    undo what others wrote since; under an ETag these are done to that version or not at all.
+    `compact` heeds no conditions: sent again, it may let go of more.
 
     Attributes:
         maps: all.

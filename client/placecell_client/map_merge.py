@@ -19,7 +19,7 @@ class MergedPart:
         added: segments that are new in the site.
         known: segments that were merged before, and stay as they are.
         repeats: segments left out, for another map's segment shows the same.
-        removed: segments merged before that the map no longer has.
+        removed: segments merged before that the map no longer has, or has replaced.
     """
 
     map: str

@@ -5,7 +5,7 @@ nearly constant, however far the robot drives in a few seconds.
 """
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from segments.localisation.hypothesis import Hypothesis, same_place
@@ -21,10 +21,12 @@ class Past:
     Attributes:
         time: seconds, of any clock that only grows.
         hypotheses: poses with their scores.
+        digest: of what it asked; None: it is not known, and counts as unlike any other's.
     """
 
     time: float
     hypotheses: tuple[tuple[Pose, float], ...]
+    digest: bytes | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,14 +82,24 @@ class History:
         self._parameters = parameters
         self._past: deque[Past] = deque(maxlen=parameters.remembered)
 
-    def at(self, time: float) -> Evidence:
-        """What the past says now; what is older than the memory is forgotten."""
-        oldest = time - self._parameters.memory
-        return Evidence(
-            tuple(each for each in self._past if each.time >= oldest), time, self._parameters
-        )
+    def at(self, time: float, digest: bytes | None = None) -> Evidence:
+        """What the past says now; what is older than the memory is forgotten.
 
-    def add(self, time: float, hypotheses: Sequence[Hypothesis]) -> None:
-        """Remember what a request found by itself."""
+        Args:
+            time: seconds.
+            digest: of what is asked now; the same request, sent again, is no evidence of its own.
+        """
+        oldest = time - self._parameters.memory
+        past = tuple(each for each in self._others(digest) if each.time >= oldest)
+        return Evidence(past, time, self._parameters)
+
+    def add(
+        self, time: float, hypotheses: Sequence[Hypothesis], digest: bytes | None = None
+    ) -> None:
+        """Remember what a request found by itself; sent again, it takes its own place."""
         found = tuple((each.pose, each.score) for each in hypotheses)
-        self._past.append(Past(time, found))
+        self._past = deque(self._others(digest), self._past.maxlen)
+        self._past.append(Past(time, found, digest))
+
+    def _others(self, digest: bytes | None) -> Iterator[Past]:
+        return (each for each in self._past if digest is None or each.digest != digest)

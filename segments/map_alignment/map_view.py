@@ -1,13 +1,17 @@
 """What alignment needs to know of a map."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
+
+import numpy as np
+from scipy.spatial import cKDTree
 
 from segments.localisation import Pose
 from segments.types import Float64, Int64
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class MapView:
     """Where the segments of a map are, and where they were seen from, in the map's frame.
 
@@ -21,6 +25,16 @@ class MapView:
 
     def __len__(self) -> int:
         return len(self.centroids)
+
+    @cached_property
+    def places(self) -> Float64:
+        """Where the robot was, float64 (p, 3), each place once however much was seen from there."""
+        return np.unique(self.stands, axis=0)
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Of the places; of one segment at least."""
+        return cKDTree(self.places)
 
     def take(self, rows: Int64) -> "MapView":
         """These segments."""

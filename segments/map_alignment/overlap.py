@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from segments.localisation import Pose
 from segments.localisation.correspondences import Correspondences, number_places
@@ -94,12 +93,7 @@ def overlap_of(
 
 def near_stands(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
     """Which segments of one map were seen from where the other's robot was too, bool (n,)."""
-    if not len(other):
-        return np.zeros(len(one), dtype=bool)
-    distances, _ = cKDTree(np.unique(other.stands, axis=0)).query(
-        one.stands, distance_upper_bound=parameters.shared_stand
-    )
-    return np.asarray(np.isfinite(distances))
+    return near_places(one.stands, other, parameters)
 
 
 def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
@@ -110,8 +104,15 @@ def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters
 
 def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float:
     """Of the places where the robot of one map was, the share where the other's was too."""
-    stands = np.unique(one.stands, axis=0)
-    return float(near_stands(MapView(stands, stands), other, parameters).mean())
+    return float(near_places(one.places, other, parameters).mean())
+
+
+def near_places(stands: Float64, view: MapView, parameters: AlignmentParameters) -> Bool:
+    """Which of the stands (n, 3) are where the map's robot was too, bool (n,)."""
+    if not len(view):
+        return np.zeros(len(stands), dtype=bool)
+    distances, _ = view.tree.query(stands, distance_upper_bound=parameters.shared_stand)
+    return np.asarray(np.isfinite(distances))
 
 
 def alike(

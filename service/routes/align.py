@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from segments.localisation import LocalisationParameters
 from segments.map_alignment import AlignmentParameters
-from service.aligning import align_maps, check_same_model
+from service.aligning import MapSide, align_maps, check_same_model
 from service.alignment_schemas import AlignmentOut, MergedOut, MergeRequest
 from service.audit import tell_written
 from service.bodies import JSON
@@ -72,8 +72,10 @@ def _aligned(
     one: StoredMap, other: StoredMap, model: Model, motion: Literal["yaw", "se3"], pairs: bool
 ) -> AlignmentOut:
     parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
-    found, here, there = align_maps(one, other, model, parameters, check_cancelled)
-    return alignment_of(found, one, other, (here.ids, there.ids) if pairs else None)
+    here, there = MapSide.of(one), MapSide.of(other)
+    found = align_maps(here, there, here.index(model), model, parameters, check_cancelled)
+    ids = (here.content.ids, there.content.ids) if pairs else None
+    return alignment_of(found, one, other, ids)
 
 
 @router.post(

@@ -79,7 +79,7 @@ def _locate(
 ) -> Told:
     timing.lap("queue")
     assert own.centroids is not None
-    evidence = state.sessions.evidence(key) if key else None
+    evidence = state.sessions.evidence(key, own.digest) if key else None
     found = localise_in(
         own.codes,
         own.centroids,
@@ -91,7 +91,7 @@ def _locate(
         evidence,
     )
     if key:
-        state.sessions.remember(key, found.hypotheses)
+        state.sessions.remember(key, found.hypotheses, own.digest)
     return _told(found, stored, own)
 
 

@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from bench import serve, soak, workload
 from bench.load import Load, Outcome, request_of, run
+from bench.rates import rate
 from segments.segments import Segments
 
 
@@ -83,7 +85,12 @@ def test_a_connection_that_fails_is_told() -> None:
     assert outcome.statuses == [0, 0]
 
 
-def test_a_short_run_against_the_real_service(tmp_path: Path) -> None:
+def test_a_short_run_against_the_real_service(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        serve, "rate", lambda pool, work, threads, _: rate(pool, work, threads, 0.1)
+    )
     plan = serve.Plan(
         segments=10, small=2, map_segments=200, levels=(0.5, 3.0), seconds=0.5, bodies=3
     )
@@ -100,7 +107,7 @@ def test_a_short_run_against_the_real_service(tmp_path: Path) -> None:
 
 
 def test_a_short_soak(tmp_path: Path) -> None:
-    report = soak.soak(scans(4), soak.Soak(seconds=3.0, bad_clients=1, every=0.5))
+    report = soak.soak(scans(4), soak.Soak(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
     assert report["unexpected"] == 0
     told = {status for each in report["bad_clients"].values() for status in each}
     assert told <= {"gone", "200", "400", "413", "415", "422", "429"}

@@ -40,7 +40,7 @@ def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("tiny")
 def test_robots_that_share_a_map_end_with_the_same(tmp_path: Path) -> None:
-    words = ("fleet", "--minutes", 0.1, "--clients", 8, "--seed", 1)
+    words = ("fleet", "--minutes", 0.05, "--clients", 8, "--seed", 1)
     report = report_of(tmp_path / "fleet.json", *words)
     assert report["robots_with_the_service_s_map"] == 8
     assert report["map_is_the_union"] is True

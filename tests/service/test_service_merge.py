@@ -10,12 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
+from placecell_client.canonical import canonical
 from placecell_client.map_edit import take
 
 from segments.localisation import Pose
+from segments.localisation.registration import register_yaw
 from segments.manifest import Manifest
 from segments.map_alignment import MapAlignment
 from service import aligning, merging
+from service.layers import Layers
+from service.map_index import index_of
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.site_builders import driven, merge, models_that_judge, put, relative
 from tests.service.test_service_keys import made
@@ -260,6 +264,153 @@ def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest:
     assert_lies_as_driven(after, {"east": content(service, "east"), "west": west}, "east")
 
 
+def put_anew(service: Any, name: str, content: CompactMap) -> None:
+    put(service, name, content, **{"If-Match": "*"})
+
+
+def seen_anew(there: CompactMap, rows: np.ndarray) -> CompactMap:
+    """The map, some segments of which were taken anew an hour later, under their ids."""
+    codes = there.codes.copy()
+    codes[rows] = np.roll(codes[rows], 1, axis=1)
+    later = there.frame_times[there.frame_index[rows]] + 3_600
+    frames = np.arange(len(rows)) + len(there.frame_times)
+    frame_index = there.frame_index.copy()
+    frame_index[rows] = frames
+    of_them = there.frame_index[rows]
+    return canonical(
+        replace(
+            there,
+            codes=codes,
+            frame_index=frame_index,
+            frame_times=np.concatenate([there.frame_times, later]),
+            frame_positions=np.concatenate([there.frame_positions, there.frame_positions[of_them]]),
+            frame_orientations=np.concatenate(
+                [there.frame_orientations, there.frame_orientations[of_them]]
+            ),
+        )
+    )
+
+
+def described_anew(there: CompactMap, rows: np.ndarray) -> CompactMap:
+    """The map, some codes of which changed, and nothing else."""
+    codes = there.codes.copy()
+    codes[rows] = np.roll(codes[rows], 1, axis=1)
+    return replace(there, codes=codes)
+
+
+def shifted(there: CompactMap, rows: np.ndarray) -> CompactMap:
+    """The map, some centroids of which lie 20 cm elsewhere, and nothing else."""
+    centroids = there.centroids.copy()
+    centroids[rows] += (0.0, 0.2, 0.0)
+    return replace(there, centroids=centroids)
+
+
+@pytest.mark.parametrize("replaced", [seen_anew, described_anew, shifted])
+def test_what_a_map_replaced_under_its_id_is_taken_anew(
+    stocked: Any, maps: dict[str, CompactMap], replaced: Any
+) -> None:
+    west, rows = maps["west"], np.arange(5, 35)
+    merge(stocked, "site", ["east", "west"], deduplicate=False)
+    before = content(stocked)
+    put_anew(stocked, "west", replaced(west, rows))
+    now = content(stocked, "west")
+    would = merge(stocked, "site", ["west"], deduplicate=False, dry_run=True).json()
+    told = merge(stocked, "site", ["west"], deduplicate=False).json()
+    (part,) = told["parts"]
+    assert [part[key] for key in ("added", "known", "repeats", "removed")] == [
+        30, len(west) - 30, 0, 30,
+    ]  # fmt: skip
+    assert (told["changed"], told["removed"]) == (30, 30)
+    assert would["parts"] == told["parts"]
+
+    after = content(stocked)
+    assert after.source_ids is not None
+    order = rows_from(after, "west")
+    order = order[np.argsort(after.source_ids[order])]
+    assert after.source_ids[order].tolist() == now.ids.tolist()
+    np.testing.assert_array_equal(after.codes[order], now.codes)
+    np.testing.assert_array_equal(
+        after.frame_times[after.frame_index[order]], now.frame_times[now.frame_index]
+    )
+    # Where the map has them now, and laid as the rest of it was before.
+    pose = register_yaw(now.centroids, after.centroids[order], np.ones(len(now)))
+    assert np.abs(pose.apply(now.centroids) - after.centroids[order]).max() < 0.03
+    # All else is as it was, under its id; no id is given twice.
+    same, places = np.isin(before.ids, after.ids), np.isin(after.ids, before.ids)
+    assert same.sum() == len(before) - 30
+    np.testing.assert_array_equal(before.centroids[same], after.centroids[places])
+    np.testing.assert_array_equal(before.codes[same], after.codes[places])
+    assert after.ids[~places].min() > before.ids.max()
+
+    again = merge(stocked, "site", ["west"], deduplicate=False).json()
+    assert (again["changed"], again["removed"]) == (0, 0)
+    assert again["parts"][0]["known"] == len(west)
+
+
+def test_what_was_replaced_and_another_map_shows_is_left_out(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    west, rows = maps["west"], np.arange(len(maps["west"]))
+    merge(stocked, "site", ["east", "west"])
+    put_anew(stocked, "west", shifted(west, rows[40:60]))
+    told = merge(stocked, "site", ["west"]).json()
+    (part,) = told["parts"]
+    assert part["added"] + part["repeats"] + part["known"] == len(west)
+    assert part["removed"] > 0
+    again = merge(stocked, "site", ["west"]).json()
+    assert (again["changed"], again["removed"]) == (0, 0)
+
+
+def test_a_map_put_anew_under_its_name_is_taken_anew(
+    stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
+) -> None:
+    merge(stocked, "site", ["east", "west"], deduplicate=False)
+    other = driven(manifest.model_id, "west", 60, 210, seed=9, time=5e9)
+    put_anew(stocked, "west", other)
+    told = merge(stocked, "site", ["west"], deduplicate=False).json()
+    (part,) = told["parts"]
+    assert [part[key] for key in ("added", "known", "removed")] == [
+        len(other), 0, len(maps["west"]),
+    ]  # fmt: skip
+    assert_lies_as_driven(content(stocked), {"east": maps["east"], "west": other}, "east")
+
+
+def test_a_map_that_was_corrected_is_laid_anew_where_it_moved(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    """As after a loop was closed: some stands, and what was seen from them, lie elsewhere."""
+    west = maps["west"]
+    merge(stocked, "site", ["east", "west"], deduplicate=False)
+    bent = west.frame_index < 4
+    move = np.array([0.0, 2.0, 0.0])
+    positions, centroids = west.frame_positions.copy(), west.centroids.copy()
+    positions[:4] += move
+    centroids[bent] += move
+    put_anew(stocked, "west", replace(west, frame_positions=positions, centroids=centroids))
+    (part,) = merge(stocked, "site", ["west"], deduplicate=False).json()["parts"]
+    count = int(bent.sum())
+    assert [part[key] for key in ("added", "known", "removed")] == [
+        count, len(west) - count, count,
+    ]  # fmt: skip
+    (part,) = merge(stocked, "site", ["west"], deduplicate=False).json()["parts"]
+    assert [part[key] for key in ("added", "known", "removed")] == [0, len(west), 0]
+
+
+def test_only_the_map_that_a_segment_was_written_to_replaces_it(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    """Else two maps that tell of it differently would each undo the other for ever."""
+    merge(stocked, "inner", ["west", "north"], deduplicate=False)
+    merge(stocked, "site", ["east", "inner"], deduplicate=False)
+    put_anew(stocked, "west", described_anew(maps["west"], np.arange(20)))
+    first = merge(stocked, "site", ["west", "inner"], deduplicate=False).json()
+    west, inner = first["parts"]
+    assert (west["added"], west["removed"]) == (20, 20)
+    assert (inner["added"], inner["removed"]) == (0, 0)
+    again = merge(stocked, "site", ["west", "inner"], deduplicate=False).json()
+    assert (again["changed"], again["removed"]) == (0, 0)
+
+
 def test_a_site_in_a_site_keeps_where_all_comes_from(stocked: Any) -> None:
     merge(stocked, "inner", ["west", "north"], deduplicate=False)
     told = merge(stocked, "site", ["east", "inner"], deduplicate=False).json()
@@ -304,18 +455,45 @@ def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -
     assert stocked.get("/maps").json() == before
 
 
+def test_a_map_is_made_ready_once_however_many_it_is_held_against(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [*maps]
+    for name, each in maps.items():  # so that none has an index over all of it
+        edited(stocked, name, take(each, np.arange(0)), [3])
+    joined, indexed = [], []
+    content = Layers.content
+
+    def counted(layers: Layers) -> CompactMap:
+        joined.append(layers)
+        return content(layers)
+
+    def indexing(codes: Any, quantiser: Any) -> Any:
+        indexed.append(len(codes))
+        return index_of(codes, quantiser)
+
+    monkeypatch.setattr(Layers, "content", counted)
+    monkeypatch.setattr("service.aligning.index_of", indexing)
+    told = merge(stocked, "site", names)
+    assert told.status_code == 201, told.text
+    assert all(part["merged"] for part in told.json()["parts"])
+    assert len(joined) == len(names)
+    # Nothing is held against the last.
+    assert indexed == [len(maps[name]) - 1 for name in names[:-1]]
+
+
 @pytest.fixture
 def misled(monkeypatch: pytest.MonkeyPatch) -> None:
     """East and west are laid on each other wrongly, with a great score."""
     real = aligning.align_maps
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
-        found, *contents = real(a, b, *rest)
-        if {a.name, b.name} == {"east", "west"} and found.best is not None:
+        found = real(a, b, *rest)
+        if {a.stored.name, b.stored.name} == {"east", "west"} and found.best is not None:
             away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
             best = replace(found.best, pose=away, score=1e6)
             found = MapAlignment(best, None, None, "")
-        return found, *contents
+        return found
 
     monkeypatch.setattr(merging, "align_maps", wrong)
 
@@ -458,11 +636,11 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
 def test_a_site_that_was_replaced_meanwhile_is_not_written(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def put_anew() -> None:
-        put(stocked, "site", maps["north"], **{"If-Match": "*"})
+    def replaced() -> None:
+        put_anew(stocked, "site", maps["north"])
 
     def put_and_forgotten() -> None:
-        put_anew()
+        replaced()
         edited(stocked, "site", take(maps["north"], NONE), [3])
         assert stocked.post("/maps/site/compact?keep=1").is_success
 
@@ -476,7 +654,7 @@ def test_a_site_that_was_replaced_meanwhile_is_not_written(
     def restored() -> None:
         assert stocked.post("/maps/site/versions/1/restore").status_code == 200
 
-    for act in (put_anew, put_and_forgotten, removed, removed_and_made_anew, restored):
+    for act in (replaced, put_and_forgotten, removed, removed_and_made_anew, restored):
         stocked.delete("/maps/site")
         merge(stocked, "site", ["east", "north"])
         edited(stocked, "site", take(content(stocked), NONE), [7])
@@ -545,7 +723,7 @@ def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.M
     real = aligning.align_maps
 
     def slow(a: Any, b: Any, *rest: Any) -> Any:
-        asked.append(b.name)
+        asked.append(b.stored.name)
         threading.Event().wait(0.3)
         return real(a, b, *rest)
 

@@ -15,7 +15,9 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client import Client, MapFileError, Maps, ServiceError, encode
+from typer.testing import CliRunner
 
+from cli import app
 from segments.manifest import Manifest
 from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
 
@@ -191,14 +193,25 @@ def test_a_second_service_on_a_data_directory_says_so(models_dir: Path, data_dir
 
 
 def test_a_service_that_cannot_start_says_why(
-    models_dir: Path, tmp_path: Path, data_dir: Path
+    models_dir: Path, tmp_path: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def why(*arguments: str, models: Path = models_dir, data: Path = data_dir) -> str:
-        return refused(*arguments, models_dir=models, data_dir=data)
-
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = str(taken.getsockname()[1])
-        assert f"cannot listen on 127.0.0.1 port {port}" in why("--port", port)
+        said = refused("--port", port, models_dir=models_dir, data_dir=data_dir)
+        assert f"cannot listen on 127.0.0.1 port {port}" in said
+
+    # How a process ends is seen; what else it says is seen without one.
+    monkeypatch.setattr("service.logs.install", lambda *_: None)
+
+    def why(*arguments: str, models: Path = models_dir, data: Path = data_dir) -> str:
+        words = command(models, data, *arguments)
+        result = CliRunner().invoke(app, words[words.index("serve") :])
+        assert result.exit_code == 1, result.output
+        assert isinstance(result.exception, SystemExit)
+        assert result.stdout == ""
+        assert result.stderr.count("\n") == 1
+        return result.stderr
+
     assert "--allow-remote" in why("--host", "0.0.0.0")
     assert "host 'no.such.host.invalid'" in why("--host", "no.such.host.invalid")
     assert "'absent' cannot be loaded" in why("--model", "absent")

@@ -43,6 +43,29 @@ def test_requests_add_up_to_a_number_that_is_bounded() -> None:
     assert len(history.at(100.1).past) == 4
 
 
+def test_a_request_that_is_sent_again_counts_once() -> None:
+    history = History(PARAMETERS)
+    history.add(99.0, [hypothesis(0, 20)], b"one")
+    # It does not support itself, nor say where to look.
+    assert history.at(100.0, b"one").support(hypothesis(0, 5)) == 0
+    assert not history.at(100.0, b"one").guesses(np.zeros(3))
+    history.add(100.0, [hypothesis(0, 20)], b"one")
+    assert history.at(100.0, b"two").support(hypothesis(0, 5)) == pytest.approx(10)
+    history.add(100.0, [hypothesis(0, 20)], b"two")
+    assert history.at(100.0).support(hypothesis(0, 5)) == pytest.approx(20)
+    # Nor does it push others out.
+    for _ in range(10):
+        history.add(100.0, [hypothesis(0, 20)], b"one")
+    assert len(history.at(100.0).past) == 2
+
+
+def test_requests_of_which_nothing_is_known_all_count() -> None:
+    history = History(PARAMETERS)
+    for _ in range(2):
+        history.add(100.0, [hypothesis(0, 20)])
+    assert history.at(100.0).support(hypothesis(0, 5)) == pytest.approx(20)
+
+
 def test_guesses_are_the_best_places_of_the_past_the_latest_first() -> None:
     history = History(PARAMETERS)
     history.add(100.0, [hypothesis(0, 20), hypothesis(50, 8)])

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters, MapView
@@ -154,3 +155,18 @@ def test_things_are_paired_by_the_views_that_look_most_alike() -> None:
     assert found.weights.tolist() == [0.9, 0.5]
     np.testing.assert_array_equal(found.source, b.centroids[[1, 1]])
     np.testing.assert_array_equal(found.target, a.centroids[[0, 2]])
+
+
+def test_of_each_view_one_tree_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[Float64] = []
+
+    def counted(points: Float64) -> cKDTree:
+        made.append(points)
+        return cKDTree(points)
+
+    monkeypatch.setattr("segments.map_alignment.map_view.cKDTree", counted)
+    a, b = (view(corner(), [(x, 0, 0)] * 4) for x in (0, 3))
+    for _ in range(3):
+        overlap_of(a, b, NOWHERE, Table(np.eye(4)), PARAMETERS)
+    # Of a itself one; of what of both is compared, and of b where each pose puts it, one each time.
+    assert len(made) == 1 + 3 * 4
