@@ -16,7 +16,7 @@ serve: .venv/demo.stamp  ## Keep a service running on http://127.0.0.1:8000
 	$(BIN)/placecell serve
 
 test: install  ## All tests, with coverage
-	$(BIN)/python -m pytest --cov --cov-report=term
+	$(BIN)/python -m pytest --hypothesis-profile=ci --cov --cov-report=term
 
 lint: install  ## Check style and types
 	$(BIN)/ruff check .

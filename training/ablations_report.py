@@ -26,8 +26,7 @@ def write_ablations(report: dict[str, Any], output: Path) -> Path:
     lines = ["# Ablations", "", "Made by", "", f"    {report['command']}", ""]
     lines += [*_head("the model itself"), *(_line(row) for row in own)]
     if len(own) > 1:
-        spread = {key: stdev(row[key] for row in own) for key in FIGURES}
-        lines.append("| deviation | " + " | ".join(f"{v:.3f}" for v in spread.values()) + " |")
+        lines.append(_line({"name": "deviation"} | {key: _deviation(own, key) for key in FIGURES}))
     for part, members in groupby(rows, key=lambda row: row["part"]):
         lines += ["", *_head(f"{part} changed"), *(_line(row) for row in members)]
     if report["throughput"]:
@@ -74,5 +73,12 @@ def _head(title: str) -> list[str]:
     return [f"| {title} | " + " | ".join(FIGURES.values()) + " |", "|---" * 6 + "|"]
 
 
+def _deviation(rows: list[Row], key: str) -> float | None:
+    values = [row[key] for row in rows]
+    return None if None in values else stdev(values)
+
+
 def _line(row: Row) -> str:
-    return f"| {row['name']} | " + " | ".join(f"{row[key]:.3f}" for key in FIGURES) + " |"
+    # Of a short drive not every figure can be told.
+    cells = ("" if row[key] is None else f"{row[key]:.3f}" for key in FIGURES)
+    return f"| {row['name']} | " + " | ".join(cells) + " |"

@@ -41,3 +41,11 @@ def test_report(tmp_path: Path) -> None:
     assert "| deviation | 0.071 |" in text
     assert "- fast fp32: 100" in text
     assert (tmp_path / "ablations-speed.png").stat().st_size > 1000
+
+
+def test_a_figure_that_a_short_drive_does_not_give_stays_empty(tmp_path: Path) -> None:
+    rows = [row("model", name, 0.8) | {"cross_view_top1": None} for name in ("seed-0", "seed-1")]
+    report = {"rows": rows, "throughput": {}, "command": "placecell x"}
+    text = write_ablations(report, tmp_path).read_text()
+    assert "| seed-1 | 0.800 | 0.800 |  | 0.800 |" in text
+    assert "| deviation | 0.000 | 0.000 |  | 0.000 |" in text
