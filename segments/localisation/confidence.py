@@ -20,11 +20,11 @@ NAME = "confidence.json"
 
 SHIPPED = Path(__file__).with_name(NAME)
 
-FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "alike")
+FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
 
 
 def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Float64:
-    """What the probability follows from, float64 (7,), in the order of `FEATURES`.
+    """What the probability follows from, float64 (6,), in the order of `FEATURES`.
 
     Args:
         score: of the best hypothesis, with the support of earlier requests.
@@ -42,7 +42,6 @@ def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Fl
             len(best) / usable,
             np.sqrt(np.mean(best.residuals**2)),
             np.log1p(spread),
-            best.alike / usable,
         ]
     )
 
@@ -70,7 +69,7 @@ class Confidence:
         return float(self.probabilities(features[None])[0])
 
     def probabilities(self, features: Float64) -> Float64:
-        """Of many poses: features (n, 7), probabilities float64 (n,)."""
+        """Of many poses: features (n, 6), probabilities float64 (n,)."""
         standard = (features - np.array(self.means)) / np.array(self.deviations)
         logits = np.clip(standard @ np.array(self.weights) + self.bias, -500.0, 500.0)
         return np.asarray(np.minimum(1 / (1 + np.exp(-logits)), self.highest))

@@ -1,4 +1,4 @@
-"""Looking again: how much of what the robot sees looks like what lies there in the map.
+"""Looking again: whether what lies there in the map looks like what the robot sees.
 
 A hypothesis is found from each segment's likeliest candidates, and these are few. In a street of
 identical houses all of them may lie where the robot drove the same way, and none where it truly is,
@@ -93,5 +93,4 @@ def look_again(
     best = np.lexsort((found, queries, -worth))
     for owners in (queries, things):
         best = best[np.sort(np.unique(owners[best], return_index=True)[1])]
-    alike = float((likely * nearness)[best].sum())
-    return replace(hypothesis, score=float(worth[best].sum()), alike=alike)
+    return replace(hypothesis, score=float(worth[best].sum()))

@@ -28,8 +28,6 @@ class Hypothesis:
         rows: int64 (inliers,), the map's row that each was found as.
         source: float64 (inliers, 3), the queries' centroids, metres, in the robot's frame.
         residuals: float64 (inliers,), metres.
-        alike: how many segments look like what lies where the pose puts them, as far as that was
-            looked at (`look_again`).
     """
 
     pose: Pose
@@ -39,7 +37,6 @@ class Hypothesis:
     rows: Int64
     source: Float64
     residuals: Float64
-    alike: float = 0.0
 
     def __len__(self) -> int:
         return len(self.queries)

@@ -4,9 +4,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.localisation.confidence import FEATURES, SHIPPED, Confidence, features_of, shipped
+from segments.localisation.confidence import (
+    FEATURES,
+    NAME,
+    SHIPPED,
+    Confidence,
+    features_of,
+    shipped,
+)
 from segments.localisation.hypothesis import Hypothesis
 from segments.localisation.pose import Pose
+from segments.manifest import Manifest
+from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 
 MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99)
 
@@ -32,7 +41,7 @@ def test_features_by_hand() -> None:
     numbers = np.arange(4)
     residuals = np.array([0.0, 0.0, 0.6, 0.8])
     pose = Pose.of_yaw(0, np.zeros(3))
-    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals, 3.0)
+    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals)
     found = dict(zip(FEATURES, features_of(best, 10.0, 0.25, 16).tolist(), strict=True))
     assert found == pytest.approx(
         {
@@ -42,22 +51,37 @@ def test_features_by_hand() -> None:
             "share": 0.25,
             "residual": 0.5,
             "spread": np.log1p(np.sqrt(2)),  # 2 metres squared across, 4.5 along
-            "alike": 3 / 16,
         }
     )
 
 
-def test_what_is_shipped_was_fitted_and_held_against_other_towns() -> None:
-    content = json.loads(SHIPPED.read_text())
+SHIPPED_FILES = [SHIPPED, *sorted(MODELS_FOLDER.glob(f"*/{NAME}"))]
+
+
+@pytest.mark.parametrize("file", SHIPPED_FILES, ids=lambda file: file.parent.name)
+def test_what_is_shipped_was_fitted_and_held_against_other_towns(file: Path) -> None:
+    content = json.loads(file.read_text())
     assert content["fitted_on"]["cases"] > 1_000
     assert len(content["fitted_on"]["towns"]) > 1
     often = [row for row in content["held_out"]["reliability"] if row["count"] >= 50]
     assert len(often) > 2
     assert all(abs(row["stated"] - row["right"]) < 0.2 for row in often)
-    assert 0.9 < shipped().highest < 1
+    fitted = Confidence.load(file)
+    assert 0.9 < fitted.highest < 1
     # More that agrees, and less that competes, is never worth less.
-    weights = dict(zip(FEATURES, shipped().weights, strict=True))
-    assert min(weights["score"], weights["margin"], weights["share"], weights["alike"]) > 0
+    weights = dict(zip(FEATURES, fitted.weights, strict=True))
+    assert min(weights["score"], weights["share"]) > 0
+    assert weights["margin"] >= 0
+
+
+def test_the_models_have_constants_that_were_fitted_for_them() -> None:
+    default = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    assert Confidence.load(SHIPPED, default.model_id) == shipped()
+    own = [file.parent.name for file in SHIPPED_FILES[1:]]
+    assert {"group", "siamese", "contrastive", "eigenvalue"} <= set(own)
+    for name in own:
+        folder = MODELS_FOLDER / name
+        assert Confidence.load(folder / NAME, Manifest.load(folder).model_id)
 
 
 def test_constants_of_other_features_are_refused(tmp_path: Path) -> None:

@@ -49,20 +49,21 @@ def guess(pose: Pose = HERE) -> Hypothesis:
     return Hypothesis(pose, np.eye(4), 0.0, nothing, nothing, np.zeros((0, 3)), np.zeros(0))
 
 
-def held(centroids: Float64, there: Things, pose: Pose = HERE, believed: float = 0.5) -> Hypothesis:
-    return look_again(guess(pose), elsewhere(centroids, believed), there, PARAMETERS)
+def score(centroids: Float64, there: Things, pose: Pose = HERE, believed: float = 0.5) -> float:
+    return look_again(guess(pose), elsewhere(centroids, believed), there, PARAMETERS).score
+
+
+def worth(likely: float, believed: float = 0.5) -> float:
+    """Of a segment that may also be what is far away; a hundredth of its belief is chance."""
+    return float(np.log1p(likely / (likely + believed) / 0.01))
 
 
 def test_by_hand() -> None:
     off = np.array([[0.0, 0, 0], [0.5, 0, 0], [0, 1.4, 0], [0, 0, 1.6]])
-    found = held(grid(4), Things(grid(4) + off, np.diag([0.8, 0.4, 0.5, 1.0])))
+    there = Things(grid(4) + off, np.diag([0.8, 0.4, 0.5, 1.0]))
     # Geman and McClure: 1 where they meet, a quarter at half a metre; nothing beyond 1.5 m.
-    near = np.array([1, 1 / 4, 1 / (1 + 2.8**2) ** 2])
-    likely = np.array([0.8, 0.4, 0.5])
-    assert found.alike == pytest.approx(likely @ near)
-    # Each segment may also be what is far away, believed with 0.5; a hundredth is chance.
-    share = likely / (likely + 0.5)
-    assert found.score == pytest.approx(np.log1p(share / 0.01) @ near)
+    expected = worth(0.8) + worth(0.4) / 4 + worth(0.5) / (1 + 2.8**2) ** 2
+    assert score(grid(4), there) == pytest.approx(expected)
 
 
 def test_a_row_that_is_a_candidate_is_no_rival_of_itself() -> None:
@@ -76,32 +77,30 @@ def test_a_row_that_is_a_candidate_is_no_rival_of_itself() -> None:
 
 def test_what_looks_like_much_tells_less() -> None:
     there = Things(grid(4), np.diag(np.full(4, 0.5)))
-    one, many = held(grid(4), there, believed=0.01), held(grid(4), there, believed=1.0)
-    assert one.alike == many.alike == pytest.approx(2.0)
-    assert one.score > 1.2 * many.score > 0
+    for believed in (0.01, 0.3, 1.0):
+        told = score(grid(4), there, believed=believed)
+        assert told == pytest.approx(4 * worth(0.5, believed))
 
 
 def test_each_segment_and_each_thing_counts_once() -> None:
     # Two views of one thing, and two segments that both look like them.
     looks = np.array([[0.9, 0.6], [0.6, 0.9]])
     close = np.array([[0.0, 0, 0], [0.2, 0, 0]])
-    assert held(close, Things(close, looks)).alike == pytest.approx(0.9)
+    assert score(close, Things(close, looks)) == pytest.approx(worth(0.9))
     apart = np.array([[0.0, 0, 0], [1.2, 0, 0]])
-    assert held(apart, Things(apart, looks)).alike == pytest.approx(1.8)
+    assert score(apart, Things(apart, looks)) == pytest.approx(2 * worth(0.9))
 
 
 def test_elsewhere_nothing_looks_alike() -> None:
-    there = Things(grid(4), np.ones((4, 4)))
     away = Pose.of_yaw(0.0, np.array([0.0, 500.0, 0.0]))
-    found = held(grid(4), there, away)
-    assert (found.score, found.alike) == (0.0, 0.0)
+    assert score(grid(4), Things(grid(4), np.ones((4, 4))), away) == 0.0
 
 
 def test_a_segment_that_is_nowhere_is_left_out() -> None:
-    there = Things(grid(4), np.diag(np.full(4, 0.5)))
     lost = grid(4)
     lost[2] = np.nan
-    assert held(lost, there).alike == pytest.approx(1.5)
+    there = Things(grid(4), np.diag(np.full(4, 0.5)))
+    assert score(lost, there) == pytest.approx(3 * worth(0.5))
 
 
 @given(st.integers(0, 10_000))
@@ -112,10 +111,10 @@ def test_wherever_the_robot_s_frame_is_the_same_is_found(seed: int) -> None:
     pose = Pose.of_yaw(random.uniform(-3, 3), random.uniform(-100, 100, 3))
     order = random.permutation(20)
     seen = pose.inverse().apply(centroids)
-    told = held(centroids, there)
-    assert held(seen, there, pose).score == pytest.approx(told.score)
+    told = score(centroids, there)
+    assert score(seen, there, pose) == pytest.approx(told)
     there.looks = there.looks[order]
-    assert held(seen[order], there, pose).score == pytest.approx(told.score)
+    assert score(seen[order], there, pose) == pytest.approx(told)
 
 
 def test_of_candidates_what_is_none_does_not_look_alike() -> None:
@@ -150,5 +149,6 @@ def test_the_place_where_all_looks_alike_is_found_though_few_candidates_lie_ther
     assert found.second is not None
     assert found.best.pose.translation == pytest.approx(np.zeros(3), abs=0.1)
     assert len(found.best) == 8
-    assert found.best.alike == pytest.approx(16.0)
-    assert found.second.alike == pytest.approx(9.6)
+    # Twelve may be either, eight are themselves alone.
+    assert found.best.score == pytest.approx(12 * worth(0.8, 0.8) + 8 * np.log1p(100))
+    assert found.second.score == pytest.approx(12 * np.log1p(100))

@@ -130,7 +130,7 @@ def test_pure_noise_is_no_place() -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_of_a_few_segments_the_pose_is_right_or_none(seed: int) -> None:
-    made = scene(seed, segments=24, found=0.4)
+    made = scene(seed, segments=24, found=0.5)
     assert_right(localise(made.candidates), made.pose)
     for found in (0.1, 0.2):
         few = scene(seed, segments=24, found=found)
