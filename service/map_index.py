@@ -23,6 +23,10 @@ MOST = 1 << 13
 """Rows fetched for the sake of ties: of more that are equally near, some are left out."""
 
 
+BLOCK = 1 << 21
+"""Bytes of codes that are compared at once: of many ties it would be gigabytes."""
+
+
 class MapIndex(ABC):
     """Searches stored descriptors by Euclidean distance."""
 
@@ -131,9 +135,14 @@ class NibbleIndex(MapIndex):
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)
         told, rows = self._index.search(levels, fetch)
-        pairs = codes.view(np.uint8).astype(np.int64)[:, None] * 256
-        squared = self._apart[pairs + self._codes.view(np.uint8)[rows]].sum(axis=2)
-        return squared.astype(np.float64), rows, told[:, -1].astype(np.float64) - self._bound
+        asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
+        stored = self._codes.view(np.uint8)
+        squared = np.empty(rows.shape)
+        step = max(1, BLOCK // max(1, rows.shape[1] * stored.shape[1]))
+        for begin in range(0, len(rows), step):
+            some = slice(begin, begin + step)
+            squared[some] = self._apart[asked[some] | stored[rows[some]]].sum(axis=2)
+        return squared, rows, told[:, -1].astype(np.float64) - self._bound
 
 
 def index_of(codes: Int8, quantiser: Quantiser) -> MapIndex:
