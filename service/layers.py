@@ -112,13 +112,7 @@ class Layers:
         """The segments within a box that holds these places, (p, 3), and so many metres more."""
         if not len(places):
             return self.take(self.recent.ids[:0])
-        rows = self.rows_about(places, metres)
-        above = rows >= len(self.base)
-        base, recent = (
-            take(self.base, rows[~above]),
-            take(self.recent, rows[above] - len(self.base)),
-        )
-        return apply(base, Delta(recent, np.zeros(0, dtype=np.uint32)))
+        return self.take(self.column("ids", self.rows_about(places, metres)))
 
     def rows_about(self, places: Float64, metres: float) -> Int64:
         """Rows of the map within a box that holds these places, (p, 3), and so many metres more."""

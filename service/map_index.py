@@ -22,7 +22,6 @@ MARGIN = 12
 MOST = 1 << 13
 """Rows fetched for the sake of ties: of more that are equally near, some are left out."""
 
-
 BLOCK = 1 << 21
 """Bytes of codes that are compared at once: of many ties it would be gigabytes."""
 
