@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from bench.peers.exchange import read_answers
-from bench.peers.frames import Stretch, near_map, write_map, write_queries
+from bench.peers.frames import Stretch, map_poses, near_map, query_poses
+from bench.peers.layout import ANSWERS, answered, lay_out
 from bench.peers.runner import REFINED
 from bench.peers.score import score
 from bench.pose_queries import MAPPED_METRES
@@ -29,6 +30,7 @@ def compare(
     refine: bool = True,
     most: int | None = None,
     seed: int = 0,
+    resume: bool = False,
     progress: Progress = silent,
 ) -> dict[str, Any]:
     """Ask all peers, score them; the report as `placecell bench peers` writes it.
@@ -39,21 +41,25 @@ def compare(
         refine: also report each peer with its poses refined.
         most: queries, spread evenly; all unless given.
         seed: of the queries' headings.
+        resume: take the local maps that a stopped run of this comparison left in the folder, and
+            ask only those peers that it has no answers of.
 
     Raises:
-        ValueError: there is no such environment, or a peer failed.
+        ValueError: there is no such environment, a peer failed, or there is nothing to resume.
     """
     if not python.is_file():
         raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
-    poses = write_map(folder, mapped, progress)
-    truth = write_queries(folder, asking, most, seed, progress)
+    lay_out(folder, mapped, asking, most=most, seed=seed, resume=resume, progress=progress)
+    poses, truth = map_poses(mapped), query_poses(asking, most, seed)
     blocks = mapped[0].drive is asking[0].drive
     within = np.full(len(truth), fill_value=True) if blocks else near_map(poses, truth)
     rows = []
     for name in peers:
-        ask(name, folder, python, refine=refine)
-        for row in [name, name + REFINED] if refine else [name]:
-            peer, answers = read_answers(folder / "answers" / f"{row}.jsonl", len(truth))
+        systems = [name, name + REFINED] if refine else [name]
+        if not (resume and answered(folder, name, systems, len(truth))):
+            ask(name, folder, python, refine=refine)
+        for system in systems:
+            peer, answers = read_answers(folder / ANSWERS / f"{system}.jsonl", len(truth))
             rows.append(score(peer, answers, truth, within))
     parameters = mapped[0].parameters
     return {
@@ -78,7 +84,7 @@ def ask(name: str, folder: Path, python: Path, *, refine: bool) -> None:
     Raises:
         ValueError: it failed.
     """
-    words = [name, folder, folder / "answers", "--refine" if refine else "--no-refine"]
+    words = [name, folder, folder / ANSWERS, "--refine" if refine else "--no-refine"]
     command = [str(word) for word in (python, "-m", "bench.peers.runner", *words)]
     # Of ours it sees the code alone, none of the packages.
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}

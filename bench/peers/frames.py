@@ -39,6 +39,10 @@ class Stretch:
         return self.scans[:: self.parameters.frame_step]
 
 
+Frame = tuple[Stretch, int, Float64]
+"""A stretch, the scan of its local map, and that one's pose (4, 4) in the drive's world."""
+
+
 def stretches_of_one(
     drive: Drive, radius: float | None = None
 ) -> tuple[list[Stretch], list[Stretch]]:
@@ -92,11 +96,26 @@ def near_map(poses: Float64, truth: Float64) -> Bool:
     return np.asarray(apart <= MAPPED_METRES)
 
 
-def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> Float64:
-    """The map as peers read it; poses of its frames, float64 (frames, 4, 4)."""
-    poses = write_frames(folder / MAP, stretches, progress)
-    np.save(folder / MAP / POSES, poses)
-    return poses
+def map_poses(stretches: Sequence[Stretch]) -> Float64:
+    """Poses of the map's frames, float64 (frames, 4, 4)."""
+    return np.stack([stretch.to_map @ pose for stretch, _, pose in frames_of(stretches)])
+
+
+def query_poses(stretches: Sequence[Stretch], most: int | None = None, seed: int = 0) -> Float64:
+    """True poses of the queries in the map's frame, float64 (queries, 4, 4); no peer sees them.
+
+    Args:
+        most: frames that are taken, spread evenly; all unless given.
+        seed: of their headings.
+    """
+    frames = frames_of(stretches, most, np.random.default_rng(seed))
+    return np.stack([stretch.to_map @ pose for stretch, _, pose in frames])
+
+
+def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> None:
+    """The map as peers read it."""
+    write_frames(folder / MAP, frames_of(stretches), progress)
+    np.save(folder / MAP / POSES, map_poses(stretches))
 
 
 def write_queries(
@@ -105,48 +124,44 @@ def write_queries(
     most: int | None = None,
     seed: int = 0,
     progress: Progress = silent,
-) -> Float64:
+) -> None:
     """The queries as peers read them.
 
     Each is turned about the vertical by a random angle: on a street that is driven one way, a
     method that finds no turn at all would otherwise look right.
-
-    Args:
-        most: frames that are taken, spread evenly; all unless given.
-
-    Returns:
-        true poses of the queries in the map's frame, float64 (queries, 4, 4); no peer sees them.
     """
-    turning = np.random.default_rng(seed)
-    return write_frames(folder / QUERIES, stretches, progress, turning, most)
+    write_frames(
+        folder / QUERIES, frames_of(stretches, most, np.random.default_rng(seed)), progress
+    )
 
 
-def write_frames(
-    folder: Path,
+def frames_of(
     stretches: Sequence[Stretch],
-    progress: Progress,
-    turning: np.random.Generator | None = None,
     most: int | None = None,
-) -> Float64:
-    """Local maps of all frames, each about its sensor and level; returns their poses."""
+    turning: np.random.Generator | None = None,
+) -> list[Frame]:
+    """Frames in order; headings turned by random angles, if there is a generator of them."""
+    frames = [(stretch, scan) for stretch in stretches for scan in stretch.frames]
+    found = []
+    for index in spread(len(frames), most):
+        stretch, scan = frames[index]
+        turn = turning.uniform(-np.pi, np.pi) if turning else 0.0
+        found.append((stretch, scan, upright(stretch.drive.poses[scan], turn)))
+    return found
+
+
+def write_frames(folder: Path, frames: Sequence[Frame], progress: Progress) -> None:
+    """Local maps of frames, each about its sensor and level."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.npy"):
         old.unlink()
-    frames = [(stretch, scan) for stretch in stretches for scan in stretch.frames]
-    frames = [frames[index] for index in spread(len(frames), most)]
-    poses = []
     accumulator: Accumulator | None = None
     for index in progress(range(len(frames)), len(frames), f"local maps, {folder.name}"):
-        stretch, scan = frames[index]
+        stretch, scan, pose = frames[index]
         if accumulator is None or accumulator.first != stretch.scans.start:
             accumulator = Accumulator(stretch.drive, stretch.parameters, stretch.scans.start)
-        turn = turning.uniform(-np.pi, np.pi) if turning else 0.0
-        pose = upright(stretch.drive.poses[scan], turn)
         to_frame = np.asarray(np.linalg.inv(pose), dtype=np.float64)
-        cloud = transform(to_frame, accumulator.local_map(scan))
-        np.save(cloud_file(folder, index), cloud)
-        poses.append(stretch.to_map @ pose)
-    return np.stack(poses)
+        np.save(cloud_file(folder, index), transform(to_frame, accumulator.local_map(scan)))
 
 
 def upright(pose: Float64, turn: float = 0.0) -> Float64:

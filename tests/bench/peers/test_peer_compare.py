@@ -51,10 +51,33 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
     assert row["p50_ms"] > 0
     # The truth is not among what the peer could have read.
     assert sorted(file.name for file in tmp_path.iterdir()) == [
-        "answers", "figures.json", "map", "queries",
+        "answers", "comparison.sha256", "figures.json", "map", "queries",
     ]  # fmt: skip
     assert sorted(file.suffix for file in (tmp_path / QUERIES).iterdir()) == [".npy"] * 4
     assert not (tmp_path / QUERIES / POSES).exists()
+
+
+def test_a_stopped_run_goes_on(drives: tuple[Path, Path], tmp_path: Path) -> None:
+    words = (
+        *(*drives, "--no-refine", "--queries", 4, "--python", HERE, "--output", tmp_path),
+        *("--json", tmp_path / "figures.json"),
+    )
+    assert "leave out --resume" in run(*words, "--peer", "scan-context", "--resume", status=1)
+    # The second one's packages are not here, so that it ends after the first one's answers.
+    two = (*words, "--peer", "scan-context", "--peer", "kiss-matcher")
+    run(*two, status=1)
+    answers = tmp_path / "answers" / "scan-context.jsonl"
+    kept = [each.stat().st_mtime_ns for each in (answers, cloud_file(tmp_path / MAP, 0))]
+    assert "kiss-matcher: ended" in run(*two, "--resume", status=1)
+    run(*words, "--peer", "scan-context", "--resume")
+    assert [each.stat().st_mtime_ns for each in (answers, cloud_file(tmp_path / MAP, 0))] == kept
+    assert json.loads((tmp_path / "figures.json").read_text())["rows"][0]["queries"] == 4
+    # Answers that are cut short are asked for anew.
+    answers.write_text(answers.read_text()[:-5])
+    run(*words, "--peer", "scan-context", "--resume")
+    assert len(read_answers(answers, 4)[1]) == 4
+    other = (*words, "--peer", "scan-context", "--resume", "--seed", 9)
+    assert "leave out --resume" in run(*other, status=1)
 
 
 def test_a_drive_by_blocks(drives: tuple[Path, Path], tmp_path: Path) -> None:
