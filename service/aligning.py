@@ -71,15 +71,14 @@ class MapLooks:
         self._index = index
         self._check = check
 
-    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
-        """Of each row of b the rows of a that look most like it; how far, and how likely."""
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
+        """Of each row of b the rows of a that look most like it, and how likely."""
         self._check()
         distinct, inverse = np.unique(rows, return_inverse=True)
-        steps, found = self._index.search(self._b[distinct], K)
+        _, found = self._index.search(self._b[distinct], K)
         asked = np.repeat(distinct, found.shape[1])
         likely = self.likely(found.ravel(), asked).reshape(found.shape)
-        distances = steps * self._model.manifest.quantiser.step
-        return found[inverse], distances[inverse], likely[inverse]
+        return found[inverse], likely[inverse]
 
     def likely(self, a: Int64, b: Int64) -> Float64:
         """How likely each row of a and row of b are the same."""

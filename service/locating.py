@@ -59,7 +59,7 @@ def localise_in(
         queries = np.repeat(np.arange(len(codes)), found.rows.shape[1])
         probabilities = there.likely(queries, found.rows.ravel()).reshape(found.rows.shape)
     places = stored.layers.column("centroids", found.rows)
-    candidates = Candidates(centroids, found.rows, places, found.distances, probabilities)
+    candidates = Candidates(centroids, found.rows, places, probabilities)
     localisation = localise(candidates, parameters, model.confidence, evidence, there)
     timing.lap("verify")
     return localisation

@@ -1,13 +1,14 @@
 """What localisation starts from: segments of the robot's surroundings, and what they may be."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from segments.types import Float64, Int64
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Candidates:
     """Of n segments of a robot's local map, k segments of one map that look like each.
 
@@ -15,15 +16,13 @@ class Candidates:
         centroids: float64 (n, 3), metres, in the robot's frame.
         rows: int64 (n, k): rows of the map.
         places: float64 (n, k, 3): the rows' centroids, metres, in the map's frame.
-        distances: float64 (n, k), between descriptors.
-        probabilities: float64 (n, k), that both are the same; None if nobody can tell.
+        probabilities: float64 (n, k), that both are the same, 0 to 1.
     """
 
     centroids: Float64
     rows: Int64
     places: Float64
-    distances: Float64
-    probabilities: Float64 | None = None
+    probabilities: Float64
 
     def __post_init__(self) -> None:
         """Refuse arrays that do not fit each other.
@@ -32,9 +31,7 @@ class Candidates:
             ValueError: they do not; the message names one.
         """
         n, k = self.rows.shape if self.rows.ndim == 2 else (-1, -1)
-        shapes = {"centroids": (n, 3), "places": (n, k, 3), "distances": (n, k)}
-        if self.probabilities is not None:
-            shapes["probabilities"] = (n, k)
+        shapes = {"centroids": (n, 3), "places": (n, k, 3), "probabilities": (n, k)}
         for name, shape in shapes.items():
             found = getattr(self, name).shape
             if found != shape:
@@ -43,17 +40,9 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.rows)
 
+    @cached_property
     def beliefs(self) -> Float64:
-        """How likely each candidate is its query, float64 (n, k), 0 to 1; 0 where one is unusable.
-
-        The pair classifier's probability, which the descriptors' distance decides. Without one: a
-        normal distribution of distances, as wide as the nearest ones usually are.
-        """
-        if self.probabilities is not None:
-            beliefs = self.probabilities
-        else:
-            nearest = np.nanmedian(self.distances.min(axis=1)) if self.distances.size else 0.0
-            beliefs = np.exp(-0.5 * (self.distances / max(float(nearest), 1e-9)) ** 2)
-        usable = np.isfinite(self.places).all(axis=2) & np.isfinite(self.distances)
-        usable[~np.isfinite(self.centroids).all(axis=1)] = False
-        return np.where(usable, np.nan_to_num(beliefs, nan=0.0).clip(0.0, 1.0), 0.0)
+        """The probabilities, float64 (n, k); 0 where anything of a candidate is no number."""
+        seen = np.isfinite(self.centroids[:, None]).all(axis=2)
+        usable = np.isfinite(self.places).all(axis=2) & seen
+        return np.where(usable, np.nan_to_num(self.probabilities, nan=0.0).clip(0.0, 1.0), 0.0)

@@ -61,7 +61,7 @@ def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Co
     little. `claims`: how many queries' worth of belief falls on the place, if more than one: so is
     what much of the scan looks like (repetitive segments, cf. inverse document frequency).
     """
-    beliefs = candidates.beliefs()
+    beliefs = candidates.beliefs
     queries, columns = np.nonzero(beliefs)
     rows = candidates.rows[queries, columns]
     targets = candidates.places[queries, columns]

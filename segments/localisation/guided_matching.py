@@ -42,7 +42,7 @@ class AmongCandidates:
     """As much of a map as the candidates show."""
 
     def __init__(self, candidates: Candidates) -> None:
-        beliefs = candidates.beliefs()
+        beliefs = candidates.beliefs
         queries, columns = np.nonzero(beliefs)
         rows = candidates.rows[queries, columns]
         self._rows, first = np.unique(rows, return_index=True)
@@ -84,7 +84,7 @@ def look_again(
     queries, found = seen[here], rows[near]
     likely = there.likely(queries, found)
     # What the query may be besides; the row itself, where it is a candidate, is among it already.
-    others = candidates.beliefs().sum(axis=1)[queries]
+    others = candidates.beliefs.sum(axis=1)[queries]
     is_candidate = (candidates.rows[queries] == found[:, None]).any(axis=1)
     share = likely / np.maximum(others + np.where(is_candidate, 0.0, likely), 1e-9)
     nearness = kernel(np.linalg.norm(places[here] - points[near], axis=1), parameters.kernel)

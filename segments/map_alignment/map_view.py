@@ -48,12 +48,11 @@ class MapView:
 class Looks(Protocol):
     """How much segments of two maps, a and b, look like each other."""
 
-    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         """For rows (m,) of b, the rows of a that look most like each.
 
         Returns:
-            Rows, int64 (m, k); how far their descriptors are, and how likely they are the same,
-            float64 (m, k).
+            Rows, int64 (m, k), and how likely they are the same, float64 (m, k).
         """
 
     def likely(self, a: Int64, b: Int64) -> Float64:

@@ -69,13 +69,12 @@ def candidates_of(
     asked = rows[order][places]
     repeats = np.zeros(places.shape, dtype=bool)
     repeats[:, 1:] = places[:, 1:] == places[:, :-1]
-    found, distances, probabilities = looks.nearest(asked.ravel())
+    found, probabilities = looks.nearest(asked.ravel())
     probabilities = np.where(repeats.ravel()[:, None], 0.0, probabilities)
     things = len(starts)
     return Candidates(
         means,
         found.reshape(things, -1),
         other.centroids[found].reshape(things, -1, 3),
-        distances.reshape(things, -1),
         probabilities.reshape(things, -1),
     )

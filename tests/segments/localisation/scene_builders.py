@@ -34,25 +34,20 @@ class Scene:
 
 def take(given: Candidates, order: Int64) -> Candidates:
     """These queries, in this order."""
-    likely = given.probabilities
     return Candidates(
         given.centroids[order],
         given.rows[order],
         given.places[order],
-        given.distances[order],
-        None if likely is None else likely[order],
+        given.probabilities[order],
     )
 
 
 def concatenate(one: Candidates, other: Candidates) -> Candidates:
     """The queries of both."""
-    assert one.probabilities is not None
-    assert other.probabilities is not None
     return Candidates(
         np.concatenate([one.centroids, other.centroids]),
         np.concatenate([one.rows, other.rows]),
         np.concatenate([one.places, other.places]),
-        np.concatenate([one.distances, other.distances]),
         np.concatenate([one.probabilities, other.probabilities]),
     )
 
@@ -115,6 +110,4 @@ def scene_of(
         twice = np.setdiff1d(np.arange(k), first)
         chosen[query, twice] = random.choice(spare, len(twice), replace=False)
     probabilities = np.sort(random.uniform(0, 1, (n, k)), axis=1)[:, ::-1].copy()
-    return Scene(
-        Candidates(centroids, chosen, rows[chosen], 1 - probabilities, probabilities), rows, pose
-    )
+    return Scene(Candidates(centroids, chosen, rows[chosen], probabilities), rows, pose)

@@ -14,7 +14,7 @@ PARAMETERS = LocalisationParameters()
 
 
 def candidates(
-    places: Sequence[Sequence[tuple[float, float, float]]], probabilities: list[list[float]] | None
+    places: Sequence[Sequence[tuple[float, float, float]]], probabilities: list[list[float]]
 ) -> Candidates:
     """Query i lies at (i, 0, 0); rows of the map are numbered by place, equal ones alike."""
     targets = np.array(places, dtype=float)
@@ -24,8 +24,7 @@ def candidates(
         np.stack([np.arange(n), np.zeros(n), np.zeros(n)], axis=1).astype(float),
         rows.reshape(n, k),
         targets,
-        np.tile(np.arange(1.0, k + 1), (n, 1)),
-        None if probabilities is None else np.array(probabilities),
+        np.array(probabilities),
     )
 
 
@@ -69,18 +68,6 @@ def test_look_alikes_weigh_less() -> None:
     assert clear[0.0] > vague[0.0]
 
 
-def test_without_probabilities_distances_decide() -> None:
-    found = of_query(correspond(candidates([[(0, 0, 0), (50, 0, 0)]], None), PARAMETERS), 0)
-    near, far = np.exp(-0.5), np.exp(-2.0)  # at 1 and 2, and 1 is the usual nearest
-    assert found[0.0] == pytest.approx(weight(near / (near + far)))
-
-
-def test_equal_descriptors_have_no_distance() -> None:
-    given = candidates([[(0, 0, 0), (50, 0, 0)]], None)
-    same = Candidates(given.centroids, given.rows, given.places, np.zeros((1, 2)))
-    assert list(of_query(correspond(same, PARAMETERS), 0).values()) == [weight(0.5)] * 2
-
-
 NAN = float("nan")
 
 
@@ -91,7 +78,7 @@ def test_what_is_no_number_is_left_out() -> None:
     centroids: Float64 = given.centroids.copy()
     centroids[2, 1] = np.inf
     found = correspond(
-        Candidates(centroids, given.rows, given.places, given.distances, given.probabilities),
+        Candidates(centroids, given.rows, given.places, given.probabilities),
         PARAMETERS,
     )
     assert found.usable == 2
@@ -110,10 +97,8 @@ def test_no_candidates_are_no_correspondences() -> None:
 
 def test_arrays_that_do_not_fit_are_refused() -> None:
     rows = np.zeros((2, 3), dtype=np.int64)
-    good = Candidates(
-        np.zeros((2, 3)), rows, np.zeros((2, 3, 3)), np.zeros((2, 3)), np.zeros((2, 3))
-    )
-    for name in ("centroids", "places", "distances", "probabilities"):
+    good = Candidates(np.zeros((2, 3)), rows, np.zeros((2, 3, 3)), np.zeros((2, 3)))
+    for name in ("centroids", "places", "probabilities"):
         with pytest.raises(ValueError, match=name):
             replace(good, **{name: np.zeros((2, 4))})  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="centroids"):
@@ -134,10 +119,7 @@ def test_the_order_of_queries_makes_no_difference() -> None:
     n, k = 30, 8
     rows = random.integers(0, 100, (n, k))
     map_ = random.uniform(0, 60, (100, 3))
-    given = Candidates(
-        random.uniform(0, 60, (n, 3)), rows, map_[rows], random.uniform(size=(n, k)),
-        random.uniform(size=(n, k)),
-    )  # fmt: skip
+    given = Candidates(random.uniform(0, 60, (n, 3)), rows, map_[rows], random.uniform(size=(n, k)))
     order = random.permutation(n)
     other = take(given, order)
     one, two = correspond(given, PARAMETERS), correspond(other, PARAMETERS)

@@ -38,9 +38,7 @@ def elsewhere(centroids: Float64, believed: float) -> Candidates:
     """Queries with a candidate each, far away, of row 99."""
     shape = (len(centroids), 1)
     beliefs = np.full(shape, believed)
-    return Candidates(
-        centroids, np.full(shape, 99), np.full((*shape, 3), 1e4), 1 - beliefs, beliefs
-    )
+    return Candidates(centroids, np.full(shape, 99), np.full((*shape, 3), 1e4), beliefs)
 
 
 def guess(pose: Pose = HERE) -> Hypothesis:
@@ -70,7 +68,7 @@ def test_a_row_that_is_a_candidate_is_no_rival_of_itself() -> None:
     beliefs = np.array([[0.6, 0.2]])
     rows = np.array([[0, 7]])
     places = np.array([[[0.0, 0, 0], [1e4, 0, 0]]])
-    candidates = Candidates(grid(1), rows, places, 1 - beliefs, beliefs)
+    candidates = Candidates(grid(1), rows, places, beliefs)
     found = look_again(guess(), candidates, Things(grid(1), np.array([[0.6]])), PARAMETERS)
     assert found.score == pytest.approx(np.log1p(0.75 / 0.01))
 
@@ -121,7 +119,7 @@ def test_of_candidates_what_is_none_does_not_look_alike() -> None:
     rows = np.array([[7, 3], [3, 9]])
     places = grid(10)[rows]
     believed = np.array([[0.9, 0.2], [0.0, 0.7]])
-    known = AmongCandidates(Candidates(grid(2), rows, places, 1 - believed, believed))
+    known = AmongCandidates(Candidates(grid(2), rows, places, believed))
     # Row 3 is a candidate of the first query; that of the second is not believed in.
     found, centroids = known.about(grid(10)[[3, 7]], 1.0)
     assert found.tolist() == [3, 7]
@@ -138,7 +136,7 @@ def test_the_place_where_all_looks_alike_is_found_though_few_candidates_lie_ther
     rows = np.concatenate([things, copy])
     chosen = np.where(np.arange(20) < 12, 20 + np.arange(20), np.arange(20))[:, None]
     likely = np.full((20, 1), 0.8)
-    candidates = Candidates(things, chosen, rows[chosen], 1 - likely, likely)
+    candidates = Candidates(things, chosen, rows[chosen], likely)
     misled = localise(candidates)
     assert misled.best is not None
     assert misled.best.pose.translation[0] == pytest.approx(300.0, abs=0.1)

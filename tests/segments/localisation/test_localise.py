@@ -158,9 +158,7 @@ def look_alikes(places: int, spacing: float, seed: int = 0, turned: bool = False
     chosen = np.arange(20)[:, None] + 20 * np.arange(k)
     same = np.full((20, k), 0.9)
     seen = local + random.normal(scale=0.1, size=local.shape)
-    return Scene(
-        Candidates(seen, chosen, rows[chosen], 1 - same, same), rows, Pose.of_yaw(0, np.zeros(3))
-    )
+    return Scene(Candidates(seen, chosen, rows[chosen], same), rows, Pose.of_yaw(0, np.zeros(3)))
 
 
 @pytest.mark.parametrize("places", [2, 3, 8])
@@ -189,7 +187,7 @@ def houses(landmarks: int) -> Candidates:
     chosen = np.concatenate([alike, known])
     likely = np.full(chosen.shape, 0.8)
     likely[20:, 1:] = 0.001
-    return Candidates(seen, chosen, rows[chosen], 1 - likely, likely)
+    return Candidates(seen, chosen, rows[chosen], likely)
 
 
 def test_in_a_street_of_identical_houses_nobody_knows_which() -> None:
@@ -214,7 +212,7 @@ def test_one_segment_a_thousand_times_in_the_map() -> None:
     chosen = np.tile(np.arange(25), (40, 1))
     same = np.ones(chosen.shape)
     seen = rows[random.choice(1_000, 40, replace=False)]
-    assert localise(Candidates(seen, chosen, rows[chosen], 0 * same, same)).pose is None
+    assert localise(Candidates(seen, chosen, rows[chosen], same)).pose is None
 
 
 def test_one_segment_a_thousand_times_around_the_robot() -> None:
@@ -234,7 +232,7 @@ def test_one_segment_a_thousand_times_around_the_robot() -> None:
 def exact(seen: Float64) -> Candidates:
     """Segments where the map has them, each with the one candidate that is itself."""
     rows = np.arange(len(seen))[:, None]
-    return Candidates(seen, rows, seen[rows] + 100.0, np.zeros(rows.shape), np.ones(rows.shape))
+    return Candidates(seen, rows, seen[rows] + 100.0, np.ones(rows.shape))
 
 
 def test_coincident_segments_do_not_tell_the_direction() -> None:
@@ -250,7 +248,7 @@ def test_a_crowd_in_one_point_ends() -> None:
     places = np.stack([rows, np.zeros_like(rows), np.zeros_like(rows)], axis=2)
     chosen = np.tile(np.arange(25), (400, 1))
     same = np.ones(chosen.shape)
-    assert localise(Candidates(seen, chosen, places, same, same)).pose is None
+    assert localise(Candidates(seen, chosen, places, same)).pose is None
 
 
 def test_a_pole_does_not_tell_the_direction() -> None:
@@ -278,22 +276,18 @@ def test_too_few_segments_are_told(segments: int) -> None:
 def test_what_is_no_number_is_left_out() -> None:
     made = scene(6)
     given = made.candidates
-    assert given.probabilities is not None
     broken = Candidates(
-        given.centroids.copy(), given.rows, given.places.copy(), given.distances.copy(),
-        given.probabilities.copy(),
+        given.centroids.copy(), given.rows, given.places.copy(), given.probabilities.copy()
     )  # fmt: skip
-    assert broken.probabilities is not None
     broken.centroids[0] = np.nan
     broken.places[1, 2] = np.inf
-    broken.distances[2, 3] = np.nan
     broken.probabilities[3, 4] = np.nan
     found = localise(broken)
     assert_right(found, made.pose)
     assert found.best is not None
     assert 0 not in found.best.queries
     nothing = Candidates(
-        np.full((9, 3), np.nan), given.rows[:9], given.places[:9], given.distances[:9]
+        np.full((9, 3), np.nan), given.rows[:9], given.places[:9], given.probabilities[:9]
     )
     assert localise(nothing).reason == "too-few-segments"
 
@@ -304,13 +298,6 @@ def test_ten_thousand_candidates(k: int) -> None:
     assert_right(localise(made.candidates), made.pose)
     noise = scene(8, segments=10_000 // k, found=0.0, k=k, rows=20_000)
     assert localise(noise.candidates).pose is None
-
-
-def test_without_a_classifier_distances_do() -> None:
-    made = scene(9)
-    given = made.candidates
-    plain = Candidates(given.centroids, given.rows, given.places, given.distances)
-    assert_right(localise(plain), made.pose)
 
 
 def test_far_from_any_origin_nothing_is_lost() -> None:

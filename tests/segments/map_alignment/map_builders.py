@@ -69,9 +69,9 @@ class ByDistance:
         self._tree = cKDTree(a.looks)
         self.pairs = 0
 
-    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         distances, found = self._tree.query(self._b[rows], np.arange(1, self._k + 1))
-        return found.astype(np.int64), distances, chance(distances)
+        return found.astype(np.int64), chance(distances)
 
     def likely(self, a: Int64, b: Int64) -> Float64:
         self.pairs += len(a)

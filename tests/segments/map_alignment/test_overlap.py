@@ -28,7 +28,7 @@ class Table:
     def __init__(self, table: Float64) -> None:
         self._table = table
 
-    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         raise NotImplementedError
 
     def likely(self, a: Int64, b: Int64) -> Float64:

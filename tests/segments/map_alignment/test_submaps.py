@@ -65,10 +65,10 @@ class Listing:
     def __init__(self) -> None:
         self.asked: list[int] = []
 
-    def nearest(self, rows: Int64) -> tuple[Int64, Float64, Float64]:
+    def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         self.asked += rows.tolist()
         found = np.stack([2 * rows, 2 * rows + 1], axis=1)
-        return found, np.full(found.shape, 0.5), np.full(found.shape, 0.9)
+        return found, np.full(found.shape, 0.9)
 
     def likely(self, a: Int64, b: Int64) -> Float64:
         raise NotImplementedError
