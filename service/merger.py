@@ -135,9 +135,9 @@ class Merger:
             first_id = stored.head.next_id if self.dry_run else writer.reserve(name, count)
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
+        present = None if stored is None else stored.layers.content()
         # One without segments is begun anew, in the first map's frame.
-        is_begun = stored is not None and len(stored) > 0
-        site = stored.layers.content() if stored and is_begun else site_of(plan.maps[0])
+        site = present if present is not None and len(present) else site_of(plan.maps[0])
         try:
             content, found = join(site, parts, first_id, same)
         except MapFileError as error:
@@ -147,7 +147,7 @@ class Merger:
         if stored is None:
             written = None if self.dry_run else writer.create(name, content, "merge")
             return Merged(plan, shares, len(content), written, previous, len(content), 0)
-        delta = leading_to(stored, content)
+        delta = leading_to(stored, content, present)
         if self.dry_run:
             _, delta = stored.layers.effect_of(delta)
             changed, removed = len(delta.changed), len(delta.removed)

@@ -43,7 +43,7 @@ class Share:
 
     Attributes:
         added: new in the site.
-        known: were merged before, and stay as they are.
+        known: were merged before, and stay as they are, but for a later `seen`.
         repeats: not stored, for another map's segment shows the same.
         removed: were merged before, and are gone from the part, or replaced there.
     """
@@ -95,7 +95,8 @@ def join(
 
     A segment is known by the map that it was written to first, and its id there; so a map can be
     merged again when it has grown, and parts may share what was merged into both. What that map
-    itself has replaced since under the same id is taken out, and anew.
+    itself has replaced since under the same id is taken out, and anew; what any saw again is as
+    lately seen in the site.
 
     Args:
         site: in canonical form.
@@ -111,8 +112,12 @@ def join(
         site = with_optional(site, ("source", "source_ids"))
         known = keys_in(laid, site)
         given = keys_in(site, laid)
-        rows, places = replaced(part, laid, site)
+        both = shared(laid, site)
+        rows, places = replaced(part, laid, site, *both)
         known[rows], given[places] = False, False
+        later = seen_since(laid, site, *both)
+        if len(later):
+            site = apply(site, Delta(later, NONE))
         gone = ~given & of_source(site, part.name)
         added = renumbered(take(laid, ~known), first_id)
         first_id += len(added)
@@ -131,7 +136,9 @@ def join(
     return site, shares
 
 
-def replaced(part: Part, laid: CompactMap, site: CompactMap) -> tuple[Int64, Int64]:
+def replaced(
+    part: Part, laid: CompactMap, site: CompactMap, rows: Int64, places: Int64
+) -> tuple[Int64, Int64]:
     """What the part has replaced since it was merged, rows of both, int64 (m,) each.
 
     Told by codes, moment and place. Only what was written to the part first: of the rest it may
@@ -139,8 +146,9 @@ def replaced(part: Part, laid: CompactMap, site: CompactMap) -> tuple[Int64, Int
 
     Args:
         laid: the part's content, in the site's frame.
+        rows: of the part, what both have, int64 (n,).
+        places: of the site, the same, int64 (n,).
     """
-    rows, places = shared(laid, site)
     off = np.abs(laid.centroids[rows] - site.centroids[places]).max(axis=1)
     differs = (
         (laid.codes[rows] != site.codes[places]).any(axis=1)
@@ -149,6 +157,24 @@ def replaced(part: Part, laid: CompactMap, site: CompactMap) -> tuple[Int64, Int
     )
     differs &= of_source(laid, part.name)[rows]
     return rows[differs], places[differs]
+
+
+def seen_since(laid: CompactMap, site: CompactMap, rows: Int64, places: Int64) -> CompactMap:
+    """Segments of the site that the part has seen later, with that moment.
+
+    Args:
+        rows: of the part, what both have, int64 (n,).
+        places: of the site, the same, int64 (n,).
+    """
+    filled = with_optional(site, ["seen"])
+    seen = last_seen(filled)
+    np.maximum.at(seen, places, last_seen(with_optional(laid, ["seen"]))[rows])
+    return take(replace(filled, seen=seen), seen > last_seen(filled))
+
+
+def last_seen(content: CompactMap) -> UInt32:
+    """When each segment was seen last, whole seconds, uint32 (n,)."""
+    return np.array(content.seen)
 
 
 def moments_of(content: CompactMap, rows: Int64) -> Float64:

@@ -224,10 +224,15 @@ class Writer:
         return Written(stored, len(delta.changed), len(delta.removed))
 
 
-def leading_to(stored: StoredMap, content: CompactMap) -> Delta:
-    """From a map as it is to a content."""
+def leading_to(stored: StoredMap, content: CompactMap, present: CompactMap | None = None) -> Delta:
+    """From a map as it is to a content.
+
+    Args:
+        present: what the map holds, for those who have put it together already.
+    """
     sequence = stored.head.sequence
-    return delta_between(stored.layers.content(), content, sequence, sequence + 1)
+    present = stored.layers.content() if present is None else present
+    return delta_between(present, content, sequence, sequence + 1)
 
 
 def _check_own(before: CompactMap, delta: Delta, owners: set[str | None]) -> None:

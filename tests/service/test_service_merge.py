@@ -264,6 +264,39 @@ def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest:
     assert_lies_as_driven(after, {"east": content(service, "east"), "west": west}, "east")
 
 
+def seen_at(there: CompactMap, rows: np.ndarray, moment: int) -> CompactMap:
+    """These segments, seen last at this second."""
+    return replace(take(there, rows), seen=np.full(len(rows), moment, np.uint32))
+
+
+def test_what_a_map_saw_again_is_as_lately_seen_in_the_site(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    west, rows, later = maps["west"], np.arange(30), 2_000_000_000
+    merge(stocked, "site", ["east", "west"], deduplicate=False)
+    before = content(stocked)
+    edited(stocked, "west", seen_at(west, rows, later))
+    told = merge(stocked, "site", ["west"], deduplicate=False).json()
+    (part,) = told["parts"]
+    assert [part[key] for key in ("added", "known", "removed")] == [0, len(west), 0]
+    assert (told["changed"], told["removed"]) == (30, 0)
+    after = content(stocked)
+    assert after.seen is not None
+    assert after.source_ids is not None
+    lately = np.flatnonzero(after.seen == later)
+    assert set(lately) <= set(rows_from(after, "west"))
+    assert sorted(after.source_ids[lately]) == west.ids[rows].tolist()
+    np.testing.assert_array_equal(after.ids, before.ids)
+    np.testing.assert_array_equal(after.centroids, before.centroids)
+    # What the site has seen later than the map, it does not forget.
+    edited(stocked, "site", seen_at(after, lately, later + 9))
+    assert merge(stocked, "site", ["west"], deduplicate=False).json()["changed"] == 0
+    # What none has seen since is old.
+    answer = stocked.post(f"/maps/site/age?unseen_since={later}", headers={"If-Match": "*"})
+    assert answer.status_code == 200, answer.text
+    assert len(content(stocked)) == 30
+
+
 def put_anew(service: Any, name: str, content: CompactMap) -> None:
     put(service, name, content, **{"If-Match": "*"})
 
