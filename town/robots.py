@@ -9,7 +9,7 @@ from town.city import City
 from town.drive import check, write_drive
 from town.lidar import HDL_64E, Lidar
 from town.odometry import Odometry
-from town.route import Route
+from town.route import Route, arc_lengths
 from town.town import Town
 
 
@@ -69,6 +69,7 @@ def several_robots(
     route: Route,
     robots: int,
     *,
+    start: float = 0.0,
     scans: int | None = None,
     spacing: float = 1.0,
     lidar: Lidar = HDL_64E,
@@ -85,7 +86,8 @@ def several_robots(
     Args:
         folder: gets the drives.
         robots: how many, up to 26.
-        scans: of each drive; all of the route unless given.
+        start: where on its way each begins, metres along the middle of the street.
+        scans: of each drive; all the rest of the route unless given.
         spacing: metres between scans.
         odometry: how it errs, of all of them, if they have one.
         oncoming: cars that come the other way, a kilometre.
@@ -97,12 +99,12 @@ def several_robots(
 
     Raises:
         FileExistsError: a drive is there already, and `overwrite` is not set.
-        ValueError: no such number of robots, scans or cars.
+        ValueError: no such number of robots, scans or cars, or the route is too short.
     """
     if not 1 <= robots <= len(ascii_lowercase):
         raise ValueError(f"there can be 1 to {len(ascii_lowercase)} robots, not {robots}")
     drives = [folder / f"robot_{ascii_lowercase[number]}" for number in range(robots)]
-    ways = [way_of(number, route, scans, spacing) for number in range(robots)]
+    ways = [way_of(number, route, scans, spacing, start) for number in range(robots)]
     for drive, (way, count) in zip(drives, ways, strict=True):
         # Before the first of them is driven, which may take hours.
         check(drive, way, count, spacing, overwrite)
@@ -124,7 +126,18 @@ def several_robots(
     return drives
 
 
-def way_of(number: int, route: Route, scans: int | None, spacing: float) -> tuple[Route, int]:
-    """The way that a robot takes, every second one backwards, and how many scans it takes there."""
+def way_of(
+    number: int, route: Route, scans: int | None, spacing: float, start: float = 0.0
+) -> tuple[Route, int]:
+    """The way that a robot takes, every second one backwards, and how many scans it takes there.
+
+    Args:
+        start: where on it the robot begins, metres along the middle of the street.
+
+    Raises:
+        ValueError: the route ends before.
+    """
     way = route.reversed() if number % 2 else route
+    if start:
+        way = way.cut(start, max(arc_lengths(way.centre)[-1] - start, spacing))
     return way, int(way.length() / spacing) if scans is None else scans

@@ -24,6 +24,7 @@ def town(
     metres: options.Metres = None,
     look_alikes: options.LookAlikes = 0.25,
     route: options.RouteText = "all",
+    start: options.Start = 0.0,
     robots: options.Robots = 2,
     lane: options.Lane = 1.6,
     oncoming: options.Oncoming = 10.0,
@@ -59,13 +60,14 @@ def town(
         city = City.build(seed, metres, look_alikes)
         way = city.route(planned(city, route), lane)
         # Before anything is driven, for there may be none.
-        drawn = pairs_of(city, way, scans, spacing, pairs, pair_metres) if pairs else None
+        drawn = pairs_of(city, way, scans, spacing, start, pairs, pair_metres) if pairs else None
         started = time.perf_counter()
         drives = several_robots(
             output,
             city,
             way,
             robots,
+            start=start,
             scans=scans,
             spacing=spacing,
             lidar=replace(HDL_64E, columns=columns, rain=rain),

@@ -33,12 +33,19 @@ def planned(city: "City", text: str) -> "Way":
 
 
 def pairs_of(
-    city: "City", route: "Route", scans: int | None, spacing: float, count: int, metres: float
+    city: "City",
+    route: "Route",
+    scans: int | None,
+    spacing: float,
+    start: float,
+    count: int,
+    metres: float,
 ) -> dict[str, Any]:
     """Pairs of stretches of the first two robots' drives along a route."""
     from town import Traversal, draw_pairs, way_of
 
-    a, b = (Traversal.of(*way_of(number, route, scans, spacing), spacing) for number in (0, 1))
+    ways = [way_of(number, route, scans, spacing, start) for number in (0, 1)]
+    a, b = (Traversal.of(*way, spacing) for way in ways)
     overlapping, apart = draw_pairs(city, a, b, count, metres, city.seed)
     return {
         "seed": city.seed,

@@ -49,6 +49,15 @@ RouteText = Annotated[
         rich_help_panel=LARGE,
     ),
 ]
+Start = Annotated[
+    float,
+    typer.Option(
+        "--from",
+        min=0.0,
+        help="Metres of its way after which each drive begins.",
+        rich_help_panel=LARGE,
+    ),
+]
 Robots = Annotated[
     int,
     typer.Option(

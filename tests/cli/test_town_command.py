@@ -40,6 +40,20 @@ def test_both_drive_all_streets(folder: Path) -> None:
         assert (drive.folder / ODOMETRY_FILE).exists()
 
 
+def test_a_drive_begins_further_on(folder: Path, tmp_path: Path) -> None:
+    words = ("--metres", 1000, "--spacing", 8, "--columns", 32, "--from", 400, "--scans", 3)
+    run(tmp_path, *words)
+    for name in ("robot_a", "robot_b"):
+        whole = read_origin(folder / "drives" / name) @ open_drive(folder / "drives" / name).poses
+        part = read_origin(tmp_path / name) @ open_drive(tmp_path / name).poses
+        apart = np.linalg.norm(whole[:, None, :2, 3] - part[None, :, :2, 3], axis=2)
+        assert len(part) == 3
+        assert apart.min(axis=0).max() < 4.5
+        # The inner lane of a turn is shorter than the middle of the street.
+        assert apart[:, 0].argmin() == pytest.approx(400 / 8, abs=4)
+    assert "too short" in run(tmp_path / "x", *words[:-4], "--from", 1e5, status=1).output
+
+
 def test_pairs_are_written(folder: Path) -> None:
     pairs = json.loads((folder / "drives" / "pairs.json").read_text())
     assert pairs["drives"] == ["robot_a", "robot_b"]
