@@ -41,8 +41,10 @@ def covariance_of(
     freedom = max(3 * weights.sum() - len(columns), 1.0)
     variance = weights @ (leftover**2).sum(axis=1) / freedom
     variance = max(variance, parameters.least_deviation**2) * parameters.overlap
-    # Singular but for rounding: the segments lie in one point, or on the axis of the turn.
-    if np.linalg.eigvalsh(information)[0] < 1e-6 * information.max():
+    # About the middle, turns and shifts do not mix. Of turns nothing is known, but for rounding, if
+    # the segments lie in one point, or on the axis of one: a millimetre from it, on average.
+    turns = np.linalg.eigvalsh(information[3:, 3:])
+    if turns[0] < max(1e-6 * weights.sum(), 1e-12 * turns[-1]):
         return unknown
     carried = np.eye(6)
     carried[:3, 3:] = cross(middle)

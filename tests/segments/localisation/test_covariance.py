@@ -74,6 +74,17 @@ def test_segments_in_a_row_determine_a_yaw_but_no_roll() -> None:
     assert np.isinf(np.diag(covariance)).all()
 
 
+@pytest.mark.parametrize("model", ["yaw", "se3"])
+@pytest.mark.parametrize("metres", [60.0, 6_000.0, 600_000.0])
+def test_a_long_street_determines_all(model: str, metres: float) -> None:
+    source = street(np.random.default_rng(4), metres, 200)
+    parameters = LocalisationParameters(model=model)  # type: ignore[arg-type]
+    covariance = covariance_of(Pose.of_yaw(0, np.zeros(3)), source, source, parameters)
+    assert np.isfinite(covariance).all()
+    # The longer, the surer of the direction.
+    assert covariance[-1, -1] * metres**2 == pytest.approx(0.0012, rel=0.3)
+
+
 def test_overlap_makes_it_larger() -> None:
     source = street(np.random.default_rng(3), 60.0, 10)
     pose = Pose.of_yaw(0, np.zeros(3))

@@ -17,8 +17,10 @@ from tests.segments.map_alignment.map_builders import (
     Pair,
     a_pose,
     assert_right,
+    drive,
     off,
     pair,
+    street,
 )
 
 SE3 = AlignmentParameters(local=LocalisationParameters(model="se3"))
@@ -50,6 +52,15 @@ def test_maps_that_overlap_are_aligned(seed: int, shared: float) -> None:
     )
     # 150 m each, and 10 m beside count as the same place.
     assert best.parts == pytest.approx((shared / 150 + 0.07,) * 2, abs=0.1)
+
+
+def test_maps_of_kilometres_are_aligned() -> None:
+    random = np.random.default_rng(5)
+    along = street(random, 5_000.0)
+    a, b = (drive(along, 0.0, 5_000.0, random) for _ in range(2))
+    truth = a_pose(random)
+    moved = MadeMap(b.view.moved(truth.inverse()), b.looks, b.things)
+    assert_right(aligned(Pair(a, moved, truth)), truth, metres=0.3)
 
 
 @settings(max_examples=20, deadline=None)
