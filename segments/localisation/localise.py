@@ -1,6 +1,7 @@
 """Where in a map the robot is: the way from candidates to a pose, step by step."""
 
 from dataclasses import dataclass
+from math import erf
 from typing import Literal
 
 import numpy as np
@@ -19,6 +20,9 @@ from segments.types import Float64
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
 PARAMETERS = LocalisationParameters()
+
+RIGHT_DEGREES = 3.0
+"""A pose is right within a metre and this (docs/localisation.md, Protocol)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,13 +111,20 @@ def judge(
     if rival >= parameters.ambiguous:
         reason = "ambiguous"
         detail = f"Another place has {rival:.0%} of the best one's score."
+        probability = min(probability, 1 / (1 + rival))
     elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
         reason = "inconsistent"
         detail = f"The {len(best)} segments that agree do not tell the direction."
+        probability = min(probability, chance_of_direction(best.rotation_deviation))
     elif probability < parameters.least_probability:
         reason = "inconsistent"
         detail = f"The best place, where {len(best)} of {usable} segments agree, is hardly likely."
     return Localisation(best, second, probability, reason, detail, features, tuple(hypotheses))
+
+
+def chance_of_direction(deviation: float) -> float:
+    """That an angle of this standard deviation, radians, is within the degrees of a right pose."""
+    return erf(np.radians(RIGHT_DEGREES) / (np.sqrt(2) * deviation))
 
 
 def _unknown(reason: Reason, detail: str) -> Localisation:

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from segments.localisation import Candidates, Localisation, LocalisationParameters, Pose, localise
+from segments.localisation.localise import chance_of_direction
 from segments.types import Float64
 from tests.segments.localisation.scene_builders import (
     Scene,
@@ -167,6 +168,7 @@ def test_identical_places_are_ambiguous(places: int, turned: bool) -> None:
     found = localise(look_alikes(places, 60.0, turned=turned).candidates)
     assert found.reason == "ambiguous"
     assert found.pose is None
+    assert found.probability < 0.56  # one of two, if the second is as good as 80%
     assert found.best is not None
     assert found.second is not None
     metres, _ = found.best.pose.difference(found.second.pose, found.best.source.mean(axis=0))
@@ -255,6 +257,13 @@ def test_a_pole_does_not_tell_the_direction() -> None:
     found = localise(exact(np.outer(np.arange(10.0), [0, 0, 1])))
     assert found.reason == "inconsistent"
     assert "direction" in found.detail
+    assert found.probability == 0
+
+
+def test_the_chance_of_a_direction_by_hand() -> None:
+    assert chance_of_direction(np.radians(3.0)) == pytest.approx(0.6827, abs=1e-4)
+    assert chance_of_direction(np.radians(1.0)) == pytest.approx(0.9973, abs=1e-4)
+    assert chance_of_direction(np.inf) == 0
 
 
 def test_segments_in_a_row_tell_a_yaw_but_no_roll() -> None:
