@@ -12,7 +12,7 @@ from bench.pose_report import Outcome, report
 from segments.extraction import Progress, silent
 from segments.localisation import Localisation, LocalisationParameters
 from segments.localisation.covariance import at_point
-from segments.localisation.evidence import History
+from segments.localisation.evidence import History, middle_of
 from training.evaluation import machine
 from training.figure import figure
 
@@ -60,11 +60,12 @@ def evaluate(
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):
             query = queries[number]
-            evidence = history.at(query.time) if session else None
+            middle = middle_of(query.centroids)
+            evidence = history.at(query.time, middle) if session else None
             found, milliseconds = local.localise(
                 query.codes, query.centroids, MAP, k, parameters, evidence
             )
-            history.add(query.time, found.hypotheses)
+            history.add(query.time, middle, found.hypotheses)
             outcomes.append(outcome_of(found, query, milliseconds))
     first = pair.asker.recordings[0].parameters
     robots = (pair.mapper, pair.asker)

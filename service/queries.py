@@ -1,7 +1,6 @@
 """What `/match` and `/localize` are asked: segments or codes, and the maps to look in."""
 
 from dataclasses import dataclass
-from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -35,12 +34,6 @@ class Queries:
     codes: Int8
     rows: Rows
     centroids: Float64 | None
-
-    @property
-    def digest(self) -> bytes:
-        """Tells them from all others; the same of a request that is sent again, in any encoding."""
-        centroids = b"" if self.centroids is None else self.centroids.tobytes()
-        return sha256(self.codes.tobytes() + centroids).digest()
 
 
 @dataclass(frozen=True, slots=True)

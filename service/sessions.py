@@ -8,6 +8,7 @@ from time import monotonic
 
 from segments.localisation import Hypothesis, LocalisationParameters
 from segments.localisation.evidence import Evidence, History
+from segments.types import Float64
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,24 +55,24 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._by_key)
 
-    def evidence(self, key: SessionKey, digest: bytes) -> Evidence | None:
+    def evidence(self, key: SessionKey, middle: Float64) -> Evidence | None:
         """What the session's earlier requests say now; None if there is none.
 
         Args:
             key: of the session.
-            digest: of what is asked now: a request that is sent again does not support itself.
+            middle: (3,), of what is seen now (`middle_of`).
         """
         with self._lock:
             now = self._clock()
             known = self._by_key.get(key)
-            return known[1].at(now, digest) if known is not None else None
+            return known[1].at(now, middle) if known is not None else None
 
-    def remember(self, key: SessionKey, hypotheses: Sequence[Hypothesis], digest: bytes) -> None:
-        """Add what a request found by itself, once however often it is sent."""
+    def remember(self, key: SessionKey, middle: Float64, hypotheses: Sequence[Hypothesis]) -> None:
+        """Add what a request found by itself."""
         with self._lock:
             now = self._clock()
             _, history = self._by_key.pop(key, (now, History(self._parameters)))
-            history.add(now, hypotheses, digest)
+            history.add(now, middle, hypotheses)
             self._by_key[key] = now, history
             while self._by_key:
                 oldest, (last, _) = next(iter(self._by_key.items()))

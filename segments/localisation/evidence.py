@@ -5,8 +5,10 @@ nearly constant, however far the robot drives in a few seconds.
 """
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from segments.localisation.hypothesis import Hypothesis, same_place
 from segments.localisation.parameters import LocalisationParameters
@@ -14,32 +16,34 @@ from segments.localisation.pose import Pose
 from segments.types import Float64
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Past:
     """What is kept of a request.
 
     Attributes:
         time: seconds, of any clock that only grows.
+        middle: (3,), of what was seen, metres, in the robot's frame.
         hypotheses: poses with their scores.
-        digest: of what it asked; None: it is not known, and counts as unlike any other's.
     """
 
     time: float
+    middle: Float64
     hypotheses: tuple[tuple[Pose, float], ...]
-    digest: bytes | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
     """What earlier requests say, at one moment.
 
     Attributes:
-        past: of the requests that still count.
+        past: requests of the last seconds.
+        independent: those of them that speak for or against a place.
         time: of the moment, seconds.
         parameters: say what the same place is, and what the past is worth.
     """
 
     past: tuple[Past, ...]
+    independent: tuple[Past, ...]
     time: float
     parameters: LocalisationParameters
 
@@ -51,7 +55,7 @@ class Evidence:
         """
         middle = hypothesis.source.mean(axis=0)
         total = 0.0
-        for request in self.past:
+        for request in self.independent:
             agreeing = [
                 score
                 for pose, score in request.hypotheses
@@ -82,24 +86,33 @@ class History:
         self._parameters = parameters
         self._past: deque[Past] = deque(maxlen=parameters.remembered)
 
-    def at(self, time: float, digest: bytes | None = None) -> Evidence:
+    def at(self, time: float, middle: Float64) -> Evidence:
         """What the past says now; what is older than the memory is forgotten.
+
+        A robot that stands sees the same again, and learns nothing from it. So those count that
+        were asked from elsewhere than now, and than each other.
 
         Args:
             time: seconds.
-            digest: of what is asked now; the same request, sent again, is no evidence of its own.
+            middle: (3,), of what is seen now, metres, in the robot's frame.
         """
         oldest = time - self._parameters.memory
-        past = tuple(each for each in self._others(digest) if each.time >= oldest)
-        return Evidence(past, time, self._parameters)
+        past = tuple(each for each in self._past if each.time >= oldest)
+        places, independent = [middle], []
+        for request in reversed(past):
+            away = np.linalg.norm(np.array(places) - request.middle, axis=1).min()
+            if away >= self._parameters.apart:
+                places.append(request.middle)
+                independent.append(request)
+        return Evidence(past, tuple(independent), time, self._parameters)
 
-    def add(
-        self, time: float, hypotheses: Sequence[Hypothesis], digest: bytes | None = None
-    ) -> None:
-        """Remember what a request found by itself; sent again, it takes its own place."""
+    def add(self, time: float, middle: Float64, hypotheses: Sequence[Hypothesis]) -> None:
+        """Remember what a request found by itself."""
         found = tuple((each.pose, each.score) for each in hypotheses)
-        self._past = deque(self._others(digest), self._past.maxlen)
-        self._past.append(Past(time, found, digest))
+        self._past.append(Past(time, middle, found))
 
-    def _others(self, digest: bytes | None) -> Iterator[Past]:
-        return (each for each in self._past if digest is None or each.digest != digest)
+
+def middle_of(centroids: Float64) -> Float64:
+    """Mean (3,) of centroids (n, 3), without those that are no numbers; NaN if there is none."""
+    finite = centroids[np.isfinite(centroids).all(axis=1)]
+    return finite.mean(axis=0) if len(finite) else np.full(3, np.nan)

@@ -6,6 +6,7 @@ import numpy as np
 from fastapi import APIRouter, Request, Response
 
 from segments.localisation import Hypothesis, Localisation, LocalisationParameters
+from segments.localisation.evidence import middle_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
 from service.localise_schemas import LocalizeQuery, LocalizeRequest, LocalizeResponse
@@ -79,7 +80,8 @@ def _locate(
 ) -> Told:
     timing.lap("queue")
     assert own.centroids is not None
-    evidence = state.sessions.evidence(key, own.digest) if key else None
+    middle = middle_of(own.centroids)
+    evidence = state.sessions.evidence(key, middle) if key else None
     found = localise_in(
         own.codes,
         own.centroids,
@@ -91,7 +93,7 @@ def _locate(
         evidence,
     )
     if key:
-        state.sessions.remember(key, found.hypotheses, own.digest)
+        state.sessions.remember(key, middle, found.hypotheses)
     return _told(found, stored, own)
 
 
