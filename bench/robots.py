@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from bench.robot import Robot
-from segments.blocks import alternate_blocks
+from segments.blocks import alternate_blocks, parameters_of
 from segments.drives import open_drive
 from segments.extraction import Progress, record
 from segments.parameters import PROTOCOL_V1
@@ -40,8 +40,7 @@ def robots_of_drive(
     odd, even = alternate_blocks(drive)
     if not even:
         raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
-    shortest = min(map(len, odd + even))
-    parameters = PROTOCOL_V1.for_drive(len(drive), every).for_block(shortest)
+    parameters = parameters_of(odd + even, PROTOCOL_V1.for_drive(len(drive), every))
 
     def robot(name: str, blocks: Sequence[range]) -> Robot:
         recordings = [record(drive, parameters, block, progress) for block in blocks]

@@ -1,10 +1,13 @@
 """One drive as map and query: alternate blocks of its path."""
 
 import itertools
+from collections.abc import Iterable
+from statistics import median_low
 
 import numpy as np
 
 from segments.drives import Drive
+from segments.parameters import Parameters
 
 BLOCK_METRES = 12.0
 
@@ -25,3 +28,11 @@ def alternate_blocks(drive: Drive) -> tuple[list[range], list[range]]:
     starts = [*np.flatnonzero(np.diff(number, prepend=-1)).tolist(), len(drive)]
     blocks = [range(start, end) for start, end in itertools.pairwise(starts)]
     return blocks[::2], blocks[1::2]
+
+
+def parameters_of(blocks: Iterable[range], parameters: Parameters) -> Parameters:
+    """One window of accumulation for all blocks, as their usual length allows.
+
+    Not the shortest: a path ends somewhere within its last block, which may hold a single scan.
+    """
+    return parameters.for_block(median_low(map(len, blocks)))

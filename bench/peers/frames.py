@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
 from bench.pose_queries import MAPPED_METRES, spread
-from segments.blocks import alternate_blocks
+from segments.blocks import alternate_blocks, parameters_of
 from segments.drives import Drive
 from segments.extraction import Progress, silent
 from segments.local_map import Accumulator, transform
@@ -57,8 +57,7 @@ def stretches_of_one(
     odd, even = alternate_blocks(drive)
     if not even:
         raise ValueError(f"{drive.folder}: stands still; there is no second block to ask from")
-    protocol = within(radius).for_drive(len(drive))
-    parameters = protocol.for_block(min(map(len, odd + even)))
+    parameters = parameters_of(odd + even, within(radius).for_drive(len(drive)))
 
     def stretches(blocks: Iterable[range]) -> list[Stretch]:
         return [Stretch(drive, block, parameters, np.eye(4)) for block in blocks]

@@ -3,7 +3,8 @@ import warnings
 import numpy as np
 import pytest
 
-from segments.blocks import alternate_blocks
+from segments.blocks import alternate_blocks, parameters_of
+from segments.parameters import PROTOCOL_V1
 from tests.segments.segment_builders import MemoryDrive, pose
 
 
@@ -82,3 +83,20 @@ def test_every_scan_is_in_one_block_on_random_drives(seed: int) -> None:
     generator = np.random.default_rng(seed)
     steps = generator.exponential(generator.uniform(0.1, 3), 80)
     check_partition(drive_along(*np.cumsum(steps)))
+
+
+@pytest.mark.parametrize(
+    ("lengths", "window", "step"),
+    [
+        ((222, 17, 13, 11, 11, 10, 11, 5), 5, 2),  # a stub at the end
+        ((37, 27, 30, 22, 20, 18), 10, 2),
+        ((5, 5), 2, 2),
+        ((1, 1), 1, 1),
+        ((9, 8, 9, 9, 1), 4, 2),
+    ],
+)
+def test_the_window_is_that_of_a_usual_block(
+    lengths: tuple[int, ...], window: int, step: int
+) -> None:
+    found = parameters_of([range(length) for length in lengths], PROTOCOL_V1)
+    assert (found.accumulated_scans, found.frame_step) == (window, step)
