@@ -50,12 +50,13 @@ def evaluate(
         compact = pair.mapper.build_map(local, pair.mapper.name)
         size = local.put_map(MAP, compact)
         frame = random_frame(seed)
-        queries = [each for each in pair.queries(local, frame, most) if len(each.codes)]
-        if not queries or not len(compact):
+        queries = list(pair.queries(local, frame, most))
+        fullest = max(queries, key=lambda each: len(each.codes))
+        if not len(fullest.codes) or not len(compact):
             raise ValueError(f"{pair.mapper.drive.folder}: the drives give no segments")
         manifest = local.model.manifest
         # What compiles at its first use does so now.
-        local.localise(queries[0].codes, queries[0].centroids, MAP, k, parameters)
+        local.localise(fullest.codes, fullest.centroids, MAP, k, parameters)
         history = History(parameters)
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):

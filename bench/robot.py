@@ -44,11 +44,16 @@ class Robot:
     to_common: Float64
 
     def views(self) -> Iterator[tuple[int, Segments, np.ndarray]]:
-        """Each frame's scan, all its segments, and which of them are no duplicates."""
+        """Each frame's scan, all its segments, if any, and which of them are no duplicates."""
         for recording in self.recordings:
-            for scan in np.unique(recording.frames):
+            for scan in recording.frame_scans:
                 members = np.flatnonzero(recording.frames == scan)
-                yield int(scan), recording.segments.take(members), recording.distinct[members]
+                yield scan, recording.segments.take(members), recording.distinct[members]
+
+    @property
+    def frames(self) -> list[int]:
+        """Scans that are frames, in the order of `views`."""
+        return [scan for recording in self.recordings for scan in recording.frame_scans]
 
     def in_common(self, points: Float64) -> Float64:
         """Points (n, 3) of the drive's world, in the common frame."""
@@ -60,6 +65,8 @@ class Robot:
         scans: list[int] = []
         model_id = ""
         for scan, segments, distinct in self.views():
+            if not len(segments):
+                continue
             description = client.describe(clouds(segments), segments.sensors)
             model_id = description.model_id
             codes.append(description.codes[distinct])

@@ -1,0 +1,122 @@
+"""Every frame of the asking drive is a query, as it is for the peers."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bench.local import Local
+from bench.peers.frames import Stretch, frames_of, stretches_of_one, stretches_of_two
+from bench.pose_queries import Pair, described, random_frame
+from bench.poses import evaluate
+from segments.drives import Drive, open_drive
+from tests.segments.segment_builders import box, many_segments, pose, write_odometry
+from tests.service.service_builders import write_eigenvalue_model
+
+BOXES = [
+    box((x, y, -1.5), size)
+    for x, y, size in [
+        *(
+            (0.0, 5.0, (2, 1, 3)),
+            (7.0, 6.0, (1, 2, 2)),
+            (3.0, -5.0, (3, 1, 2)),
+            (11, -6, (1, 1, 4)),
+        ),
+        *(
+            (-6.0, 4.0, (2, 2, 2)),
+            (15.0, 5.0, (2, 1, 2)),
+            (-4.0, -7.0, (1, 3, 3)),
+            (18, -4, (2, 2, 3)),
+        ),
+    ]
+]
+"""What stands in the built-up area, of which a robot sees all until it leaves."""
+
+FAR = (70.0, 0.0, 0.0)
+"""A return that the preprocessing drops, for a scan must hold a point."""
+
+
+def trip(folder: Path, scans: int, left: range) -> Drive:
+    """A robot that sees the built-up area but for some scans, metre after metre."""
+    area = np.concatenate(BOXES)
+    seen = [
+        np.array([FAR]) if scan in left else area - np.array([scan, 0, 0]) for scan in range(scans)
+    ]
+    write_odometry(folder, seen, [pose(scan) for scan in range(scans)])
+    (folder / "origin.txt").write_text("1 0 0 0 0 1 0 0 0 0 1 0\n")
+    return open_drive(folder)
+
+
+@pytest.fixture
+def local(tmp_path: Path) -> Iterator[Local]:
+    write_eigenvalue_model(tmp_path / "models")
+    with Local.open(tmp_path / "models" / "tiny") as local:
+        yield local
+
+
+def scans_of(local: Local, pair: Pair, most: int | None = None) -> list[int]:
+    return [query.scan for query in pair.queries(local, random_frame(0), most)]
+
+
+def scans_of_peers(asking: list[Stretch], most: int | None = None) -> list[int]:
+    return [scan for _, scan, _ in frames_of(asking, most)]
+
+
+@pytest.mark.parametrize("most", [None, 1, 4, 7])
+def test_two_drives_are_asked_for_the_same_frames_as_the_peers(
+    local: Local, tmp_path: Path, most: int | None
+) -> None:
+    mapped = trip(tmp_path / "a", 8, left=range(0))
+    asking = trip(tmp_path / "b", 16, left=range(3, 12))
+    pair = Pair.of(mapped.folder, asking.folder)
+    _, peers = stretches_of_two(mapped, asking, np.eye(4))
+    assert scans_of(local, pair, most) == scans_of_peers(peers, most)
+
+
+@pytest.mark.parametrize("most", [None, 1, 4, 7])
+@pytest.mark.parametrize("left", [range(0), range(5, 9), range(12, 15), range(19, 33)])
+def test_blocks_are_asked_for_the_same_frames_as_the_peers(
+    local: Local, tmp_path: Path, left: range, most: int | None
+) -> None:
+    drive = trip(tmp_path / "a", 40, left)
+    _, peers = stretches_of_one(drive)
+    assert scans_of(local, Pair.of(drive.folder), most) == scans_of_peers(peers, most)
+
+
+def test_frames_of_another_step_are_asked(local: Local, tmp_path: Path) -> None:
+    drive = trip(tmp_path / "a", 16, left=range(4, 13))
+    pair = Pair.of(drive.folder, drive.folder, every=3)
+    assert scans_of(local, pair) == [0, 3, 6, 9, 12, 15]
+
+
+def test_frames_without_segments_are_not_localised(tmp_path: Path) -> None:
+    write_eigenvalue_model(tmp_path / "models")
+    # Its local map holds ten scans: those from 13 to 18 show nothing.
+    mapped = trip(tmp_path / "a", 8, left=range(0))
+    asking = trip(tmp_path / "b", 24, left=range(4, 19))
+    pair = Pair.of(mapped.folder, asking.folder)
+    report, rows = evaluate(pair, tmp_path / "models" / "tiny")
+    assert [row["scan"] for row in rows] == [*range(24)]
+    empty = [row for row in rows if not row["segments"]]
+    assert [row["scan"] for row in empty] == [*range(13, 19)]
+    assert {row["reason"] for row in empty} == {"too-few-segments"}
+    # The mapping robot drove to metre 7, so that metre 16 is within the map, and 18 is not.
+    assert [row["mapped"] for row in empty if row["scan"] != 17] == [True] * 4 + [False]
+    assert report["queries"] + report["beyond_the_map"]["queries"] == 24
+    told = report["reasons"], report["beyond_the_map"]["reasons"]
+    assert sum(reasons.get("too-few-segments", 0) for reasons in told) >= 6
+
+
+def test_the_map_is_near_where_its_robot_saw_nothing(local: Local, tmp_path: Path) -> None:
+    mapped = trip(tmp_path / "a", 30, left=range(1, 30))
+    asking = trip(tmp_path / "b", 30, left=range(0))
+    asked = Pair.of(mapped.folder, asking.folder).queries(local, random_frame(0))
+    assert all(query.mapped for query in asked)
+
+
+def test_nothing_is_described_of_no_segment(local: Local) -> None:
+    codes, centroids = described(local, many_segments([]))
+    some, _ = described(local, many_segments([200]))
+    assert (codes.shape, codes.dtype) == ((0, some.shape[1]), some.dtype)
+    assert centroids.shape == (0, 3)
