@@ -114,13 +114,15 @@ def outcome_of(found: Localisation, query: PoseQuery, milliseconds: float) -> Ou
         metres, angle = pose.difference(query.truth, query.sensor)
         degrees = float(np.degrees(angle))
         if found.pose is not None:
-            covariance = at_point(found.best.covariance, pose, query.sensor)[:4, :4]
+            covariance = at_point(found.best.covariance, pose, query.sensor)
+            # Of six degrees of freedom the tilt is left out: the last row is the yaw's either way.
+            compared = np.ix_([0, 1, 2, -1], [0, 1, 2, -1])
             turn = query.truth.rotation @ pose.rotation.T
             error = np.append(
                 query.truth.apply(query.sensor) - pose.apply(query.sensor),
                 np.arctan2(turn[1, 0], turn[0, 0]),
             )
-            normalised = float(error @ np.linalg.solve(covariance, error))
+            normalised = float(error @ np.linalg.solve(covariance[compared], error))
     return Outcome(
         found.reason or "",
         found.probability,
