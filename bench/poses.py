@@ -43,17 +43,17 @@ def evaluate(
         the report as `placecell evaluate-poses` writes it, and a row for each query.
 
     Raises:
-        ValueError: the drives give no segments.
+        ValueError: a drive gives no segments.
     """
     parameters = parameters or LocalisationParameters()
+    for robot in (pair.mapper, pair.asker):
+        robot.check_segments()
     with Local.open(model) as local:
         compact = pair.mapper.build_map(local, pair.mapper.name)
         size = local.put_map(MAP, compact)
         frame = random_frame(seed)
         queries = list(pair.queries(local, frame, most))
         fullest = max(queries, key=lambda each: len(each.codes))
-        if not len(fullest.codes) or not len(compact):
-            raise ValueError(f"{pair.mapper.drive.folder}: the drives give no segments")
         manifest = local.model.manifest
         # What compiles at its first use does so now.
         local.localise(fullest.codes, fullest.centroids, MAP, k, parameters)

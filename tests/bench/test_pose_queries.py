@@ -108,6 +108,34 @@ def test_frames_without_segments_are_not_localised(tmp_path: Path) -> None:
     assert sum(reasons.get("too-few-segments", 0) for reasons in told) >= 6
 
 
+def test_one_query_that_sees_nothing_is_an_outcome(tmp_path: Path) -> None:
+    write_eigenvalue_model(tmp_path / "models")
+    mapped = trip(tmp_path / "a", 8, left=range(0))
+    asking = trip(tmp_path / "b", 8, left=range(1))
+    report, (row,) = evaluate(
+        Pair.of(mapped.folder, asking.folder), tmp_path / "models" / "tiny", most=1
+    )
+    assert (row["scan"], row["segments"], row["reason"]) == (0, 0, "too-few-segments")
+    assert report["not_localised"] == 1
+
+
+@pytest.mark.parametrize("blind", ["a", "b"])
+def test_a_drive_that_gives_no_segments_is_told_from_the_other(tmp_path: Path, blind: str) -> None:
+    write_eigenvalue_model(tmp_path / "models")
+    for name in ("a", "b"):
+        trip(tmp_path / name, 6, left=range(6 if name == blind else 0))
+    pair = Pair.of(tmp_path / "a", tmp_path / "b")
+    with pytest.raises(ValueError, match=rf"/{blind}: .* no segments .* 100 points.* beams"):
+        evaluate(pair, tmp_path / "models" / "tiny")
+
+
+def test_no_map_is_made_of_nothing(local: Local, tmp_path: Path) -> None:
+    trip(tmp_path / "a", 6, left=range(6))
+    pair = Pair.of(tmp_path / "a", tmp_path / "a")
+    with pytest.raises(ValueError, match="no segments"):
+        pair.mapper.build_map(local, "map")
+
+
 def test_the_map_is_near_where_its_robot_saw_nothing(local: Local, tmp_path: Path) -> None:
     mapped = trip(tmp_path / "a", 30, left=range(1, 30))
     asking = trip(tmp_path / "b", 30, left=range(0))
