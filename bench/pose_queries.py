@@ -165,17 +165,17 @@ def origin_of(folder: Path) -> Float64:
     """From a drive's world to the frame of its town (4, 4).
 
     Raises:
-        ValueError: the drive is of no town, so nobody knows where it lies to another.
+        ValueError: the drive is of no town, so nobody knows where it lies to another; or what
+            tells so cannot be read.
     """
-    from town import read_origin
+    from town import ORIGIN_FILE, read_origin
 
-    try:
-        return read_origin(folder)
-    except FileNotFoundError as error:
+    if not (folder / ORIGIN_FILE).exists():
         raise ValueError(
-            f"{folder}: has no origin.txt, so it is not known where it lies to another drive; "
+            f"{folder}: has no {ORIGIN_FILE}, so it is not known where it lies to another drive; "
             "give one drive alone, which is cut into blocks"
-        ) from error
+        )
+    return read_origin(folder)
 
 
 def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:

@@ -136,6 +136,14 @@ def test_no_map_is_made_of_nothing(local: Local, tmp_path: Path) -> None:
         pair.mapper.build_map(local, "map")
 
 
+def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        trip(tmp_path / name, 2, left=range(0))
+    (tmp_path / "b" / "origin.txt").write_text("")
+    with pytest.raises(ValueError, match=r"b/origin\.txt: 0 lines .* 'placecell town'"):
+        Pair.of(tmp_path / "a", tmp_path / "b")
+
+
 def test_the_map_is_near_where_its_robot_saw_nothing(local: Local, tmp_path: Path) -> None:
     mapped = trip(tmp_path / "a", 30, left=range(1, 30))
     asking = trip(tmp_path / "b", 30, left=range(0))
