@@ -90,7 +90,10 @@ class Recording:
             RecordingError: it is of a part of its drive, which the file cannot say.
         """
         if self.part is not None:
-            raise RecordingError(f"{file}: a recording that is kept is of a whole drive")
+            raise RecordingError(
+                f"{file}: a file is of a whole drive, not of scans {self.part.start} to "
+                f"{self.part.stop - 1} alone; record the drive without naming scans"
+            )
         header = {
             "format": FORMAT,
             "version": VERSION,
