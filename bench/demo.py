@@ -52,8 +52,7 @@ def run(
         ValueError: a robot saw no segments.
     """
     for robot in (mapper, asker):
-        if not any(len(recording.segments) for recording in robot.recordings):
-            raise ValueError(f"{robot.drive.folder}: the drive gives no segments for {robot.name}")
+        robot.check_segments()
     with running_service(folder, "--model", model) as address, Client(address) as client:
         compact = mapper.build_map(client, frame=mapper.drive.folder.name)
         data = encode(compact)

@@ -53,6 +53,7 @@ class Meeting:
         off: metres and degrees between that and the truth, where the robot drove.
         segments: of the site; 0 if there is none.
         repeats: of the asking robot's segments, that the map's already showed.
+        refusal: why the maps were not merged, in the service's words; empty if they were.
     """
 
     told: Sequence[Told]
@@ -60,6 +61,17 @@ class Meeting:
     off: tuple[float, float]
     segments: int
     repeats: int
+    refusal: str = ""
+
+    @property
+    def is_told(self) -> bool:
+        """Whether the robot was told its right pose anywhere."""
+        return any(each.is_right for each in self.told)
+
+    @property
+    def is_merged(self) -> bool:
+        """Whether the maps lie on each other as near as a right pose must be."""
+        return self.off[0] <= RIGHT[0] and self.off[1] <= RIGHT[1]
 
     def figures(self) -> dict[str, Any]:
         """For the terminal and for JSON."""
@@ -104,7 +116,8 @@ def meet(
     except ServiceError as error:
         if not error.type.endswith(":not-aligned"):
             raise
-        return Meeting(told, None, (np.inf, np.inf), 0, 0)
+        (pair,) = client.merge_maps(SITE, [name, own], dry_run=True).alignments
+        return Meeting(told, None, (np.inf, np.inf), 0, 0, pair.detail)
     part = merge.parts[1]
     assert part.pose is not None  # else the answer would be that error
     laid = Pose.of_matrix(part.pose.matrix)

@@ -16,6 +16,7 @@ from bench.robots import robots_of_drive
 from segments.drives import open_drive
 from segments.extraction import Progress, silent
 from segments.localisation import Pose
+from segments.segments import Segments
 from segments.types import Float64, Int8, Int64
 
 MAPPED_METRES = 10.0
@@ -104,7 +105,7 @@ class Pair:
         return replace(self, mapper=self.asker, asker=self.mapper)
 
     def queries(self, local: Local, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
-        """What the other robot asks, frame by frame.
+        """What the other robot asks, frame by frame, also where it sees no segment.
 
         Args:
             frame: from the drive's world to the robot's own frame, which may be any.
@@ -118,27 +119,33 @@ class Pair:
             .inverse()
             .after(Pose.of_matrix(self.asker.to_common))
         )
-        mapped = np.unique(np.concatenate([each.frames for each in self.mapper.recordings]))
-        positions = cKDTree(self.mapper.drive.poses[mapped, :3, 3])
-        frames = sum(len(np.unique(each.frames)) for each in self.asker.recordings)
-        asked = set(spread(frames, most).tolist())
+        positions = cKDTree(self.mapper.drive.poses[self.mapper.frames, :3, 3])
+        asked = set(spread(len(self.asker.frames), most).tolist())
         for number, (scan, segments, _) in enumerate(self.asker.views()):
             if number not in asked:
                 continue
-            described = local.describe(clouds(segments), segments.sensors)
-            good = np.isfinite(described.centroids).all(axis=1)
+            codes, centroids = described(local, segments)
             where = drive.poses[scan, :3, 3]
             near, _ = positions.query(to_map.apply(where))
             yield PoseQuery(
                 scan=scan,
                 time=float(drive.times[scan]),
                 metres=float(metres[scan]),
-                codes=described.codes[good],
-                centroids=frame.apply(described.centroids[good]),
+                codes=codes,
+                centroids=frame.apply(centroids),
                 sensor=frame.apply(where),
                 truth=to_map.after(frame.inverse()),
                 mapped=self.blocks or bool(near <= MAPPED_METRES),
             )
+
+
+def described(local: Local, segments: Segments) -> tuple[Int8, Float64]:
+    """Codes (n, code bytes) and centroids (n, 3) of those segments that can be described."""
+    if not len(segments):
+        return np.zeros((0, local.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
+    found = local.describe(clouds(segments), segments.sensors)
+    good = np.isfinite(found.centroids).all(axis=1)
+    return found.codes[good], found.centroids[good]
 
 
 def spread(count: int, most: int | None = None) -> Int64:
@@ -158,17 +165,17 @@ def origin_of(folder: Path) -> Float64:
     """From a drive's world to the frame of its town (4, 4).
 
     Raises:
-        ValueError: the drive is of no town, so nobody knows where it lies to another.
+        ValueError: the drive is of no town, so nobody knows where it lies to another; or what
+            tells so cannot be read.
     """
-    from town import read_origin
+    from town import ORIGIN_FILE, read_origin
 
-    try:
-        return read_origin(folder)
-    except FileNotFoundError as error:
+    if not (folder / ORIGIN_FILE).exists():
         raise ValueError(
-            f"{folder}: has no origin.txt, so it is not known where it lies to another drive; "
+            f"{folder}: has no {ORIGIN_FILE}, so it is not known where it lies to another drive; "
             "give one drive alone, which is cut into blocks"
-        ) from error
+        )
+    return read_origin(folder)
 
 
 def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:

@@ -34,12 +34,13 @@ def in_full(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
     """Markdown: a row a case, with 95% bounds; what one system reached.
 
     Args:
-        cases: by name, a report of `evaluate-poses`.
+        cases: by name, a report of `evaluate-poses`, or a row of `bench peers`.
     """
     yield from head(["", *OWN])
     for name, report in cases.items():
         metres, degrees = report["median_position_error_m"], report["median_yaw_error_deg"]
-        until = report["metres_until_localised"]
+        # Peers have none: which of their poses are sure is for their own rule to say.
+        until = report.get("metres_until_localised", {"p95": None})
         yield line(
             [
                 name,
@@ -55,14 +56,22 @@ def in_full(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
 
 def both(figures: Mapping[str, Any]) -> str:
     """Right and wrong but sure; a model that was trained on scans of the drive has a star."""
-    right, wrong = figures["localised_right"], figures["wrong_but_sure"]
-    return f"{100 * right:.1f} / {100 * wrong:.2f}{' *' if figures.get('seen') else ''}"
+    right, wrong = (
+        percent(figures[key], digits)
+        for key, digits in (("localised_right", 1), ("wrong_but_sure", 2))
+    )
+    return f"{right} / {wrong}{' *' if figures.get('seen') else ''}"
 
 
 def bounded(report: Mapping[str, Any], key: str) -> str:
     """A share with its bounds, percent."""
     low, high = report["bounds_95"][key]
-    return f"{100 * report[key]:.2f} ({100 * low:.2f} to {100 * high:.2f})"
+    return f"{percent(report[key], 2)} ({100 * low:.2f} to {100 * high:.2f})"
+
+
+def percent(share: float | None, digits: int) -> str:
+    """A share; of no queries there is none."""
+    return "-" if share is None else f"{100 * share:.{digits}f}"
 
 
 def head(names: Sequence[str]) -> Iterator[str]:

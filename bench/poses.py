@@ -43,19 +43,20 @@ def evaluate(
         the report as `placecell evaluate-poses` writes it, and a row for each query.
 
     Raises:
-        ValueError: the drives give no segments.
+        ValueError: a drive gives no segments.
     """
     parameters = parameters or LocalisationParameters()
+    for robot in (pair.mapper, pair.asker):
+        robot.check_segments()
     with Local.open(model) as local:
         compact = pair.mapper.build_map(local, pair.mapper.name)
         size = local.put_map(MAP, compact)
         frame = random_frame(seed)
-        queries = [each for each in pair.queries(local, frame, most) if len(each.codes)]
-        if not queries or not len(compact):
-            raise ValueError(f"{pair.mapper.drive.folder}: the drives give no segments")
+        queries = list(pair.queries(local, frame, most))
+        fullest = max(queries, key=lambda each: len(each.codes))
         manifest = local.model.manifest
         # What compiles at its first use does so now.
-        local.localise(queries[0].codes, queries[0].centroids, MAP, k, parameters)
+        local.localise(fullest.codes, fullest.centroids, MAP, k, parameters)
         history = History(parameters)
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):
@@ -114,13 +115,15 @@ def outcome_of(found: Localisation, query: PoseQuery, milliseconds: float) -> Ou
         metres, angle = pose.difference(query.truth, query.sensor)
         degrees = float(np.degrees(angle))
         if found.pose is not None:
-            covariance = at_point(found.best.covariance, pose, query.sensor)[:4, :4]
+            covariance = at_point(found.best.covariance, pose, query.sensor)
+            # Of six degrees of freedom the tilt is left out: the last row is the yaw's either way.
+            compared = np.ix_([0, 1, 2, -1], [0, 1, 2, -1])
             turn = query.truth.rotation @ pose.rotation.T
             error = np.append(
                 query.truth.apply(query.sensor) - pose.apply(query.sensor),
                 np.arctan2(turn[1, 0], turn[0, 0]),
             )
-            normalised = float(error @ np.linalg.solve(covariance, error))
+            normalised = float(error @ np.linalg.solve(covariance[compared], error))
     return Outcome(
         found.reason or "",
         found.probability,

@@ -44,22 +44,50 @@ class Robot:
     to_common: Float64
 
     def views(self) -> Iterator[tuple[int, Segments, np.ndarray]]:
-        """Each frame's scan, all its segments, and which of them are no duplicates."""
+        """Each frame's scan, all its segments, if any, and which of them are no duplicates."""
         for recording in self.recordings:
-            for scan in np.unique(recording.frames):
+            for scan in recording.frame_scans:
                 members = np.flatnonzero(recording.frames == scan)
-                yield int(scan), recording.segments.take(members), recording.distinct[members]
+                yield scan, recording.segments.take(members), recording.distinct[members]
+
+    @property
+    def frames(self) -> list[int]:
+        """Scans that are frames, in the order of `views`."""
+        return [scan for recording in self.recordings for scan in recording.frame_scans]
+
+    def check_segments(self) -> None:
+        """See that the robot saw something.
+
+        Raises:
+            ValueError: it saw no segments, so that it can neither map nor ask.
+        """
+        if any(len(recording.segments) for recording in self.recordings):
+            return
+        made_by = self.recordings[0].parameters
+        raise ValueError(
+            f"{self.drive.folder}: the drive gives no segments for {self.name}: nothing has "
+            f"{made_by.min_points} points, each within {made_by.growing_radius} m of the next, in "
+            f"the local map of any frame ({made_by.accumulated_scans} scans); take a drive with a "
+            "sensor of more beams, or with scans closer together"
+        )
 
     def in_common(self, points: Float64) -> Float64:
         """Points (n, 3) of the drive's world, in the common frame."""
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
     def build_map(self, client: Describing, frame: str) -> CompactMap:
-        """Have the service describe each frame's segments; keep those that are no duplicates."""
+        """Have the service describe each frame's segments; keep those that are no duplicates.
+
+        Raises:
+            ValueError: there are none.
+        """
+        self.check_segments()
         codes, centroids, frame_index = [], [], []
         scans: list[int] = []
         model_id = ""
         for scan, segments, distinct in self.views():
+            if not len(segments):
+                continue
             description = client.describe(clouds(segments), segments.sensors)
             model_id = description.model_id
             codes.append(description.codes[distinct])

@@ -81,6 +81,7 @@ def record(
         scans=len(drive),
         scan_hashes=tuple(drive.scan_hash(index) for index in range(len(drive))),
         path_length=drive.path_length(),
+        part=scans,
     )
 
 

@@ -50,6 +50,7 @@ class Recording:
         scans: how many the drive has.
         scan_hashes: of each scan, to tell whether a model has seen it.
         path_length: metres driven.
+        part: scans that it was made of, where that is not the whole drive.
     """
 
     name: str
@@ -61,6 +62,13 @@ class Recording:
     scans: int
     scan_hashes: tuple[str, ...]
     path_length: float
+    part: range | None = None
+
+    @property
+    def frame_scans(self) -> range:
+        """Scans that are frames, whether any segment was seen there or not."""
+        scans = range(self.scans) if self.part is None else self.part
+        return scans[:: self.parameters.frame_step]
 
     def within(self, first: int, last: int) -> Bool:
         """Segments of the groups that lie wholly within scans first to last (both included)."""
@@ -76,7 +84,16 @@ class Recording:
         return describe_surroundings(self.segments, self.frames, parameters)
 
     def save(self, file: Path) -> None:
-        """Write the recording as safetensors."""
+        """Write the recording as safetensors.
+
+        Raises:
+            RecordingError: it is of a part of its drive, which the file cannot say.
+        """
+        if self.part is not None:
+            raise RecordingError(
+                f"{file}: a file is of a whole drive, not of scans {self.part.start} to "
+                f"{self.part.stop - 1} alone; record the drive without naming scans"
+            )
         header = {
             "format": FORMAT,
             "version": VERSION,

@@ -23,7 +23,7 @@ Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
 
 from town.block import SceneObject
 from town.city import City
-from town.drive import read_origin, write_drive
+from town.drive import ORIGIN_FILE, read_origin, write_drive
 from town.lidar import HDL_64E, Lidar
 from town.mesh import Mesh
 from town.odometry import ODOMETRY_FILE, Odometry
@@ -39,6 +39,7 @@ from town.traversal import Traversal
 __all__ = [
     "HDL_64E",
     "ODOMETRY_FILE",
+    "ORIGIN_FILE",
     "City",
     "Lidar",
     "Mesh",

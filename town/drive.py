@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from segments.drives.drive import DriveError, check_rotations, read_table
+from segments.drives.kitti_odometry import as_transforms
 from segments.extraction import Progress, silent
 from segments.types import Float64
 from town.city import City
@@ -28,7 +30,9 @@ SENSOR_TO_CAMERA = np.array(
 
 SCANS_PER_SECOND = 10.0
 
-FILES = ("calib.txt", "poses.txt", ODOMETRY_FILE, "times.txt", "origin.txt")
+ORIGIN_FILE = "origin.txt"
+
+FILES = ("calib.txt", "poses.txt", ODOMETRY_FILE, "times.txt", ORIGIN_FILE)
 
 
 def write_drive(
@@ -94,7 +98,7 @@ def write_drive(
         believed = odometry.poses(poses, noise_seed)
         (folder / ODOMETRY_FILE).write_text(matrix_lines(as_camera(believed, origin)))
     times = np.arange(scans) / SCANS_PER_SECOND
-    (folder / "origin.txt").write_text(matrix_lines(origin[None]))
+    (folder / ORIGIN_FILE).write_text(matrix_lines(origin[None]))
     (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
     (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
     return folder
@@ -176,8 +180,16 @@ def read_origin(folder: Path) -> Float64:
     """World-to-town transform of a drive (4, 4), from its `origin.txt`.
 
     Raises:
-        FileNotFoundError: the folder holds no drive of a town.
+        DriveError: the folder holds no drive of a town, or the file is no such transform.
     """
-    origin = np.eye(4)
-    origin[:3] = np.loadtxt(folder / "origin.txt").reshape(3, 4)
-    return origin
+    file = folder / ORIGIN_FILE
+    what = (
+        "one line of 12 numbers, the 3x4 transform from the drive's world to the town frame, row "
+        "by row, as 'placecell town' writes it"
+    )
+    table = read_table(file, 12, what)
+    if len(table) != 1:
+        raise DriveError(f"{file}: {len(table)} lines of numbers; it must hold {what}")
+    origin = as_transforms(table)
+    check_rotations(origin, file)
+    return np.asarray(origin[0])

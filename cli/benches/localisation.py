@@ -31,6 +31,9 @@ def localisation(
         if system is None:
             lines = list(comparison(cases))
         else:
+            there = dict.fromkeys(name for figures in cases.values() for name in figures)
+            if system not in there:
+                raise ValueError(f"no system {system!r}; there are {', '.join(there)}")
             lines = list(
                 in_full({name: each[system] for name, each in cases.items() if system in each})
             )

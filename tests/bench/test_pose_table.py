@@ -58,6 +58,26 @@ def test_in_full_with_bounds() -> None:
     assert untold.endswith("| - | - |")
 
 
+def test_shares_of_no_queries_are_left_open() -> None:
+    keys = ("localised_right", "wrong_but_sure", "not_localised")
+    beyond = REPORT | {
+        "queries": 0,
+        **dict.fromkeys(keys),
+        "bounds_95": {key: [0.0, 1.0] for key in keys},
+        "median_position_error_m": None,
+        "metres_until_localised": {"median": None, "p95": None, "never": 0},
+    }
+    assert list(comparison({"town": {"context": beyond}}))[-1] == "| context | - / - |"
+    *_, row = in_full({"town": beyond})
+    assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'} - | - |"
+
+
+def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localised() -> None:
+    peer = {key: value for key, value in REPORT.items() if key != "metres_until_localised"}
+    *_, row = in_full({"town": peer})
+    assert row.endswith("| 0.07 m, 0.15 deg | - |")
+
+
 def test_the_command_writes_either(folder: Path, tmp_path: Path) -> None:
     def run(*words: object) -> tuple[int, str]:
         done = CliRunner().invoke(app, ["bench", "localisation", *map(str, words)])
@@ -68,6 +88,9 @@ def test_the_command_writes_either(folder: Path, tmp_path: Path) -> None:
     assert status == 0
     assert "95.37 to" in output
     assert "scan-context" not in output
+    status, output = run(folder, "--system", "nope")
+    assert status == 1
+    assert "no system 'nope'; there are context, group, scan-context" in " ".join(output.split())
     (tmp_path / "empty").mkdir()
     status, output = run(folder, tmp_path / "empty")
     assert status == 1

@@ -137,6 +137,22 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
     assert np.isnan(told.normalised)
 
 
+@pytest.mark.parametrize(
+    "deviations",
+    [(0.1, 0.2, 0.3, 0.01), (0.1, 0.2, 0.3, 5.0, 7.0, 0.01)],
+    ids=["yaw", "se3"],
+)
+def test_an_error_is_held_against_what_is_stated_of_it(deviations: tuple[float, ...]) -> None:
+    found = localise(scene(1).candidates)
+    assert found.best is not None
+    pose, sensor = Pose.of_yaw(0.5, np.array([10.0, 20.0, 0.0])), np.zeros(3)
+    stated = np.diag(np.square(deviations))
+    told = replace(found, best=replace(found.best, pose=pose, covariance=stated))
+    # Off by one deviation east, two north, none in height and three of yaw: 1 + 4 + 9.
+    true = Pose.of_yaw(0.5 + 0.03, np.array([10.1, 20.4, 0.0]))
+    assert outcome_of(told, query(true, sensor), 5.0).normalised == pytest.approx(14)
+
+
 def query(truth: Pose, sensor: np.ndarray) -> PoseQuery:
     return PoseQuery(
         8, 0.0, 0.0, np.zeros((1, 2), np.int8), np.zeros((1, 3)), sensor, truth, mapped=True

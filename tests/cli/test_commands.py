@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner, Result
@@ -17,7 +18,7 @@ from segments.drives import open_drive
 from segments.localisation import Confidence
 from segments.manifest import Manifest
 from segments.recording import Recording
-from tests.segments.segment_builders import write_raw
+from tests.segments.segment_builders import pose, write_odometry, write_raw
 from tests.segments.test_kitti_raw import record, unit_at_the_sensor
 
 FIGURES = {
@@ -424,6 +425,15 @@ def test_evaluate_poses_says_what_is_wrong(workshop: Path) -> None:
     drive = workshop / "drives" / "robot_a"
     assert "nowhere" in run("evaluate-poses", "nowhere", status=1).output
     assert "se2" in run("evaluate-poses", drive, "--motion", "se2", status=1).output
+
+
+def test_evaluate_poses_of_a_sparse_sensor_says_so(tmp_path: Path) -> None:
+    few = np.random.default_rng(0).uniform(-30, 30, (60, 3))
+    drive = write_odometry(tmp_path / "sparse", [few] * 26, [pose(x) for x in range(26)])
+    result = run("evaluate-poses", drive, "--model", "eigenvalue", status=1)
+    assert "no segments" in result.output
+    assert "sparse" in result.output
+    assert "Traceback" not in result.output
 
 
 def test_the_probability_is_fitted_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

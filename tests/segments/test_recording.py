@@ -95,6 +95,20 @@ def test_recording_of_nothing(tmp_path: Path) -> None:
     assert loaded.within(0, 8).shape == (0,)
 
 
+def test_frames_are_told_whether_or_not_a_segment_was_seen() -> None:
+    assert [*recording().frame_scans] == [0, 2, 4, 6]
+    # What was seen of nothing, and a drive that was cut with another --every.
+    every_third = replace(recording(), parameters=Parameters(frame_step=3))
+    assert [*every_third.frame_scans] == [0, 3, 6]
+    assert [*replace(recording(), part=range(3, 8)).frame_scans] == [3, 5, 7]
+
+
+def test_a_part_of_a_drive_is_not_written_as_if_it_were_whole(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="whole drive"):
+        replace(recording(), part=range(3, 8)).save(tmp_path / "a")
+    assert not (tmp_path / "a").exists()
+
+
 def test_save_makes_the_folder_and_leaves_nothing_else(tmp_path: Path) -> None:
     recording().save(tmp_path / "new" / "toy.safetensors")
     assert [path.name for path in (tmp_path / "new").iterdir()] == ["toy.safetensors"]

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.drives import open_drive
+from segments.drives import DriveError, open_drive
 from segments.types import Float64
 from town import HDL_64E, Route, Town, read_origin, write_drive
 
@@ -78,6 +78,25 @@ def test_the_world_frame_is_level_at_the_first_scan(folder: Path) -> None:
     assert drive.poses[0, :3, 3] == pytest.approx(0, abs=1e-9)
     assert drive.poses[0, 1, 0] == pytest.approx(0, abs=1e-9)
     assert drive.poses[0, :3, :3] == pytest.approx(np.eye(3), abs=0.031)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "0 lines"),
+        ("1 0 0 0 0 1 0 0 0 0 1 0\n" * 2, "2 lines"),
+        ("1 0 0 0\n0 1 0 0\n0 0 1 0\n", "line 1: 4 values"),
+        ("1 0 0 0 0 1 0 0 0 0 1 east\n", "line 1: .*east"),
+        ("1 0 0 nan 0 1 0 0 0 0 1 0\n", "not finite"),
+        ("2 0 0 0 0 1 0 0 0 0 1 0\n", "no rotation"),
+        (None, "missing"),
+    ],
+)
+def test_a_broken_origin_names_the_file(tmp_path: Path, text: str | None, said: str) -> None:
+    if text is not None:
+        (tmp_path / "origin.txt").write_text(text)
+    with pytest.raises(DriveError, match=rf"origin\.txt.*{said}"):
+        read_origin(tmp_path)
 
 
 @pytest.mark.parametrize("scan", [0, SCANS - 1])
