@@ -184,12 +184,13 @@ def read_origin(folder: Path) -> Float64:
     """
     file = folder / ORIGIN_FILE
     what = (
-        "one line of 12 numbers, the 3x4 transform from the drive's world to the town frame, row "
-        "by row, as 'placecell town' writes it"
+        "the 3x4 transform from the drive's world to the town frame, row by row: 12 numbers in one "
+        "line, as 'placecell town' writes it, or in three"
     )
-    table = read_table(file, 12, what)
-    if len(table) != 1:
-        raise DriveError(f"{file}: {len(table)} lines of numbers; it must hold {what}")
-    origin = as_transforms(table)
+    in_three = file.is_file() and len(file.read_bytes().splitlines()) == 3
+    table = read_table(file, 4 if in_three else 12, what)
+    if table.size != 12:
+        raise DriveError(f"{file}: {table.size} numbers; it must hold {what}")
+    origin = as_transforms(table.reshape(1, 12))
     check_rotations(origin, file)
     return np.asarray(origin[0])

@@ -112,7 +112,7 @@ def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: P
     for name in ("a", "b"):
         trip(tmp_path / name, 2, left=range(0))
     (tmp_path / "b" / "origin.txt").write_text("")
-    with pytest.raises(ValueError, match=r"b/origin\.txt: 0 lines .* 'placecell town'"):
+    with pytest.raises(ValueError, match=r"b/origin\.txt: 0 numbers.* 'placecell town'"):
         Pair.of(tmp_path / "a", tmp_path / "b")
 
 

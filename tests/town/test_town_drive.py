@@ -80,12 +80,18 @@ def test_the_world_frame_is_level_at_the_first_scan(folder: Path) -> None:
     assert drive.poses[0, :3, :3] == pytest.approx(np.eye(3), abs=0.031)
 
 
+def test_an_origin_in_three_lines_is_read_too(folder: Path, tmp_path: Path) -> None:
+    origin = read_origin(folder)
+    np.savetxt(tmp_path / "origin.txt", origin[:3])
+    np.testing.assert_allclose(read_origin(tmp_path), origin)
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "0 lines"),
-        ("1 0 0 0 0 1 0 0 0 0 1 0\n" * 2, "2 lines"),
-        ("1 0 0 0\n0 1 0 0\n0 0 1 0\n", "line 1: 4 values"),
+        ("", "0 numbers"),
+        ("1 0 0 0 0 1 0 0 0 0 1 0\n" * 2, "24 numbers"),
+        ("1 0 0 0\n0 1 0 0\n0 0 1\n", "line 3: 3 values"),
         ("1 0 0 0 0 1 0 0 0 0 1 east\n", "line 1: .*east"),
         ("1 0 0 nan 0 1 0 0 0 0 1 0\n", "not finite"),
         ("2 0 0 0 0 1 0 0 0 0 1 0\n", "no rotation"),
