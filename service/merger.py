@@ -9,12 +9,13 @@ from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters
 from service.aligning import Check, check_same_model
 from service.living import RADIUS, SameView
+from service.map_store import OutOfIdsError
 from service.merging import Plan, plan_merge
 from service.problems import Problem
 from service.site import ROUNDED, Part, Share, content_of, join, laid_before, site_of
 from service.stored_map import StoredMap
 from service.versions import commits_of
-from service.writer import Writer, Written, leading_to
+from service.writer import Writer, Written, leading_to, out_of_ids
 
 KEEPS_FRAME = frozenset({"edit", "age", "merge"})
 """Operations after which what a map holds still lies where it lay."""
@@ -129,19 +130,23 @@ class Merger:
             Part(plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack)
             for number, slack in joining.items()
         ]
-        first_id = 0
-        if stored is not None:
-            count = sum(len(part.content) for part in parts)
-            first_id = stored.head.next_id if self.dry_run else writer.reserve(name, count)
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
         present = None if stored is None else stored.layers.content()
         # One without segments is begun anew, in the first map's frame.
         site = present if present is not None and len(present) else site_of(plan.maps[0])
+        first_id = 0 if stored is None else stored.head.next_id
         try:
             content, found = join(site, parts, first_id, same)
+            count = sum(share.added for share in found)
+            if stored is not None and count and not self.dry_run:
+                reserved = writer.reserve(name, count)
+                if reserved != first_id:  # others have reserved some since
+                    content, found = join(site, parts, reserved, same)
         except MapFileError as error:
             raise Problem(409, "cannot-merge", f"The maps do not go together: {error}.") from error
+        except OutOfIdsError as error:
+            raise out_of_ids(name, error) from error
         shares = dict(zip(joining, found, strict=True))
         previous = stored.head.sequence if stored is not None else None
         if stored is None:

@@ -14,6 +14,7 @@ from segments.types import Bool, Float64, Int64, UInt32
 from service.aligning import MapSide
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, sighting
+from service.map_store import IDS, OutOfIdsError
 from service.stored_map import StoredMap
 
 ROUNDED = 0.02
@@ -100,11 +101,12 @@ def join(
 
     Args:
         site: in canonical form.
-        first_id: of new segments; those after it are free too.
+        first_id: of new segments, which get this one and those after it, without a gap.
         same: leave out what another map's segment shows already; None: leave nothing out.
 
     Raises:
         MapFileError: a part cannot stand in the site.
+        OutOfIdsError: there are too few ids from the first on.
     """
     shares = []
     for part in parts:
@@ -120,14 +122,14 @@ def join(
             site = apply(site, Delta(later, NONE))
         gone = ~given & of_source(site, part.name)
         added = renumbered(take(laid, ~known), first_id)
-        first_id += len(added)
         changed, repeats = added, 0
         if same is not None:
             # Not with what the map itself gave before: it is another's that is left out.
             there = take(site, ~gone & ~given)
             about = Layers.of(there).about(added.centroids, RADIUS)
             seen = sighting(added, about, same, itself=False)
-            changed, repeats = seen.changed, seen.repeats
+            changed, repeats = closed_up(seen.changed, first_id), seen.repeats
+        first_id += len(added) - repeats
         removed = np.sort(site.ids[gone])
         site = apply(site, Delta(changed, removed))
         shares.append(
@@ -213,12 +215,25 @@ def of_source(content: CompactMap, name: str) -> Bool:
 
 def renumbered(content: CompactMap, first_id: int) -> CompactMap:
     """With ids from the first on; views of one thing stay such."""
+    if first_id + len(content) > IDS:
+        raise OutOfIdsError(f"{IDS - first_id} ids are left")
     ids = np.arange(first_id, first_id + len(content), dtype=np.uint32)
     views = content.views
     if views is not None and len(views):
         # The first of them stands for all, for the one that they name may be no part of this.
         _, first, group = np.unique(views, return_index=True, return_inverse=True)
         views = ids[first[group]]
+    return replace(content, ids=ids, views=views)
+
+
+def closed_up(content: CompactMap, first_id: int) -> CompactMap:
+    """Without gaps in the ids from the first on, for some were left out; as `renumbered` else."""
+    rows = np.flatnonzero(content.ids >= first_id)
+    ids, views = content.ids.copy(), np.array(content.views)
+    ids[rows] = np.arange(first_id, first_id + len(rows), dtype=np.uint32)
+    among = rows[views[rows] >= first_id]
+    _, first, group = np.unique(views[among], return_index=True, return_inverse=True)
+    views[among] = ids[among][first[group]]
     return replace(content, ids=ids, views=views)
 
 

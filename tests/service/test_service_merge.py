@@ -237,6 +237,62 @@ def test_merged_again_nothing_changes(stocked: Any) -> None:
         assert after.headers["etag"] == before.headers["etag"]
 
 
+def next_id(service: Any, name: str = "site") -> int:
+    """The next free id of a map, which it takes."""
+    return int(service.post(f"/maps/{name}/ids?count=1").json()["first"])
+
+
+def test_as_many_ids_are_taken_as_there_are_new_segments(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    first = next_id(stocked)
+    assert len(content(stocked)) == first
+    for again in (["east", "west"], ["west"]):
+        told = merge(stocked, "site", again).json()
+        assert (told["changed"], told["parts"][-1]["repeats"] > 0) == (0, True)
+    assert next_id(stocked) == first + 1
+    told = merge(stocked, "site", ["north"]).json()
+    (part,) = told["parts"]
+    assert part["added"] > 0 < part["repeats"]
+    # The two that were asked for belong to whoever asked.
+    new = range(first + 2, first + 2 + part["added"])
+    assert content(stocked).ids.tolist() == [*range(first), *new]
+    assert next_id(stocked) == new.stop
+
+
+def test_views_of_what_is_new_are_named_by_one_that_is_there(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    west = maps["west"]
+    put_anew(stocked, "west", replace(west, views=west.ids // 3 * 3))
+    merge(stocked, "site", ["east", "west"])
+    site = content(stocked)
+    assert site.views is not None
+    assert set(site.views.tolist()) <= set(site.ids.tolist())
+    # Those of one thing that are alone in the site are still of one thing.
+    rows = rows_from(site, "west")
+    assert site.source_ids is not None
+    things, named = site.source_ids[rows] // 3, site.views[rows]
+    alone = named >= site.ids[rows].min()
+    groups = {(thing, view) for thing, view in zip(things[alone], named[alone], strict=True)}
+    assert len(groups) == len({thing for thing, _ in groups}) == len({view for _, view in groups})
+    assert alone.sum() > len(groups) > 0
+
+
+def test_a_site_without_enough_ids_is_left_as_it_is(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    last = replace(take(maps["east"], np.arange(1)), ids=np.array([2**32 - 4], np.uint32))
+    edited(stocked, "site", last)
+    before = stocked.get("/maps/site").content
+    for dry_run in (True, False):
+        refused = merge(stocked, "site", ["north"], dry_run=dry_run)
+        assert_problem(refused, 409, "out-of-ids", "3 ids are left")
+    assert stocked.get("/maps/site").content == before
+
+
 def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest: Manifest) -> None:
     west = driven(manifest.model_id, "west", 60, 210, time=2e9)
     first = take(west, west.ids < 250)
