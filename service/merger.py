@@ -14,11 +14,7 @@ from service.merging import Plan, plan_merge
 from service.problems import Problem
 from service.site import ROUNDED, Part, Share, content_of, join, laid_before, site_of
 from service.stored_map import StoredMap
-from service.versions import commits_of
 from service.writer import Writer, Written, leading_to, out_of_ids
-
-KEEPS_FRAME = frozenset({"edit", "age", "merge"})
-"""Operations after which what a map holds still lies where it lay."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -168,13 +164,8 @@ class Merger:
         """See that the site is the one that the maps were laid on; 409 if not."""
         if before is stored:
             return
-        if before is not None and stored is not None and before.head.uid == stored.head.uid:
-            since = before.head.sequence + 1
-            kept = commits_of(self.writer.maps.store, stored)
-            done = {each.note.operation for each in kept if each.sequence >= since}
-            # One without segments had no frame yet, and of versions let go of nothing is known.
-            if len(before) and stored.head.oldest <= since and done <= KEEPS_FRAME:
-                return
+        if before is not None and stored is not None and stored.lies_as(before):
+            return
         raise Problem(
             409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."
         )

@@ -15,8 +15,10 @@ class Clock:
         return self.now
 
 
-def key(robot: str = "ann", holder: str = "anyone", map_: str = "yard") -> SessionKey:
-    return SessionKey(holder, robot, map_)
+def key(
+    robot: str = "ann", holder: str = "anyone", map_: str = "yard", since: int = 1
+) -> SessionKey:
+    return SessionKey(holder, robot, map_, since)
 
 
 def hypothesis(score: float = 10.0) -> Hypothesis:
@@ -59,7 +61,9 @@ def test_a_request_that_is_sent_again_counts_once(sessions: Sessions, clock: Clo
     assert support(b"three") == 2 * once
 
 
-@pytest.mark.parametrize("other", [key("bob"), key(holder="another key"), key(map_="hall")])
+@pytest.mark.parametrize(
+    "other", [key("bob"), key(holder="another key"), key(map_="hall"), key(since=2)]
+)
 def test_nobody_else_has_it(sessions: Sessions, other: SessionKey) -> None:
     sessions.remember(key(), [hypothesis()], b"before")
     assert sessions.evidence(other, b"now") is None
