@@ -237,6 +237,21 @@ def test_merged_again_nothing_changes(stocked: Any) -> None:
         assert after.headers["etag"] == before.headers["etag"]
 
 
+@pytest.mark.parametrize(("ends", "count"), [((60, 120), 2), ((85, 125), 1)])
+def test_a_map_that_gave_next_to_nothing_is_laid_as_it_was(
+    stocked: Any, manifest: Manifest, ends: tuple[float, float], count: int
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    put_anew(stocked, "north", driven(manifest.model_id, "north", *ends, time=2e9))
+    first = merge(stocked, "site", ["north"]).json()
+    assert first["parts"][0]["added"] == count
+    again = merge(stocked, "site", ["north"]).json()
+    assert (again["changed"], again["sequence"]) == (0, first["sequence"])
+    pose, before = (told["parts"][0]["pose"]["translation"] for told in (again, first))
+    # Its frame's origin is two kilometres away; where the map is, that is less than a millimetre.
+    np.testing.assert_allclose(pose, before, atol=1e-3)
+
+
 def next_id(service: Any, name: str = "site") -> int:
     """The next free id of a map, which it takes."""
     return int(service.post(f"/maps/{name}/ids?count=1").json()["first"])
