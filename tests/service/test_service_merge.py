@@ -619,6 +619,30 @@ def test_an_alignment_that_the_loops_rule_out_is_rejected(
     assert_lies_as_driven(part, maps, "east")
 
 
+def test_of_three_maps_the_wrong_alignment_is_told_by_how_the_maps_lie(
+    misled: None, stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    told = merge(stocked, "site", ["east", "west", "north"], deduplicate=False).json()
+    rejected = [each for each in told["alignments"] if each["rejected"]]
+    assert [(each["map"], each["other"]) for each in rejected] == [("east", "west")]
+    assert not any(each["proven"] for each in told["alignments"])
+    (loop,) = told["loops"]
+    assert not loop["closes"]
+    assert all(part["merged"] for part in told["parts"])
+    assert_lies_as_driven(content(stocked), maps, "east")
+
+
+def test_where_nothing_tells_which_alignment_is_wrong_none_is_merged_along(
+    misled: None, stocked: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(merging, "lies_as_well", lambda *_: False)
+    names = ["east", "west", "north"]
+    assert_problem(merge(stocked, "site", names), 409, "not-aligned", "nothing was changed")
+    told = merge(stocked, "site", names, dry_run=True).json()
+    assert [each["rejected"] for each in told["alignments"]] == [True] * 3
+    assert not any(part["merged"] for part in told["parts"])
+
+
 def test_conditions_are_kept(stocked: Any) -> None:
     stale = {"If-Match": '"0123456789abcdef-1"'}
     assert_problem(
