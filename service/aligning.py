@@ -54,8 +54,22 @@ class MapSide:
         return index_of(self.content.codes, model.manifest.quantiser)
 
 
-class MapLooks:
-    """`Looks` of two maps, a and b, that one model made."""
+class MapLikeness:
+    """`Likeness` of two maps, a and b, that one model made."""
+
+    def __init__(self, model: Model, a: CompactMap, b: CompactMap) -> None:
+        self._model = model
+        self._a, self._b = a.codes, b.codes
+
+    def likely(self, a: Int64, b: Int64) -> Float64:
+        """How likely each row of a and row of b are the same."""
+        blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
+        told = [likely(self._model, self._b[b[block]], self._a[a[block]]) for block in blocks]
+        return np.concatenate([np.zeros(0), *told])
+
+
+class MapLooks(MapLikeness):
+    """`Looks` of two maps."""
 
     def __init__(
         self,
@@ -66,8 +80,7 @@ class MapLooks:
         check: Check = lambda: None,
     ) -> None:
         """With an index over a."""
-        self._model = model
-        self._a, self._b = a.codes, b.codes
+        super().__init__(model, a, b)
         self._index = index
         self._check = check
 
@@ -79,12 +92,6 @@ class MapLooks:
         asked = np.repeat(distinct, found.shape[1])
         likely = self.likely(found.ravel(), asked).reshape(found.shape)
         return found[inverse], likely[inverse]
-
-    def likely(self, a: Int64, b: Int64) -> Float64:
-        """How likely each row of a and row of b are the same."""
-        blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
-        told = [likely(self._model, self._b[b[block]], self._a[a[block]]) for block in blocks]
-        return np.concatenate([np.zeros(0), *told])
 
 
 def align_maps(

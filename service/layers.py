@@ -109,13 +109,13 @@ class Layers:
         )
 
     def about(self, places: Float64, metres: float) -> CompactMap:
-        """The segments within a box that holds these places, (p, 3), and so many metres more."""
+        """The segments about these places, (p, 3): all that are so near to one, and some around."""
         if not len(places):
             return self.take(self.recent.ids[:0])
         return self.take(self.column("ids", self.rows_about(places, metres)))
 
     def rows_about(self, places: Float64, metres: float) -> Int64:
-        """Rows of the map within a box that holds these places, (p, 3), and so many metres more."""
+        """Rows of the map about these places, (p, 3), at least one; see `within`."""
         base, recent = (
             within(layer.centroids, places, metres) for layer in (self.base, self.recent)
         )

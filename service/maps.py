@@ -18,7 +18,7 @@ from service.models import Models
 from service.problems import Problem
 from service.quotas import Quotas
 from service.replay import newest
-from service.stored_map import StoredMap
+from service.stored_map import KEEPS_FRAME, StoredMap
 
 logger = logging.getLogger("placecell")
 
@@ -55,7 +55,7 @@ class Maps:
                 logger.error("map %r is damaged and not served: %s", head.name, error)
                 self._damaged[head.name] = head
             else:
-                self._swap(StoredMap(head, layers, folded, None))
+                self._swap(StoredMap(head, layers, folded, head.sequence, None))
         self.index_all()
 
     def index_all(self) -> None:
@@ -127,7 +127,7 @@ class Maps:
         with self._committing:
             self._quotas.check(self.all(), None, robots)
             head = self.store.create(name, file, note, _next_id(content))
-            return self._swap(StoredMap(head, layers, 1, index))
+            return self._swap(StoredMap(head, layers, 1, 1, index))
 
     def commit(self, stored: StoredMap, delta: Delta, author: str, operation: str) -> StoredMap:
         """The map's next version; on return it is safely on disk. Errors as of `create`.
@@ -144,11 +144,14 @@ class Maps:
         kept = stored.index if layers.base is stored.layers.base else None
         robots, index = layers.robots, self._index(layers, kept.base if kept is not None else None)
         folded = until if delta.is_whole else stored.folded
+        # One without segments takes the frame of whatever comes next.
+        keeps = operation in KEEPS_FRAME and len(stored)
+        lies_since = stored.lies_since if keeps else until
         note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
         with self._committing:
             self._quotas.check(self.all(), stored, robots)
             head = self.store.append(stored.head, blob, note, _next_id(delta.changed))
-            return self._swap(StoredMap(head, layers, folded, index))
+            return self._swap(StoredMap(head, layers, folded, lies_since, index))
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
@@ -191,7 +194,7 @@ class Maps:
             layers = now.layers.upon(content, stored.layers)
             both = self._index(layers, index.base if index is not None else None)
             with self._committing:
-                self._swap(StoredMap(now.head, layers, stored.head.sequence, both))
+                self._swap(replace(now, layers=layers, folded=stored.head.sequence, index=both))
         return content
 
     def _swap(self, stored: StoredMap) -> StoredMap:

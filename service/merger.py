@@ -9,15 +9,12 @@ from segments.localisation import Pose
 from segments.map_alignment import AlignmentParameters
 from service.aligning import Check, check_same_model
 from service.living import RADIUS, SameView
+from service.map_store import OutOfIdsError
 from service.merging import Plan, plan_merge
 from service.problems import Problem
 from service.site import ROUNDED, Part, Share, content_of, join, laid_before, site_of
 from service.stored_map import StoredMap
-from service.versions import commits_of
-from service.writer import Writer, Written, leading_to
-
-KEEPS_FRAME = frozenset({"edit", "age", "merge"})
-"""Operations after which what a map holds still lies where it lay."""
+from service.writer import Writer, Written, leading_to, out_of_ids
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,19 +126,23 @@ class Merger:
             Part(plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack)
             for number, slack in joining.items()
         ]
-        first_id = 0
-        if stored is not None:
-            count = sum(len(part.content) for part in parts)
-            first_id = stored.head.next_id if self.dry_run else writer.reserve(name, count)
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
         present = None if stored is None else stored.layers.content()
         # One without segments is begun anew, in the first map's frame.
         site = present if present is not None and len(present) else site_of(plan.maps[0])
+        first_id = 0 if stored is None else stored.head.next_id
         try:
             content, found = join(site, parts, first_id, same)
+            count = sum(share.added for share in found)
+            if stored is not None and count and not self.dry_run:
+                reserved = writer.reserve(name, count)
+                if reserved != first_id:  # others have reserved some since
+                    content, found = join(site, parts, reserved, same)
         except MapFileError as error:
             raise Problem(409, "cannot-merge", f"The maps do not go together: {error}.") from error
+        except OutOfIdsError as error:
+            raise out_of_ids(name, error) from error
         shares = dict(zip(joining, found, strict=True))
         previous = stored.head.sequence if stored is not None else None
         if stored is None:
@@ -163,13 +164,8 @@ class Merger:
         """See that the site is the one that the maps were laid on; 409 if not."""
         if before is stored:
             return
-        if before is not None and stored is not None and before.head.uid == stored.head.uid:
-            since = before.head.sequence + 1
-            kept = commits_of(self.writer.maps.store, stored)
-            done = {each.note.operation for each in kept if each.sequence >= since}
-            # One without segments had no frame yet, and of versions let go of nothing is known.
-            if len(before) and stored.head.oldest <= since and done <= KEEPS_FRAME:
-                return
+        if before is not None and stored is not None and stored.lies_as(before):
+            return
         raise Problem(
             409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."
         )

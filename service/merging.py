@@ -9,10 +9,11 @@ from segments.map_alignment import (
     AlignmentParameters,
     MapAlignment,
     check_loops,
+    lies_as_well,
     poses_from,
 )
 from segments.map_alignment.loops import Checked
-from service.aligning import Check, MapSide, align_maps
+from service.aligning import Check, MapLikeness, MapSide, align_maps
 from service.models import Model
 from service.stored_map import StoredMap
 
@@ -76,7 +77,16 @@ def plan_merge(
         for (one, other), each in found.items()
         if each.best is not None and each.pose is not None
     ]
-    checked = check_loops(edges)
+
+    def lies(index: int, pose: Pose) -> bool:
+        check()
+        one, other = edges[index].one, edges[index].other
+        best = found[one, other].best
+        assert best is not None  # of that it is an edge
+        likeness = MapLikeness(model, sides[one].content, sides[other].content)
+        return lies_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
+
+    checked = check_loops(edges, lies)
     numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}
     pairings = tuple(
         Pairing(

@@ -18,12 +18,14 @@ class SessionKey:
     Attributes:
         holder: name of the key that the requests came with.
         session: the id that the robot chose.
-        map: name of the map.
+        map: uid of the map: another of its name lies elsewhere.
+        lies_since: of the map; what was replaced may lie elsewhere, too.
     """
 
     holder: str
     session: str
     map: str
+    lies_since: int
 
 
 class Sessions:

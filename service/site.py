@@ -6,14 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from placecell_client import CompactMap, Delta, moved, originated
 from placecell_client.map_edit import apply, empty, take, with_optional
+from scipy.spatial.transform import Rotation
 
 from segments.localisation import Pose
 from segments.localisation.registration import register
 from segments.map_alignment import AlignmentParameters
-from segments.types import Bool, Float64, Int64, UInt32
+from segments.types import Int64, UInt32
 from service.aligning import MapSide
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, sighting
+from service.map_store import IDS, OutOfIdsError
+from service.provenance import keys_in, moments_of, of_source, shared
 from service.stored_map import StoredMap
 
 ROUNDED = 0.02
@@ -68,8 +71,9 @@ def content_of(side: MapSide) -> CompactMap:
 def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
     """How a map lies in a site that it was merged into, from what it gave; None if that is unclear.
 
-    The stands tell it exactly, for they are moved without rounding. Where all lies on one line or
-    spot they do not tell the direction; then the centroids of most show that it is wrong.
+    The stands tell it exactly, for they are moved without rounding; where all are on one line or
+    spot and do not tell the direction, the sensor's orientation on them does, for it is moved, too.
+    The centroids of most show where either is wrong. So a single segment is enough.
 
     Args:
         part: with where its segments come from.
@@ -77,15 +81,23 @@ def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParamet
     rows, places = shared(part, with_optional(site, ("source", "source_ids")))
     same = moments_of(part, rows) == moments_of(site, places)  # else it was seen anew, elsewhere
     rows, places = rows[same], places[same]
-    if len(rows) < parameters.least_pairs:
+    if not len(rows):
         return None
-    stands = part.frame_positions[part.frame_index[rows]]
-    there = site.frame_positions[site.frame_index[places]]
-    pose = register(stands, there, np.ones(len(rows)), parameters.local)
-    if np.abs(pose.apply(stands) - there).max() > ROUNDED:
-        return None
-    off = np.abs(pose.apply(part.centroids[rows]) - site.centroids[places]).max(axis=1)
-    return pose if np.median(off) <= ROUNDED else None
+    frames, others = part.frame_index[rows], site.frame_index[places]
+    stands, there = part.frame_positions[frames], site.frame_positions[others]
+    by_stands = register(stands, there, np.ones(len(rows)), parameters.local)
+    turned = [
+        Rotation.from_quat(orientations[0])
+        for orientations in (part.frame_orientations[frames], site.frame_orientations[others])
+    ]
+    turn = (turned[1] * turned[0].inv()).as_matrix()
+    by_turn = Pose(turn, (there - stands @ turn.T).mean(axis=0))
+    for pose in (by_stands, by_turn):
+        away = np.abs(pose.apply(stands) - there).max()
+        off = np.abs(pose.apply(part.centroids[rows]) - site.centroids[places]).max(axis=1)
+        if away <= ROUNDED and np.median(off) <= ROUNDED:
+            return pose
+    return None
 
 
 def join(
@@ -100,11 +112,12 @@ def join(
 
     Args:
         site: in canonical form.
-        first_id: of new segments; those after it are free too.
+        first_id: of new segments, which get this one and those after it, without a gap.
         same: leave out what another map's segment shows already; None: leave nothing out.
 
     Raises:
         MapFileError: a part cannot stand in the site.
+        OutOfIdsError: there are too few ids from the first on.
     """
     shares = []
     for part in parts:
@@ -120,14 +133,14 @@ def join(
             site = apply(site, Delta(later, NONE))
         gone = ~given & of_source(site, part.name)
         added = renumbered(take(laid, ~known), first_id)
-        first_id += len(added)
         changed, repeats = added, 0
         if same is not None:
             # Not with what the map itself gave before: it is another's that is left out.
             there = take(site, ~gone & ~given)
             about = Layers.of(there).about(added.centroids, RADIUS)
             seen = sighting(added, about, same, itself=False)
-            changed, repeats = seen.changed, seen.repeats
+            changed, repeats = closed_up(seen.changed, first_id), seen.repeats
+        first_id += len(added) - repeats
         removed = np.sort(site.ids[gone])
         site = apply(site, Delta(changed, removed))
         shares.append(
@@ -177,42 +190,10 @@ def last_seen(content: CompactMap) -> UInt32:
     return np.array(content.seen)
 
 
-def moments_of(content: CompactMap, rows: Int64) -> Float64:
-    """When these segments were seen, seconds, float64 (m,)."""
-    return content.frame_times[content.frame_index[rows]]
-
-
-def keys_in(content: CompactMap, other: CompactMap) -> Bool:
-    """Which segments of one map the other has too, by source and id there, bool (n,)."""
-    found = np.zeros(len(content), dtype=bool)
-    for name in content.sources:
-        here, there = of_source(content, name), of_source(other, name)
-        found[here] = np.isin(_source_ids(content)[here], _source_ids(other)[there])
-    return found
-
-
-def shared(one: CompactMap, other: CompactMap) -> tuple[Int64, Int64]:
-    """Rows of what both have, by source and id there, int64 (m,) each."""
-    pairs = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
-    for name in set(one.sources) & set(other.sources):
-        here, there = (np.flatnonzero(of_source(each, name)) for each in (one, other))
-        _, rows, places = np.intersect1d(
-            _source_ids(one)[here], _source_ids(other)[there], return_indices=True
-        )
-        pairs.append((here[rows], there[places]))
-    rows, places = (np.concatenate(each) for each in zip(*pairs, strict=True))
-    return rows, places
-
-
-def of_source(content: CompactMap, name: str) -> Bool:
-    """Which segments were written to the map of this name first, bool (n,)."""
-    if content.source is None or name not in content.sources:
-        return np.zeros(len(content), dtype=bool)
-    return np.asarray(content.source == content.sources.index(name) + 1)
-
-
 def renumbered(content: CompactMap, first_id: int) -> CompactMap:
     """With ids from the first on; views of one thing stay such."""
+    if first_id + len(content) > IDS:
+        raise OutOfIdsError(f"{IDS - first_id} ids are left")
     ids = np.arange(first_id, first_id + len(content), dtype=np.uint32)
     views = content.views
     if views is not None and len(views):
@@ -222,5 +203,12 @@ def renumbered(content: CompactMap, first_id: int) -> CompactMap:
     return replace(content, ids=ids, views=views)
 
 
-def _source_ids(content: CompactMap) -> UInt32:
-    return NONE if content.source_ids is None else content.source_ids
+def closed_up(content: CompactMap, first_id: int) -> CompactMap:
+    """Without gaps in the ids from the first on, for some were left out; as `renumbered` else."""
+    rows = np.flatnonzero(content.ids >= first_id)
+    ids, views = content.ids.copy(), np.array(content.views)
+    ids[rows] = np.arange(first_id, first_id + len(rows), dtype=np.uint32)
+    among = rows[views[rows] >= first_id]
+    _, first, group = np.unique(views[among], return_index=True, return_inverse=True)
+    views[among] = ids[among][first[group]]
+    return replace(content, ids=ids, views=views)

@@ -6,6 +6,9 @@ from service.layers import Layers
 from service.map_index import LayeredIndex
 from service.map_store import Head
 
+KEEPS_FRAME = frozenset({"edit", "age", "merge"})
+"""Operations after which what a map held, if anything, still lies where it lay."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StoredMap:
@@ -15,12 +18,15 @@ class StoredMap:
         head: where the map stands in the store.
         layers: its segments.
         folded: sequence of the version that the layers' base is.
+        lies_since: sequence of the version since which nothing has come to lie elsewhere, or of one
+            after it.
         index: over its descriptors; None if the model that made them is not loaded.
     """
 
     head: Head
     layers: Layers
     folded: int
+    lies_since: int
     index: LayeredIndex | None
 
     def __len__(self) -> int:
@@ -40,6 +46,10 @@ class StoredMap:
     def frame(self) -> str:
         """Name of its coordinate frame."""
         return self.layers.base.frame
+
+    def lies_as(self, other: "StoredMap") -> bool:
+        """Whether it is another version of the same map, in the same frame."""
+        return (self.head.uid, self.lies_since) == (other.head.uid, other.lies_since)
 
     @property
     def tag(self) -> str:

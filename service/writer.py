@@ -173,7 +173,7 @@ class Writer:
         except KeyError as error:
             raise unknown(name) from error
         except OutOfIdsError as error:
-            raise Problem(409, "out-of-ids", f"Map {name!r}: {error}.") from error
+            raise out_of_ids(name, error) from error
 
     def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
         upload = edit.changed
@@ -222,6 +222,11 @@ class Writer:
         check(before, delta)
         stored = self.maps.commit(stored, delta, self.holder.name, operation)
         return Written(stored, len(delta.changed), len(delta.removed))
+
+
+def out_of_ids(name: str, error: OutOfIdsError) -> Problem:
+    """What is told when a map has too few ids left."""
+    return Problem(409, "out-of-ids", f"Map {name!r}: {error}.")
 
 
 def leading_to(stored: StoredMap, content: CompactMap, present: CompactMap | None = None) -> Delta:

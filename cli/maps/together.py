@@ -3,7 +3,7 @@
 import json
 from dataclasses import asdict
 from math import degrees
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,18 +15,24 @@ if TYPE_CHECKING:
 
 POSE = "x, y, z, yaw"
 
+Motion = Annotated[
+    Literal["yaw", "se3"],
+    typer.Option(help="yaw: yaw and translation, for frames are level; se3: all six degrees."),
+]
+
 Json = Annotated[bool, typer.Option("--json", help="Print all that is known, as JSON.")]
 
 
 def align(
     name: Name,
     other: Annotated[str, typer.Argument(metavar="OTHER", help="The map to lay on it.")],
+    motion: Motion = "yaw",
     as_json: Json = False,
     url: Url = LOCAL,
 ) -> None:
     """Tell how another map lies to a map; ends with status 1 if the two are not aligned."""
     with service(url) as client:
-        found = client.align_maps(name, other)
+        found = client.align_maps(name, other, motion=motion)
     if as_json:
         print_json(found)
     else:
@@ -57,6 +63,7 @@ def merge(
             help="Only if the site is at this version, such as 'pull' keeps beside a file.",
         ),
     ] = None,
+    motion: Motion = "yaw",
     as_json: Json = False,
     url: Url = LOCAL,
 ) -> None:
@@ -66,7 +73,12 @@ def merge(
     """
     with service(url) as client:
         merged = client.merge_maps(
-            site, names, dry_run=dry_run, deduplicate=not keep_repeats, if_match=if_match
+            site,
+            names,
+            dry_run=dry_run,
+            deduplicate=not keep_repeats,
+            motion=motion,
+            if_match=if_match,
         )
     if as_json:
         print_json(merged)

@@ -25,10 +25,11 @@ class Surroundings(Protocol):
     """A map that what the robot sees can be compared with."""
 
     def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
-        """Rows of the map within a box that holds these places, and so many metres more.
+        """Rows of the map about these places: all that are near one, and some around (`within`).
 
         Args:
             places: float64 (n, 3), metres, in the map's frame; n > 0.
+            metres: along each axis, up to which a row is near.
 
         Returns:
             Rows, int64 (m,), and their centroids, float64 (m, 3), metres.

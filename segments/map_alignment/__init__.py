@@ -7,20 +7,22 @@ poses that agree are one guess, and a guess is held against the whole overlap th
 `loops.py` checks the alignments of more than two maps. No step knows of models, files or requests.
 """
 
-from segments.map_alignment.align import MapAlignment, align
+from segments.map_alignment.align import MapAlignment, align, lies_as_well
 from segments.map_alignment.loops import Alignment, check_loops, poses_from
-from segments.map_alignment.map_view import Looks, MapView
+from segments.map_alignment.map_view import Likeness, Looks, MapView
 from segments.map_alignment.overlap import Overlap
 from segments.map_alignment.parameters import AlignmentParameters
 
 __all__ = [
     "Alignment",
     "AlignmentParameters",
+    "Likeness",
     "Looks",
     "MapAlignment",
     "MapView",
     "Overlap",
     "align",
     "check_loops",
+    "lies_as_well",
     "poses_from",
 ]

@@ -12,7 +12,7 @@ from segments.localisation.hypothesis import find_hypotheses, same_place
 from segments.localisation.localise import Reason
 from segments.localisation.voting import most_voted
 from segments.map_alignment.consensus import Guess, common_pose, consensus
-from segments.map_alignment.map_view import Looks, MapView
+from segments.map_alignment.map_view import Likeness, Looks, MapView
 from segments.map_alignment.overlap import Overlap, overlap_of
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.map_alignment.submaps import Submap, candidates_of, cut
@@ -140,6 +140,23 @@ def is_as_good(second: Overlap, best: Overlap, parameters: AlignmentParameters) 
     return second.score >= parameters.ambiguous * best.score or (
         is_good(second, parameters) and second.agreement >= parameters.ambiguous * best.agreement
     )
+
+
+def lies_as_well(
+    a: MapView,
+    b: MapView,
+    pose: Pose,
+    best: Overlap,
+    looks: Likeness,
+    parameters: AlignmentParameters = PARAMETERS,
+) -> bool:
+    """Whether b lies in a by this pose as well as by the best one, which puts it elsewhere.
+
+    No where the two would not overlap, for nothing speaks for that.
+    """
+    found = overlap_of(a, b, pose, looks, parameters)
+    is_another = not same_place(found.pose, best.pose, best.source.mean(axis=0), parameters.local)
+    return is_another and is_as_good(found, best, parameters)
 
 
 def distinct(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> list[Overlap]:

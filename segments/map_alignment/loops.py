@@ -1,11 +1,13 @@
 """Alignments of more than two maps, checked around every loop; a bad one is rejected.
 
 Once around a loop of maps leads back to where one began. Where it does not, an alignment of that
-loop is wrong; which one, the other loops tell that it is part of.
+loop is wrong; which one, the other loops tell that it is part of. Where they do not, the rest of
+the loop says, of each alignment, how its maps lie if all others are right; and the maps themselves
+whether they do.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import networkx
@@ -47,6 +49,10 @@ class Alignment:
         return self.middle if number == self.one else self.pose.inverse().apply(self.middle)
 
 
+Lies = Callable[[int, Pose], bool]
+"""Whether the maps of an alignment, by its index, lie as well by another pose as by its own."""
+
+
 @dataclass(frozen=True, slots=True)
 class Loop:
     """A way around.
@@ -85,24 +91,57 @@ class Checked:
     proven: frozenset[int]
 
 
-def check_loops(alignments: Sequence[Alignment]) -> Checked:
+def check_loops(alignments: Sequence[Alignment], lies: Lies = lambda *_: False) -> Checked:
     """Reject alignments until every loop closes.
 
-    First the one that fails in most loops more than it holds in; of several, the weakest.
+    First the one that fails in most loops more than it holds in. Of several in one loop, the one
+    whose maps lie as well as the rest of the loop says. If that is none or more than one, all of
+    them: a map that is left out does less harm than one that is laid along what may be wrong.
 
     Args:
         alignments: one between each two maps, at most.
+        lies: is asked once, at most, of each alignment of a loop that fails.
     """
     rejected: list[int] = []
     every = loops = loops_of(alignments, rejected)
-    while any(not loop.closes for loop in loops):
-        fails = counted(loop for loop in loops if not loop.closes)
-        holds = counted(loop for loop in loops if loop.closes)
-        rejected.append(
-            min(fails, key=lambda index: (holds[index] - fails[index], alignments[index].weight))
-        )
+    while failing := [loop for loop in loops if not loop.closes]:
+        loop, suspects = most_suspect(failing, loops)
+        wrong = [
+            index
+            for index in suspects
+            if len(suspects) == 1 or lies(index, by_the_rest(loop, index, alignments))
+        ]
+        rejected += wrong if len(wrong) == 1 else suspects
         loops = loops_of(alignments, rejected)
     return Checked(tuple(rejected), every, frozenset(counted(loops)))
+
+
+def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, list[int]]:
+    """A loop that fails, and those on it that fail in most loops more than they hold in.
+
+    Of several loops that with the fewest of them, and then the shortest.
+    """
+    fails, holds = counted(failing), counted(loop for loop in loops if loop.closes)
+    worst = max(fails[index] - holds[index] for index in fails)
+    suspects = [
+        (loop, [index for index in loop.alignments if fails[index] - holds[index] == worst])
+        for loop in failing
+    ]
+    return min(
+        (each for each in suspects if each[1]), key=lambda each: (len(each[1]), len(each[0].maps))
+    )
+
+
+def by_the_rest(loop: Loop, index: int, alignments: Sequence[Alignment]) -> Pose:
+    """How the two maps of an alignment lie, as its `pose` tells it, by the rest of a loop."""
+    begin = loop.alignments.index(index) + 1
+    around = Pose.of_matrix(np.eye(4))
+    steps = [*zip(loop.maps, loop.alignments, strict=True)]
+    for number, step in (*steps[begin:], *steps[: begin - 1]):
+        around = around.after(alignments[step].into(number))
+    # Into the map after it, from the map before it.
+    after = loop.maps[begin % len(loop.maps)]
+    return around if alignments[index].one == after else around.inverse()
 
 
 def loops_of(alignments: Sequence[Alignment], without: Sequence[int] = ()) -> tuple[Loop, ...]:

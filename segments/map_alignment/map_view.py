@@ -45,8 +45,15 @@ class MapView:
         return MapView(pose.apply(self.centroids), pose.apply(self.stands))
 
 
-class Looks(Protocol):
+class Likeness(Protocol):
     """How much segments of two maps, a and b, look like each other."""
+
+    def likely(self, a: Int64, b: Int64) -> Float64:
+        """How likely rows of a and of b, (m,) each, are the same, pair by pair, float64 (m,)."""
+
+
+class Looks(Likeness, Protocol):
+    """And which of them look most alike."""
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         """For rows (m,) of b, the rows of a that look most like each.
@@ -54,6 +61,3 @@ class Looks(Protocol):
         Returns:
             Rows, int64 (m, k), and how likely they are the same, float64 (m, k).
         """
-
-    def likely(self, a: Int64, b: Int64) -> Float64:
-        """How likely rows of a and of b, (m,) each, are the same, pair by pair, float64 (m,)."""

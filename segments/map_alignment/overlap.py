@@ -9,7 +9,7 @@ from segments.localisation.correspondences import Correspondences, number_places
 from segments.localisation.covariance import covariance_of
 from segments.localisation.near import evenly, near_pairs
 from segments.localisation.refinement import kernel, refine, residuals
-from segments.map_alignment.map_view import Looks, MapView
+from segments.map_alignment.map_view import Likeness, MapView
 from segments.map_alignment.parameters import AlignmentParameters
 from segments.types import Bool, Float64, Int64
 
@@ -53,7 +53,7 @@ class Overlap:
 
 
 def overlap_of(
-    a: MapView, b: MapView, pose: Pose, looks: Looks, parameters: AlignmentParameters
+    a: MapView, b: MapView, pose: Pose, looks: Likeness, parameters: AlignmentParameters
 ) -> Overlap:
     """Refine a pose with all that agrees, and see how much of what should agree does."""
     guessed = b.moved(pose)
@@ -120,7 +120,7 @@ def alike(
     b: MapView,
     rows_a: Int64,
     rows_b: Int64,
-    looks: Looks,
+    looks: Likeness,
     parameters: AlignmentParameters,
 ) -> tuple[Int64, Int64, Float64]:
     """Pairs of segments that lie near each other and look alike.

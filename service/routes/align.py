@@ -59,7 +59,11 @@ async def align(
     """
     for each in (name, other):
         holder.check_map(each)
-    async with state.alignments.admit(request, (JSON,), timing):
+    async with state.alignments.admit(request, (JSON,), timing) as body:
+        if body.content:  # options, as `merge` takes them there; they would be ignored
+            raise invalid_value(
+                "", "align takes its options in the query: ?motion=se3, not a body."
+            )
         one, another = state.maps.get(name), state.maps.get(other)
         check_same_model(one, another)
         model = state.models.named(one.model_id)

@@ -55,8 +55,8 @@ async def localize(
         queries = await asked.queries(timing)
         for (model, searched), own in zip(asked.scope.searched, queries, strict=True):
             for stored in searched:
-                key = query.session and SessionKey(holder.name, query.session, stored.name)
-                work = (state, model, stored, own, query, key or None, timing)
+                key = _session_key(holder, query, stored)
+                work = (state, model, stored, own, query, key, timing)
                 told.append(await state.compute(_locate, *work))
         content = await state.compute(_written, asked, queries, told, answer, timing)
     return Response(content, media_type=answer)
@@ -67,6 +67,12 @@ def _read(state: State, holder: Holder, body: Body, timing: Timing) -> tuple[Que
     query = parse(LocalizeRequest, PackedLocalizeRequest, body, state.settings.limits)
     centroids = None if query.centroids is None else np.array(query.centroids, np.float64)
     return query, read_query(state, holder, query, timing, centroids)
+
+
+def _session_key(holder: Holder, query: Query, stored: StoredMap) -> SessionKey | None:
+    if not query.session:
+        return None
+    return SessionKey(holder.name, query.session, stored.head.uid, stored.lies_since)
 
 
 def _locate(

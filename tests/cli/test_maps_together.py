@@ -57,6 +57,18 @@ def test_how_a_map_lies_is_told_as_json() -> None:
     assert "not aligned" in result.stderr
 
 
+def test_frames_that_are_not_level_are_laid_on_each_other(url: str, yard: CompactMap) -> None:
+    tilted = np.array([[1.0, 0, 0], [0, 0.6, -0.8], [0, 0.8, 0.6]])
+    with Client(url) as client:
+        client.put_map("tilted", moved(yard, tilted, [5.0, 6, 7], "tilted"))
+    assert "not aligned" in bad("align", "yard", "tilted")
+    assert "aligned" in good("align", "yard", "tilted", "--motion", "se3")
+    assert "no map of yard, tilted" in bad("merge", "site", "yard", "tilted", "--dry-run")
+    laid = ("merge", "site", "yard", "tilted", "--dry-run", "--motion", "se3")
+    assert "300 segments it would hold" in good(*laid)
+    assert "Invalid value for '--motion'" in run("align", "yard", "tilted", "--motion", "9").output
+
+
 def test_maps_are_merged_and_a_merge_is_undone(url: str) -> None:
     names = ("yard", "hall", "moon")
     told = good("merge", "site", *names, "--dry-run")

@@ -212,6 +212,16 @@ def test_what_cannot_be_asked(stocked: Any) -> None:
     assert stocked.get("/maps/east/align/west").status_code == 405
 
 
+@pytest.mark.parametrize("body", [b'{"motion": "se3"}', b"{}", b"\xff"])
+def test_options_in_a_body_are_not_ignored(stocked: Any, body: bytes) -> None:
+    for headers in ({}, {"Content-Type": "application/json"}):
+        answer = stocked.post("/maps/east/align/west", content=body, headers=headers)
+        assert_problem(answer, 422, "invalid-request", "in the query: ?motion=se3")
+    packed = {"Content-Type": "application/msgpack"}
+    answer = stocked.post("/maps/east/align/west", content=body, headers=packed)
+    assert_problem(answer, 415, "unsupported-media-type")
+
+
 def test_maps_of_two_models_do_not_compare(
     start: Any, manifest: Manifest, other_manifest: Manifest
 ) -> None:

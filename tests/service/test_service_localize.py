@@ -8,7 +8,8 @@ from typing import Any
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
-from placecell_client import CompactMap, encode
+from placecell_client import CompactMap, Delta, encode, encode_delta
+from placecell_client.map_edit import take
 from scipy.spatial.transform import Rotation
 
 from segments.localisation import Pose
@@ -178,12 +179,10 @@ def test_two_equal_places_are_ambiguous_and_both_are_told(
     assert {each["inliers"] for each in told["others"]} == {40}
 
 
-def test_requests_of_a_session_support_each_other(
-    service: Any, manifest: Manifest, content: CompactMap, body: Any
-) -> None:
-    """The robot has passed a landmark of the second place; of the rest, both have the same."""
+def with_landmarks(content: CompactMap) -> CompactMap:
+    """A street that stands in two places; the second one has twenty things besides."""
     both = twice(content)
-    landmarks = replace(
+    return replace(
         both,
         codes=np.concatenate([both.codes, random_codes(20, 77)]),
         centroids=np.concatenate([both.centroids, content.centroids[:20] + (3.0, 250.0, 0.0)]),
@@ -191,6 +190,13 @@ def test_requests_of_a_session_support_each_other(
         robot=np.zeros(420, np.uint16),
         frame_index=np.zeros(420, np.uint32),
     )
+
+
+def test_requests_of_a_session_support_each_other(
+    service: Any, manifest: Manifest, content: CompactMap, body: Any
+) -> None:
+    """The robot has passed a landmark of the second place; of the rest, both have the same."""
+    landmarks = with_landmarks(content)
     assert service.put("/maps/both", content=encode(landmarks)).status_code == 201
     passed = [
         by_codes(manifest, *seen_in(landmarks, np.arange(400 + first, 420)), session="ann-1")
@@ -212,6 +218,69 @@ def test_requests_of_a_session_support_each_other(
     # Of others' sessions, and without one, nothing is known.
     assert place(body | {"session": "ann-2"}) is None
     assert place(body) is None
+
+
+def put(service: Any, content: CompactMap, **headers: str) -> None:
+    answer = service.put("/maps/both", content=encode(content), headers=headers)
+    assert answer.is_success, answer.text
+
+
+def removed_and_made_anew(service: Any, content: CompactMap) -> None:
+    assert service.delete("/maps/both").status_code == 204
+    put(service, content)
+
+
+def restored(service: Any, content: CompactMap) -> None:
+    edited(service, content)
+    answer = service.post("/maps/both/versions/1/restore")
+    assert answer.is_success, answer.text
+
+
+def post_edit(service: Any, *delta: Any) -> None:
+    answer = service.post(
+        "/maps/both/segments", content=encode_delta(Delta(*delta)), headers={"If-Match": "*"}
+    )
+    assert answer.is_success, answer.text
+
+
+def edited(service: Any, content: CompactMap) -> None:
+    """Without some that the robot does not see."""
+    post_edit(service, take(content, slice(0)), content.ids[150:160])
+
+
+def replaced(service: Any, content: CompactMap) -> None:
+    put(service, take(content, ~np.isin(content.ids, range(150, 160))), **{"If-Match": "*"})
+
+
+def emptied_and_filled(service: Any, content: CompactMap) -> None:
+    post_edit(service, take(content, slice(0)), content.ids)
+    post_edit(service, content, content.ids[:0])
+
+
+@pytest.mark.parametrize(
+    ("act", "counts"),
+    [
+        (edited, True),
+        (replaced, False),
+        (removed_and_made_anew, False),
+        (restored, False),
+        (emptied_and_filled, False),
+    ],
+)
+def test_what_was_found_before_counts_while_the_map_lies_where_it_lay(
+    service: Any, manifest: Manifest, content: CompactMap, body: Any, act: Any, counts: bool
+) -> None:
+    landmarks = with_landmarks(content)
+    put(service, landmarks)
+    for first in range(6):
+        rows = np.arange(400 + first, 420)
+        asked = by_codes(manifest, *seen_in(landmarks, rows), session="ann")
+        (told,) = service.post("/localize", json=asked).json()["localisations"]
+        assert told["localised"]
+    act(service, landmarks)
+    (told,) = service.post("/localize", json=body | {"session": "ann"}).json()["localisations"]
+    assert told["localised"] is counts, told
+    assert told["reason"] == (None if counts else "ambiguous")
 
 
 def test_each_map_says_where_the_robot_is_in_it(

@@ -237,6 +237,77 @@ def test_merged_again_nothing_changes(stocked: Any) -> None:
         assert after.headers["etag"] == before.headers["etag"]
 
 
+@pytest.mark.parametrize(("ends", "count"), [((60, 120), 2), ((85, 125), 1)])
+def test_a_map_that_gave_next_to_nothing_is_laid_as_it_was(
+    stocked: Any, manifest: Manifest, ends: tuple[float, float], count: int
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    put_anew(stocked, "north", driven(manifest.model_id, "north", *ends, time=2e9))
+    first = merge(stocked, "site", ["north"]).json()
+    assert first["parts"][0]["added"] == count
+    again = merge(stocked, "site", ["north"]).json()
+    assert (again["changed"], again["sequence"]) == (0, first["sequence"])
+    pose, before = (told["parts"][0]["pose"]["translation"] for told in (again, first))
+    # Its frame's origin is two kilometres away; where the map is, that is less than a millimetre.
+    np.testing.assert_allclose(pose, before, atol=1e-3)
+
+
+def next_id(service: Any, name: str = "site") -> int:
+    """The next free id of a map, which it takes."""
+    return int(service.post(f"/maps/{name}/ids?count=1").json()["first"])
+
+
+def test_as_many_ids_are_taken_as_there_are_new_segments(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    first = next_id(stocked)
+    assert len(content(stocked)) == first
+    for again in (["east", "west"], ["west"]):
+        told = merge(stocked, "site", again).json()
+        assert (told["changed"], told["parts"][-1]["repeats"] > 0) == (0, True)
+    assert next_id(stocked) == first + 1
+    told = merge(stocked, "site", ["north"]).json()
+    (part,) = told["parts"]
+    assert part["added"] > 0 < part["repeats"]
+    # The two that were asked for belong to whoever asked.
+    new = range(first + 2, first + 2 + part["added"])
+    assert content(stocked).ids.tolist() == [*range(first), *new]
+    assert next_id(stocked) == new.stop
+
+
+def test_views_of_what_is_new_are_named_by_one_that_is_there(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    west = maps["west"]
+    put_anew(stocked, "west", replace(west, views=west.ids // 3 * 3))
+    merge(stocked, "site", ["east", "west"])
+    site = content(stocked)
+    assert site.views is not None
+    assert set(site.views.tolist()) <= set(site.ids.tolist())
+    # Those of one thing that are alone in the site are still of one thing.
+    rows = rows_from(site, "west")
+    assert site.source_ids is not None
+    things, named = site.source_ids[rows] // 3, site.views[rows]
+    alone = named >= site.ids[rows].min()
+    groups = {(thing, view) for thing, view in zip(things[alone], named[alone], strict=True)}
+    assert len(groups) == len({thing for thing, _ in groups}) == len({view for _, view in groups})
+    assert alone.sum() > len(groups) > 0
+
+
+def test_a_site_without_enough_ids_is_left_as_it_is(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    last = replace(take(maps["east"], np.arange(1)), ids=np.array([2**32 - 4], np.uint32))
+    edited(stocked, "site", last)
+    before = stocked.get("/maps/site").content
+    for dry_run in (True, False):
+        refused = merge(stocked, "site", ["north"], dry_run=dry_run)
+        assert_problem(refused, 409, "out-of-ids", "3 ids are left")
+    assert stocked.get("/maps/site").content == before
+
+
 def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest: Manifest) -> None:
     west = driven(manifest.model_id, "west", 60, 210, time=2e9)
     first = take(west, west.ids < 250)
@@ -546,6 +617,30 @@ def test_an_alignment_that_the_loops_rule_out_is_rejected(
     assert len(rows) == len(maps["west"])
     part = take(site, np.sort(np.concatenate([rows, rows_from(site, "east")])))
     assert_lies_as_driven(part, maps, "east")
+
+
+def test_of_three_maps_the_wrong_alignment_is_told_by_how_the_maps_lie(
+    misled: None, stocked: Any, maps: dict[str, CompactMap]
+) -> None:
+    told = merge(stocked, "site", ["east", "west", "north"], deduplicate=False).json()
+    rejected = [each for each in told["alignments"] if each["rejected"]]
+    assert [(each["map"], each["other"]) for each in rejected] == [("east", "west")]
+    assert not any(each["proven"] for each in told["alignments"])
+    (loop,) = told["loops"]
+    assert not loop["closes"]
+    assert all(part["merged"] for part in told["parts"])
+    assert_lies_as_driven(content(stocked), maps, "east")
+
+
+def test_where_nothing_tells_which_alignment_is_wrong_none_is_merged_along(
+    misled: None, stocked: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(merging, "lies_as_well", lambda *_: False)
+    names = ["east", "west", "north"]
+    assert_problem(merge(stocked, "site", names), 409, "not-aligned", "nothing was changed")
+    told = merge(stocked, "site", names, dry_run=True).json()
+    assert [each["rejected"] for each in told["alignments"]] == [True] * 3
+    assert not any(part["merged"] for part in told["parts"])
 
 
 def test_conditions_are_kept(stocked: Any) -> None:

@@ -18,8 +18,10 @@ class Clock:
         return self.now
 
 
-def key(robot: str = "ann", holder: str = "anyone", map_: str = "yard") -> SessionKey:
-    return SessionKey(holder, robot, map_)
+def key(
+    robot: str = "ann", holder: str = "anyone", map_: str = "yard", since: int = 1
+) -> SessionKey:
+    return SessionKey(holder, robot, map_, since)
 
 
 def hypothesis(score: float = 10.0) -> Hypothesis:
@@ -55,7 +57,9 @@ def test_a_request_that_is_sent_again_is_no_evidence(sessions: Sessions) -> None
     assert evidence.support(hypothesis()) == 0
 
 
-@pytest.mark.parametrize("other", [key("bob"), key(holder="another key"), key(map_="hall")])
+@pytest.mark.parametrize(
+    "other", [key("bob"), key(holder="another key"), key(map_="hall"), key(since=2)]
+)
 def test_nobody_else_has_it(sessions: Sessions, other: SessionKey) -> None:
     sessions.remember(key(), BEFORE, [hypothesis()])
     assert sessions.evidence(other, NOW) is None

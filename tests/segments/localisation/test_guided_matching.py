@@ -115,6 +115,20 @@ def test_wherever_the_robot_s_frame_is_the_same_is_found(seed: int) -> None:
     assert score(seen[order], there, pose) == pytest.approx(told)
 
 
+@given(seed=st.integers(0, 2**32 - 1), strays=st.integers(0, 3))
+def test_what_is_far_from_all_changes_no_score(seed: int, strays: int) -> None:
+    random = np.random.default_rng(seed)
+    centroids = random.uniform(-30, 30, (20, 3))
+    centroids[:strays] += random.uniform(-5e3, 5e3, (strays, 3))
+    rows = np.concatenate(
+        [centroids + random.normal(0, 0.5, (20, 3)), random.uniform(-6e3, 6e3, (200, 3))]
+    )
+    there = Things(rows, random.uniform(0, 1, (20, 220)))
+    told = score(centroids, there)
+    there.about = lambda *_: (np.arange(220), rows)  # type: ignore[method-assign]
+    assert score(centroids, there) == told
+
+
 def test_of_candidates_what_is_none_does_not_look_alike() -> None:
     rows = np.array([[7, 3], [3, 9]])
     places = grid(10)[rows]

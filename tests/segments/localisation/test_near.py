@@ -1,8 +1,10 @@
 """Points that lie near each other, or within a box."""
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
-from segments.localisation.near import evenly, near_pairs, within
+from segments.localisation.near import CELL, CELLS, WHOLE, evenly, near_pairs, within
 
 
 def test_evenly_keeps_both_ends() -> None:
@@ -43,3 +45,42 @@ def test_within_a_box_about_places() -> None:
         [[-1.0, 0, 0], [11, 3, 2], [-1.1, 0, 0], [5, 3.1, 0], [5, 1, -1.1], [5, 1, 1]]
     )
     assert within(points, places, 1.0).tolist() == [0, 1, 5]
+
+
+def test_within_cells_about_places_that_are_far_apart() -> None:
+    places = np.array([[0.0, 0, 0], [5, 5, 0], [4_000, -3_000, 0]])
+    points = np.array(
+        [[1.0, 1, 0], [4_001, -3_001, 1], [2_000, -1_500, 0], [4_000, 0, 0], [0, -3_000, 0]]
+    )
+    assert within(points, places, 1.0).tolist() == [0, 1]
+    assert within(points, places[:1], 1.0).tolist() == [0]
+    assert within(points[2:], places, 1.0).tolist() == []
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    extent=st.sampled_from([1.0, 100.0, 260.0, 5_000.0, 1e5]),
+    metres=st.sampled_from([0.5, 1.5, 20.0]),
+)
+def test_within_has_all_that_is_near_and_little_else(
+    seed: int, extent: float, metres: float
+) -> None:
+    random = np.random.default_rng(seed)
+    places = random.uniform(-extent, extent, (8, 3)) * (1, random.choice([1, 0.01]), 0.01)
+    about = np.repeat(places, 6, axis=0)
+    # Some exactly at the limit.
+    off = random.uniform(-3, 3, about.shape) * metres
+    points = np.concatenate([about + off, about + metres * np.sign(off) * (1 - 1e-9)])
+    apart = np.abs(points[:, None] - places)
+    near = np.flatnonzero((apart <= metres).all(axis=2).any(axis=1))
+    found = within(points, places, metres)
+    assert set(near) <= set(found)
+    assert (np.diff(found) > 0).all()
+    low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
+    box = ((points >= low) & (points <= high)).all(axis=1)
+    if (high - low)[:2].max() <= WHOLE:
+        np.testing.assert_array_equal(found, np.flatnonzero(box))
+    else:
+        assert box[found].all()
+        cell = max(CELL, 2 * metres, (high - low)[:2].max() / CELLS)
+        assert (apart[found, :, :2].max(axis=2).min(axis=1) <= 2 * cell).all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from segments.localisation import Pose
-from segments.map_alignment import AlignmentParameters, Overlap, align
+from segments.map_alignment import AlignmentParameters, Overlap, align, lies_as_well
 from segments.map_alignment.align import distinct, judge, turned
 from segments.types import Float64
 from tests.segments.map_alignment.map_builders import ByDistance, pair
@@ -141,3 +141,27 @@ def test_what_parameters_ask_for_is_asked_for() -> None:
     assert found.reason == "inconsistent"
     assert found.best is not None
     assert len(found.best) >= strict.least_pairs
+
+
+def test_maps_are_held_against_each_other_as_others_say_that_they_lie() -> None:
+    two = pair(3)
+    a, b, looks = two.a.view, two.b.view, ByDistance(two.a, two.b)
+    right = align(a, b, looks).best
+    assert right is not None
+    slid = Pose.of_yaw(0.0, np.array([25.0, 0.0, 0.0])).after(right.pose)
+    gone = Pose.of_yaw(0.0, np.array([0.0, 900.0, 0.0])).after(right.pose)
+    near = Pose.of_yaw(0.01, np.array([1.0, -0.5, 0.0])).after(two.truth)
+
+    def lies(pose: Pose, best: Overlap) -> bool:
+        return lies_as_well(a, b, pose, best, looks)
+
+    wrong = replace(right, pose=slid, score=1e6)
+    # About where it is right, within what a loop may miss by, whatever the wrong one's score.
+    assert lies(two.truth, wrong)
+    assert lies(near, wrong)
+    # Where the maps would overlap and do not agree; and where they would not meet.
+    assert not lies(slid, right)
+    assert not lies(gone, right)
+    # As the alignment itself has it is no other way.
+    assert not lies(right.pose, right)
+    assert not lies(near, right)
