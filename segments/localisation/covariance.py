@@ -40,7 +40,7 @@ def covariance_of(
     information = np.einsum("m,mij,mik->jk", weights, jacobian, jacobian)
     freedom = max(3 * weights.sum() - len(columns), 1.0)
     variance = weights @ (leftover**2).sum(axis=1) / freedom
-    variance = max(variance, parameters.least_deviation**2) * parameters.overlap
+    variance = max(variance, parameters.least_deviation**2) * parameters.inflation
     # About the middle, turns and shifts do not mix. Of turns nothing is known, but for rounding, if
     # the segments lie in one point, or on the axis of one: a millimetre from it, on average.
     turns = np.linalg.eigvalsh(information[3:, 3:])

@@ -46,9 +46,9 @@ class LocalisationParameters:
     """Residuals beyond this pull less and less (Geman and McClure)."""
     least_deviation: float = 0.1
     """Of a centroid: a covariance never claims more."""
-    overlap: float = 2.0
+    inflation: float = 2.0
     """Of a covariance, how many times it is larger than if centroids erred independently: measured
-    are 0.9 in towns, 1.3 and 2.4 on recorded drives (`covariance_ratio` of evaluate-poses)."""
+    are 0.5 to 1 in towns, 1.3 and 2.9 on recorded drives (`covariance_ratio` of evaluate-poses)."""
 
     # Looking again.
     most_pairs: int = 200_000

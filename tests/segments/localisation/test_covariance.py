@@ -18,7 +18,7 @@ def test_a_cross_product_is_a_matrix() -> None:
 def test_it_is_how_much_poses_scatter(model: str, away: float) -> None:
     """Registered again and again under new noise, poses scatter as the covariance says."""
     random = np.random.default_rng(1)
-    parameters = LocalisationParameters(model=model, overlap=1.0)  # type: ignore[arg-type]
+    parameters = LocalisationParameters(model=model, inflation=1.0)  # type: ignore[arg-type]
     source = street(random, 60.0, 40) + (away, 0, 0)
     true = a_pose(random)
     errors, stated = [], []
@@ -88,6 +88,6 @@ def test_a_long_street_determines_all(model: str, metres: float) -> None:
 def test_overlap_makes_it_larger() -> None:
     source = street(np.random.default_rng(3), 60.0, 10)
     pose = Pose.of_yaw(0, np.zeros(3))
-    plain = covariance_of(pose, source, source, LocalisationParameters(overlap=1.0))
-    larger = covariance_of(pose, source, source, LocalisationParameters(overlap=4.0))
+    plain = covariance_of(pose, source, source, LocalisationParameters(inflation=1.0))
+    larger = covariance_of(pose, source, source, LocalisationParameters(inflation=4.0))
     np.testing.assert_allclose(larger, 4 * plain)
