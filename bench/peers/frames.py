@@ -97,7 +97,7 @@ def near_map(poses: Float64, truth: Float64) -> Bool:
 
 def map_poses(stretches: Sequence[Stretch]) -> Float64:
     """Poses of the map's frames, float64 (frames, 4, 4)."""
-    return np.stack([stretch.to_map @ pose for stretch, _, pose in frames_of(stretches)])
+    return poses_of(frames_of(stretches))
 
 
 def query_poses(stretches: Sequence[Stretch], most: int | None = None, seed: int = 0) -> Float64:
@@ -107,14 +107,19 @@ def query_poses(stretches: Sequence[Stretch], most: int | None = None, seed: int
         most: frames that are taken, spread evenly; all unless given.
         seed: of their headings.
     """
-    frames = frames_of(stretches, most, np.random.default_rng(seed))
+    return poses_of(frames_of(stretches, most, np.random.default_rng(seed)))
+
+
+def poses_of(frames: Sequence[Frame]) -> Float64:
+    """Of frames, in the map's frame, float64 (n, 4, 4)."""
     return np.stack([stretch.to_map @ pose for stretch, _, pose in frames])
 
 
 def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> None:
     """The map as peers read it."""
-    write_frames(folder / MAP, frames_of(stretches), progress)
-    np.save(folder / MAP / POSES, map_poses(stretches))
+    frames = frames_of(stretches)
+    write_frames(folder / MAP, frames, progress)
+    np.save(folder / MAP / POSES, poses_of(frames))
 
 
 def write_queries(
