@@ -1,0 +1,100 @@
+"""Cancellation: a token that stops work whose request is late or whose client has left.
+
+A token is set for a request and found by everything below it, in threads too:
+
+    token = current()        # a token that nobody cancels, where there is no request
+    token.check()            # in Python, between steps: raises `Cancelled`
+    kernel(..., token.flag)  # in compiled loops: `if is_cancelled(flag): return`, then check()
+"""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from math import inf
+from typing import Any
+
+import numba
+import numpy as np
+from llvmlite import ir
+
+from segments.types import Int32
+
+
+class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
+    """The work was stopped: its request is late, or its client has left."""
+
+
+class CancelToken:
+    """Says whether work shall stop. Safe to share between threads.
+
+    Attributes:
+        flag: int32 (1,), not 0 once the work shall stop; compiled loops read it.
+        deadline: time of `time.monotonic` after which the work shall stop, seconds; inf: none.
+            The flag does not follow it by itself: whoever makes the token cancels it in time.
+    """
+
+    __slots__ = ("deadline", "flag")
+
+    def __init__(self, deadline: float = inf) -> None:
+        self.flag: Int32 = np.zeros(1, dtype=np.int32)
+        self.deadline = deadline
+
+    def cancel(self) -> None:
+        """Stop the work as soon as it looks."""
+        self.flag[0] = 1
+
+    @property
+    def is_cancelled(self) -> bool:
+        """Whether the work shall stop."""
+        if not self.flag[0] and time.monotonic() >= self.deadline:
+            self.cancel()
+        return bool(self.flag[0])
+
+    @property
+    def seconds_left(self) -> float:
+        """Seconds until the deadline, 0 or more; inf: there is none."""
+        return max(self.deadline - time.monotonic(), 0.0)
+
+    def check(self) -> None:
+        """Stop here if the work shall stop.
+
+        Raises:
+            Cancelled: it shall.
+        """
+        if self.is_cancelled:
+            raise Cancelled
+
+
+_token: ContextVar[CancelToken] = ContextVar("placecell_cancel_token")
+
+
+def current() -> CancelToken:
+    """Return the token of the work at hand; outside of requests, one that nobody cancels."""
+    return _token.get(None) or CancelToken()
+
+
+@contextmanager
+def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
+    """Make a token the current one for a block, and for the threads and tasks that it starts."""
+    before = _token.set(token)
+    try:
+        yield token
+    finally:
+        _token.reset(before)
+
+
+def _is_cancelled(typing_context: Any, flag: Any) -> Any:
+    """Read a flag in compiled code, anew at each call: a plain read may leave the loop."""
+    del typing_context
+
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        array = context.make_array(signature.args[0])(context, builder, arguments[0])
+        value = builder.load_atomic(array.data, ordering="monotonic", align=4)
+        return builder.icmp_signed("!=", value, ir.Constant(value.type, 0))
+
+    return numba.types.boolean(flag), code
+
+
+is_cancelled: Any = numba.extending.intrinsic(_is_cancelled)
+"""In compiled code: whether a token's flag (int32 array) is set. Costs a read of memory."""
