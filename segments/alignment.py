@@ -6,7 +6,8 @@ the side of the surface that the robot saw always points the same way.
 
 import numpy as np
 
-from segments.segments import Segments, compiled
+from segments.jit import compiled
+from segments.segments import Segments
 from segments.types import Float32, Float64, Int64
 
 

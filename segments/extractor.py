@@ -1,6 +1,5 @@
 """Extractors: from segments to descriptors, the same in training's evaluation and in serving."""
 
-import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -13,6 +12,7 @@ import onnxruntime
 from numpy.typing import NDArray
 
 from segments.alignment import align
+from segments.cores import available_cores
 from segments.eigenvalue import FEATURES, eigenvalue_descriptors
 from segments.manifest import FILE, Manifest, ModelError
 from segments.segments import Segments
@@ -95,7 +95,7 @@ class OnnxExtractor(Extractor):
             # Neither the model's id nor the check of its files would cover the network.
             raise ModelError(f"{folder / FILE}: does not give the SHA-256 of {MODEL_FILE}")
         self.manifest = manifest
-        threads = threads or cores()
+        threads = threads or available_cores()
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="describe")
         self._idle: SimpleQueue[onnxruntime.InferenceSession] = SimpleQueue()
         try:
@@ -173,13 +173,6 @@ def one_thread_session(file: Path) -> onnxruntime.InferenceSession:
     options.intra_op_num_threads = 1
     options.log_severity_level = 3
     return onnxruntime.InferenceSession(file, options, providers=["CPUExecutionProvider"])
-
-
-def cores() -> int:
-    """Processor cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def load_extractor(folder: Path, threads: int = 0) -> Extractor:

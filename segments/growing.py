@@ -1,8 +1,8 @@
 """Region growing on Euclidean distance (paper III-A)."""
 
-import numba
 import numpy as np
 
+from segments.jit import compiled
 from segments.parameters import Parameters
 from segments.types import Float32, Int64
 
@@ -33,7 +33,7 @@ def grow_regions(points: Float32, radius: float) -> Int64:
     return np.unique(labels, return_inverse=True)[1].astype(np.int64)
 
 
-@numba.njit(cache=True, nogil=True)
+@compiled
 def _find(parent: Int64, index: int) -> int:
     while parent[index] != index:
         parent[index] = parent[parent[index]]
@@ -41,7 +41,7 @@ def _find(parent: Int64, index: int) -> int:
     return index
 
 
-@numba.njit(cache=True, nogil=True)
+@compiled
 def _link(points: Float32, keys: Int64, rows: int, layers: int, squared_radius: float) -> Int64:
     """Union-find over points sorted by cell; a cell's neighbours are found by bisection."""
     count = len(points)

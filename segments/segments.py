@@ -1,25 +1,12 @@
 """Segments: many point clouds in columns, the form that every step from here on takes."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
+from segments.jit import compiled
 from segments.types import Float32, Float64, Int64
-
-
-def compiled(function: Callable[..., None]) -> Callable[..., None]:
-    """Machine code, made at the first call and kept on disk; other threads run meanwhile.
-
-    Where Numba finds no folder to write to (`NUMBA_CACHE_DIR`, beside the source, the user's cache)
-    each process compiles anew. What is kept does not notice a change in another file, so compiled
-    functions call none of another file.
-    """
-    try:
-        return numba.njit(cache=True, nogil=True)(function)
-    except RuntimeError:  # Numba's for 'no locator available'
-        return numba.njit(nogil=True)(function)
 
 
 def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:

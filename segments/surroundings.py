@@ -7,8 +7,9 @@ are averaged out, so that robots need not agree on where north is, nor come from
 
 import numpy as np
 
+from segments.jit import compiled
 from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
-from segments.segments import Segments, compiled
+from segments.segments import Segments
 from segments.types import Float32, Float64, Int64
 
 SECTORS = 16

@@ -7,8 +7,9 @@ says 'scaled to fit'; scaling each segment would lose its size, and 95% fit as t
 import numpy as np
 
 from segments.alignment import align
+from segments.jit import compiled
 from segments.parameters import Parameters
-from segments.segments import Segments, compiled
+from segments.segments import Segments
 from segments.types import Float32, Float64, Int64, UInt8
 
 

@@ -1,6 +1,5 @@
 """`placecell evaluate`: every extractor on a drive, under a named protocol (paper IV-B)."""
 
-import os
 import platform
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from segments.cores import available_cores
 from segments.extractor import Extractor, load_extractor
 from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder, shipped_models
 from segments.pairs import PairClassifier, load_pair_classifier
@@ -197,7 +197,7 @@ def machine() -> dict[str, Any]:
     """What a figure was measured on."""
     return {
         "processor": processor_name(),
-        "cores": len(os.sched_getaffinity(0)),
+        "cores": available_cores(),
         "system": platform.system(),
         "python": platform.python_version(),
     }

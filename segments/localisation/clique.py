@@ -8,7 +8,7 @@ Here these grow in the order of how much agrees with each vertex *among the neig
 
 import numpy as np
 
-from segments.segments import compiled
+from segments.jit import compiled
 from segments.types import Bool, Float64, Int64
 
 

@@ -8,9 +8,9 @@ distances as seen from above.
 
 import numpy as np
 
+from segments.jit import compiled
 from segments.localisation.correspondences import Correspondences
 from segments.localisation.parameters import LocalisationParameters
-from segments.segments import compiled
 from segments.types import Bool, Float64, Int64
 
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from segments.jit import compiled
 from segments.localisation.candidates import Candidates
 from segments.localisation.parameters import LocalisationParameters
-from segments.segments import compiled
 from segments.types import Float64, Int64
 
 

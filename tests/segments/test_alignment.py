@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from segments.alignment import align, sensor_bearings
-from segments.segments import Segments, compiled
+from segments.jit import compiled
+from segments.segments import Segments
 from segments.types import Int64
 from tests.segments.segment_builders import many_segments, one_segment, yaw_matrix
 

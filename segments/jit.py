@@ -1,0 +1,117 @@
+"""Compiled loops: one decorator, and a cache on disk that is never a condition of starting."""
+
+# mypy: allow-untyped-calls
+
+import hashlib
+import logging
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from threading import Lock
+from typing import Any, TypeVar
+
+import numba
+from numba.core.caching import FunctionCache, IndexDataCacheFile
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+CACHE_VERSION = f"{numba.__version__}+placecell-1"
+"""Numba's own cache has another version, so neither reads the other's files."""
+
+DIGEST_SIZE = hashlib.sha256().digest_size
+
+logger = logging.getLogger("placecell")
+
+_told: set[str] = set()
+_telling = Lock()
+
+
+def compiled(function: Function) -> Function:
+    """Compile a function at its first call and keep the machine code on disk.
+
+    Other threads run while it does. The cache is optional: where no folder can be written
+    (`NUMBA_CACHE_DIR`, beside the source, the user's cache), each process compiles anew; a file
+    that is cut, damaged or foreign is replaced; a full disk leaves the file unwritten. The cache
+    does not notice a change in another file, so compiled functions call none of another file.
+    """
+    dispatcher: Any = numba.njit(nogil=True)(function)
+    try:
+        dispatcher._cache = OptionalCache(function)
+    except (RuntimeError, OSError) as error:  # RuntimeError: Numba finds no folder
+        logger.debug("no cache of compiled code for %s: %s", function.__qualname__, error)
+    result: Function = dispatcher
+    return result
+
+
+class CheckedCacheFile(IndexDataCacheFile):
+    """Numba's cache files with a checksum: damaged machine code would end the process."""
+
+    def __init__(self, cache_path: str, filename_base: str, source_stamp: object) -> None:
+        super().__init__(cache_path, filename_base, source_stamp)
+        self._version = CACHE_VERSION
+
+    def _load_index(self) -> dict[Any, str]:
+        """Return the index; an empty one if the file cannot be read."""
+        try:
+            index = super()._load_index()
+        # Unpickling damaged bytes raises nearly anything.
+        except Exception as error:
+            tell_once("unreadable", f"{self._index_path}: {error!r:.200}")
+            return {}
+        if not isinstance(index, dict):
+            tell_once("unreadable", f"{self._index_path}: not an index")
+            return {}
+        return index
+
+    def _load_data(self, name: str) -> Any:
+        content = Path(self._data_path(name)).read_bytes()
+        stated, data = content[:DIGEST_SIZE], content[DIGEST_SIZE:]
+        if hashlib.sha256(data).digest() != stated:
+            raise ValueError(f"{name}: its checksum is wrong")
+        return pickle.loads(data)
+
+    def _save_data(self, name: str, data: Any) -> None:
+        dumped = self._dump(data)
+        with self._open_for_write(self._data_path(name)) as file:
+            file.write(hashlib.sha256(dumped).digest())
+            file.write(dumped)
+
+
+class OptionalCache(FunctionCache):
+    """A cache of compiled code that loads what it can, and otherwise leaves it to the compiler."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        self._cache_file = CheckedCacheFile(
+            self._cache_path, self._impl.filename_base, self._impl.locator.get_source_stamp()
+        )
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the compiled code; None if it must be compiled."""
+        try:
+            return super().load_overload(sig, target_context)
+        # Whatever is wrong with the files, the code can be compiled.
+        except Exception as error:
+            tell_once("unreadable", f"{self._name} in {self._cache_path}: {error!r:.200}")
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep compiled code where that is possible."""
+        try:
+            super().save_overload(sig, data)
+        # A full disk, a folder that was made read-only, a folder in place of the file.
+        except Exception as error:
+            tell_once("unwritable", f"{self._name} in {self._cache_path}: {error!r:.200}")
+
+
+def tell_once(kind: str, detail: str) -> None:
+    """Write one line to the log for each kind of problem, however many files have it."""
+    with _telling:
+        first = kind not in _told
+        _told.add(kind)
+    logger.log(
+        logging.WARNING if first else logging.DEBUG,
+        "cache of compiled code is %s, compiling again: %s",
+        kind,
+        detail,
+    )
