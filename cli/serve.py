@@ -49,7 +49,7 @@ def serve(
     """
     # Requests are searched side by side; threads within a search would be in each other's way.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    from service import logs
+    from service import logs, memory
     from service.app import create_app, version
     from service.server import Server
     from service.settings import Settings
@@ -68,6 +68,7 @@ def serve(
     except ValueError as error:
         raise _refusal(f"settings: {_plainly(error)}") from error
     logs.install(settings.log)
+    memory.limit()
     open_to_all = allow_remote or settings.keys_file is not None
     with _listening_socket(settings.host, settings.port, open_to_all) as listening:
         try:

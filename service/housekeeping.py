@@ -4,10 +4,9 @@ Layers are folded, the cache is renewed, long histories are shortened, and what 
 back to the disk. At whatever point it is killed, nothing of it is missed.
 """
 
-import ctypes
 import logging
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import Event, Thread
 
@@ -17,11 +16,18 @@ from service.changes import Changes
 from service.map_cache import MapCache
 from service.map_store import Head
 from service.maps import Maps
+from service.memory import release
 from service.replay import version_of
 from service.stored_map import StoredMap
 from service.versions import history_of
 
 logger = logging.getLogger("placecell")
+
+ALL_SHARE = 0.75
+"""Of the quota of all maps, from which on histories are shortened, the longest first."""
+
+WORTH = 0.25
+"""Of the oldest version's bytes, how much history there must be at least to be shortened so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +41,9 @@ class Bounds:
         log_bytes: of a map's history; or
         log_share: times its base, whichever is more.
         log_commits: in a map's history.
+        map_bytes: the quota of a map, with its history.
+        all_bytes: the quota of all maps, with their histories.
+        handled: segments that writes copied, after which free memory goes back to the system.
         seconds: between two looks.
     """
 
@@ -44,6 +53,9 @@ class Bounds:
     log_bytes: int = 64 << 20
     log_share: float = 4.0
     log_commits: int = 10_000
+    map_bytes: int = 4 << 30
+    all_bytes: int = 64 << 30
+    handled: int = 50_000
     seconds: float = 1.0
 
 
@@ -57,6 +69,7 @@ class Housekeeper:
         self._changes = changes
         self._cache = cache
         self._bounds = bounds
+        self._released = 0
         self._stopped = Event()
 
     @contextmanager
@@ -72,11 +85,16 @@ class Housekeeper:
 
     def look(self) -> None:
         """Do what is due, map by map; what fails is told in the log, and tried again."""
-        for stored in self._maps.all():
+        # By name: who holds all maps holds the memory of what is folded meanwhile.
+        for name in [stored.name for stored in self._maps.all()]:
             if self._stopped.is_set():
                 return
-            with _told(f"map {stored.name!r}"):
-                self._care(stored)
+            with _told(f"map {name!r}"):
+                self._care(name)
+        with _told("histories"):
+            self._make_room()
+        if self._maps.handled - self._released > self._bounds.handled:
+            self._release()
         with _told("the data directory"):
             self._changes.forget()
             self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
@@ -86,15 +104,38 @@ class Housekeeper:
         while not self._stopped.wait(self._bounds.seconds):
             self.look()
 
-    def _care(self, stored: StoredMap) -> None:
-        if self._is_to_fold(stored):
-            content = self._maps.fold(stored)
+    def _care(self, name: str) -> None:
+        stored = self._maps.find(name)
+        if stored is not None and self._is_to_fold(stored):
+            head, content = stored.head, self._maps.fold(stored)
+            stored = None  # what it was before need not be in memory while the file is made
             if content is not None:
-                self._cache.save(stored.head, content)
+                self._cache.save(head, content)
             del content
-            release_memory()
-        if self._has_long_log(stored):
-            self._shorten(stored)
+            self._release()
+            stored = self._maps.find(name)
+        if stored is not None and self._has_long_log(stored):
+            self._shorten(stored, self._log_bytes(stored.head))
+
+    def _release(self) -> None:
+        self._released = self._maps.handled
+        release()
+
+    def _make_room(self) -> None:
+        """Let go of history where a write was refused for want of room, or all maps are large."""
+        for name in self._maps.pressed():
+            stored = self._maps.find(name)
+            if stored is not None and stored.head.commits:
+                self._shorten(stored, stored.head.log_bytes)
+        enough = ALL_SHARE * self._bounds.all_bytes
+        longest = sorted(self._maps.all(), key=lambda stored: -stored.head.log_bytes)
+        for stored in longest if self._maps.stored_bytes > enough else ():
+            head = stored.head
+            # To shorten a history the oldest version is written anew: not for a few bytes.
+            if self._maps.stored_bytes <= enough or head.log_bytes <= WORTH * head.base_bytes:
+                break
+            with _told(f"map {stored.name!r}"):
+                self._shorten(stored, head.log_bytes)
 
     def _is_to_fold(self, stored: StoredMap) -> bool:
         layers, bounds = stored.layers, self._bounds
@@ -107,13 +148,17 @@ class Housekeeper:
         return head.log_bytes > self._log_bytes(head) or head.commits > bounds.log_commits
 
     def _log_bytes(self, head: Head) -> float:
-        return max(self._bounds.log_bytes, self._bounds.log_share * head.base_bytes)
+        wanted = max(self._bounds.log_bytes, self._bounds.log_share * head.base_bytes)
+        return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
-    def _shorten(self, stored: StoredMap) -> None:
-        """Let go of the older half of a history, so that this is not due again at once."""
+    def _shorten(self, stored: StoredMap, most: float) -> None:
+        """Let go of old versions until half as many bytes are left as there may be.
+
+        So this is not due again at once.
+        """
         with history_of(self._maps.store, stored) as history:
             head = history.head
-            left = self._log_bytes(head) / 2
+            left = most / 2
             oldest = head.sequence
             for commit in reversed(history.commits()):
                 left -= commit.bytes
@@ -133,9 +178,3 @@ def _told(where: str) -> Iterator[None]:
         yield
     except Exception:
         logger.exception("housekeeping failed at %s", where)
-
-
-def release_memory() -> None:
-    """Give what was freed back to the system: of a large map that was folded glibc keeps much."""
-    with suppress(OSError, AttributeError):  # another system, or another library
-        ctypes.CDLL("libc.so.6").malloc_trim(0)

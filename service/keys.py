@@ -58,6 +58,11 @@ class Holder:
         """Whether the key opens a map."""
         return any(fnmatchcase(name, pattern) for pattern in self.key.maps)
 
+    @property
+    def opens_all(self) -> bool:
+        """Whether the key opens every map, those that are yet to come too."""
+        return "*" in self.key.maps
+
     def check_write(self, name: str) -> None:
         """See that the key may change a map; 403 if not."""
         self.check_map(name)

@@ -8,12 +8,14 @@ finds are computed anew from the codes, and where the bound leaves a doubt it is
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import faiss
 import numpy as np
 
 from segments.quantiser import LEVELS, Quantiser
-from segments.types import Bool, Float64, Int8, Int64
+from segments.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
 from service.layers import Layers
 
 MARGIN = 12
@@ -21,6 +23,9 @@ MARGIN = 12
 
 MOST = 1 << 13
 """Rows fetched for the sake of ties: of more that are equally near, some are left out."""
+
+ROWS = 1 << 14
+"""Rows of codes that are made levels at once: as floats they are 4 to 16 times as large."""
 
 BLOCK = 1 << 21
 """Bytes of codes that are compared at once: of many ties it would be gigabytes."""
@@ -91,9 +96,12 @@ class FlatIndex(MapIndex):
     def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
         super().__init__(codes)
         self._quantiser = quantiser
-        levels = quantiser.levels(codes)
-        self._index = faiss.IndexFlatL2(levels.shape[1])
-        self._index.add(levels.astype(np.float32))
+        self._index = faiss.IndexFlatL2(codes.shape[1] * quantiser.per_byte)
+        self._index.codes.resize(4 * len(codes) * self._index.d)  # else it grows by doubling
+        self._index.codes.resize(0)
+        for start in range(0, len(codes), ROWS):
+            levels = quantiser.levels(codes[start : start + ROWS])
+            self._index.add(levels.astype(np.float32))
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)
@@ -101,38 +109,80 @@ class FlatIndex(MapIndex):
         return squared.astype(np.float64), rows, squared[:, -1].astype(np.float64)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Nibbles:
+    """The tables of a product quantizer over nibbles: one set for all indexes of one code.
+
+    Attributes:
+        apart: uint16 (65,536,), squared distance of two bytes, at 256 times the one plus the other.
+        faiss_bytes: uint8 (256,), the byte that FAISS reads in place of a code's byte.
+        codebook: float32 (16, dimensions of a nibble), the levels that a nibble stands for.
+        per_nibble: dimensions of a nibble.
+        widest: the largest squared distance of two nibbles.
+    """
+
+    apart: UInt16
+    faiss_bytes: UInt8
+    codebook: Float32
+    per_nibble: int
+    widest: int
+
+    @classmethod
+    @lru_cache(maxsize=len(LEVELS))
+    def of(cls, per_byte: int) -> "Nibbles":
+        """Return the tables of codes with 2 or 4 dimensions a byte; they do not depend on the step.
+
+        A table of 128 kB for each index would be a megabyte for each map, however empty.
+        """
+        quantiser = Quantiser(1.0, per_byte)
+        every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
+        levels = quantiser.levels(every).astype(np.int32)
+        apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
+        per_nibble = per_byte // 2
+        # A nibble's value: its dimensions' digits, as the quantiser counts them.
+        places = LEVELS[per_byte] ** np.arange(per_nibble)
+        digits = (levels + quantiser.highest) // quantiser.spacing
+        low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
+        codebook = np.zeros((16, per_nibble), dtype=np.float32)
+        codebook[low] = levels[:, :per_nibble]
+        widest = per_nibble * (2 * quantiser.highest) ** 2
+        faiss_bytes = (low | high << 4).astype(np.uint8)
+        return cls(apart.astype(np.uint16), faiss_bytes, codebook, per_nibble, widest)
+
+    def index(self, codes: Int8) -> Any:
+        """Return a FAISS index over codes; while it is made, the codes are held once more."""
+        nibbles = 2 * codes.shape[1]
+        plain = faiss.IndexPQ(nibbles * self.per_nibble, nibbles, 4)
+        faiss.copy_array_to_vector(np.tile(self.codebook, (nibbles, 1)).ravel(), plain.pq.centroids)
+        plain.is_trained = True
+        plain.codes.resize(codes.size)
+        room = faiss.rev_swig_ptr(plain.codes.data(), codes.size).reshape(codes.shape)
+        for start in range(0, len(codes), ROWS):  # as indices they take eight times as much
+            some = slice(start, start + ROWS)
+            room[some] = self.faiss_bytes[codes[some].view(np.uint8)]
+        plain.ntotal = len(codes)
+        return faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+
+
 class NibbleIndex(MapIndex):
     """Looks up what each nibble adds to the distance.
 
-    Takes the codes' own bytes a segment in memory, beside the codes.
+    Takes the codes' own bytes a segment in memory, beside the codes. An empty one takes nothing.
     """
 
     def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
         """Of codes with 2 or 4 dimensions a byte."""
         super().__init__(codes)
         self._quantiser = quantiser
-        every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
-        levels = quantiser.levels(every).astype(np.int32)
-        # Squared distance of two bytes, at 256 times the one plus the other.
-        self._apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
-        per_nibble, nibbles = quantiser.per_byte // 2, 2 * codes.shape[1]
-        # A nibble's value: its dimensions' digits, as the quantiser counts them.
-        places = LEVELS[quantiser.per_byte] ** np.arange(per_nibble)
-        digits = (levels + quantiser.highest) // quantiser.spacing
-        low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
-        codebook = np.zeros((16, per_nibble), dtype=np.float32)
-        codebook[low] = levels[:, :per_nibble]
-        plain = faiss.IndexPQ(nibbles * per_nibble, nibbles, 4)
-        faiss.copy_array_to_vector(np.tile(codebook, (nibbles, 1)).ravel(), plain.pq.centroids)
-        plain.is_trained = True
-        plain.add_sa_codes((low | high << 4).astype(np.uint8)[codes.view(np.uint8)])
-        self._index = faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+        self._tables = Nibbles.of(quantiser.per_byte)
+        self._index = self._tables.index(codes) if len(codes) else None
         # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
-        widest = per_nibble * (2 * quantiser.highest) ** 2
-        self._bound = nibbles * widest / 2 * max(1 / 255, nibbles / 65_535)
+        nibbles = 2 * codes.shape[1]
+        self._bound = nibbles * self._tables.widest / 2 * max(1 / 255, nibbles / 65_535)
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)
+        assert self._index is not None  # nothing is fetched of an empty one
         told, rows = self._index.search(levels, fetch)
         asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
         stored = self._codes.view(np.uint8)
@@ -140,7 +190,7 @@ class NibbleIndex(MapIndex):
         step = max(1, BLOCK // max(1, rows.shape[1] * stored.shape[1]))
         for begin in range(0, len(rows), step):
             some = slice(begin, begin + step)
-            squared[some] = self._apart[asked[some] | stored[rows[some]]].sum(axis=2)
+            squared[some] = self._tables.apart[asked[some] | stored[rows[some]]].sum(axis=2)
         return squared, rows, told[:, -1].astype(np.float64) - self._bound
 
 

@@ -88,7 +88,9 @@ class Head:
         next_id: the least id that no segment ever had, and nobody has reserved.
         base_bytes: of the base.
         log_bytes: of the commits after it.
+        author: name of the key that wrote the oldest version that is kept.
         commits: after the base.
+        bytes: of base and commits.
     """
 
     name: str
@@ -99,6 +101,12 @@ class Head:
     next_id: int
     base_bytes: int
     log_bytes: int
+    author: str
+
+    @property
+    def bytes(self) -> int:
+        """That the map takes in the store, with its old versions."""
+        return self.base_bytes + self.log_bytes
 
     @property
     def commits(self) -> int:

@@ -16,7 +16,7 @@ from service.map_index import LayeredIndex, MapIndex
 from service.map_store import Head, MapStore, Note, StoreError
 from service.models import Models
 from service.problems import Problem
-from service.quotas import Quotas
+from service.quotas import NoRoomError, Quotas, Usage
 from service.replay import newest
 from service.stored_map import KEEPS_FRAME, StoredMap
 
@@ -28,6 +28,9 @@ class Maps:
 
     Readers take a `StoredMap` and see it whole, old or new; they wait for nobody. Who writes holds
     `writing` of that name from reading the map to `commit`.
+
+    Attributes:
+        handled: segments that writes have copied.
     """
 
     def __init__(
@@ -40,6 +43,7 @@ class Maps:
     ) -> None:
         """Load what is stored. A damaged map is left out, with a line in the log."""
         self.store = store
+        self.handled = 0
         self._models = models
         self._quotas = quotas
         self._clock = clock
@@ -48,15 +52,26 @@ class Maps:
         self._committing = Lock()
         self._damaged: dict[str, Head] = {}
         self._by_name: dict[str, StoredMap] = {}
+        self._usage = Usage()
+        self._pressed: set[str] = set()
+        loaded = {}
         for head in store.heads():
             try:
                 layers, folded = newest(store, head, cache)
             except (StoreError, MapFileError) as error:
                 logger.error("map %r is damaged and not served: %s", head.name, error)
                 self._damaged[head.name] = head
+                self._usage.add(head)
             else:
-                self._swap(StoredMap(head, layers, folded, head.sequence, None))
-        self.index_all()
+                loaded[head.name] = StoredMap(head, layers, folded, head.sequence, None)
+        self._models.want({stored.model_id for stored in loaded.values()})
+        # Shown at once: a new dictionary for each map would take a time that grows with its square.
+        self._by_name = {
+            name: replace(stored, index=self._index(stored.layers))
+            for name, stored in loaded.items()
+        }
+        for stored in self._by_name.values():
+            self._usage.add(stored.head, stored)
 
     def index_all(self) -> None:
         """Make those maps searchable whose models can be had by now."""
@@ -71,6 +86,17 @@ class Maps:
 
     def __len__(self) -> int:
         return len(self._by_name)
+
+    def pressed(self) -> list[str]:
+        """Names of the maps whose writes were refused for want of room, since it was last asked."""
+        with self._committing:
+            pressed, self._pressed = sorted(self._pressed & self._by_name.keys()), set()
+        return pressed
+
+    @property
+    def stored_bytes(self) -> int:
+        """Of all maps in the store, with their old versions."""
+        return self._usage.bytes
 
     def writable(self) -> bool:
         """Whether a map can be stored."""
@@ -125,7 +151,8 @@ class Maps:
         robots, index = layers.robots, self._index(layers)
         note = Note(self._clock(), author, operation, len(content), 0)
         with self._committing:
-            self._quotas.check(self.all(), None, robots)
+            self._quotas.check_new(self._usage, author, robots, len(file))
+            self.handled += len(content)
             head = self.store.create(name, file, note, _next_id(content))
             return self._swap(StoredMap(head, layers, 1, 1, index))
 
@@ -142,22 +169,34 @@ class Maps:
         blob = encode_delta(replace(delta, since=0 if delta.is_whole else since, until=until))
         layers = stored.layers.after(delta)
         kept = stored.index if layers.base is stored.layers.base else None
-        robots, index = layers.robots, self._index(layers, kept.base if kept is not None else None)
+        robots, sources = layers.robots, len(layers.sources)
+        index = self._index(layers, kept.base if kept is not None else None)
+        # What only removes is stored even where there is no room for more.
+        size = len(blob) if delta.is_whole or len(delta.changed) else 0
         folded = until if delta.is_whole else stored.folded
         # One without segments takes the frame of whatever comes next.
         keeps = operation in KEEPS_FRAME and len(stored)
         lies_since = stored.lies_since if keeps else until
         note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
         with self._committing:
-            self._quotas.check(self.all(), stored, robots)
+            try:
+                self._quotas.check_write(self._usage, stored, robots, sources, size)
+            except NoRoomError:
+                self._pressed.add(stored.name)
+                raise
+            self.handled += len(delta.changed) + len(layers.recent)
+            self.handled += len(stored) if delta.is_whole else 0
             head = self.store.append(stored.head, blob, note, _next_id(delta.changed))
             return self._swap(StoredMap(head, layers, folded, lies_since, index))
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
         with self._committing:
+            stored = self._by_name.get(name)
             head = self._damaged.get(name) or self.get(name).head
             self.store.delete(head.uid)
+            self._usage.remove(head, stored)
+            self.handled += len(stored) if stored is not None else 0
             self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
 
@@ -198,7 +237,14 @@ class Maps:
         return content
 
     def _swap(self, stored: StoredMap) -> StoredMap:
-        """Show a map. A new dictionary, so that a reader in the midst of the old one is well."""
+        """Show a map. A new dictionary, so that a reader in the midst of the old one is well.
+
+        `_committing` is held.
+        """
+        before = self._by_name.get(stored.name)
+        if before is not None:
+            self._usage.remove(before.head, before)
+        self._usage.add(stored.head, stored)
         self._by_name = self._by_name | {stored.name: stored}
         return stored
 

@@ -1,50 +1,162 @@
-"""How many segments may be stored: by a robot over all maps, and in a map."""
+"""Quotas: how many maps, segments, robots and bytes may be stored."""
 
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from service.map_store import Head
 from service.problems import Problem
+from service.settings import Limits
 from service.stored_map import StoredMap
+
+CURE = (
+    "Delete maps, or let go of old versions (POST /maps/MAP/compact); both are always possible. "
+    "The service also lets go of old versions by itself, in seconds."
+)
+
+
+class OverQuotaError(Problem):
+    """A write that would exceed a quota.
+
+    Attributes:
+        whole: the detail for a key that opens all maps; the detail of the problem itself tells
+            nothing of maps that a key may not open.
+    """
+
+    def __init__(self, detail: str, whole: str | None = None) -> None:
+        super().__init__(507, "quota-exceeded", detail)
+        self.whole = whole or detail
+
+
+class NoRoomError(OverQuotaError):
+    """A write that would make a map, or all maps, take too many bytes in the store."""
+
+
+@dataclass(slots=True)
+class Usage:
+    """What is stored, counted as maps come and go, so that no write looks at all maps.
+
+    Attributes:
+        maps: how many there are.
+        bytes: of all maps in the store, with their old versions.
+        by_key: how many maps the keys have made, by the key's name. A map counts for the key that
+            wrote the oldest version that is kept.
+        robots: how many live segments each robot has in all maps.
+    """
+
+    maps: int = 0
+    bytes: int = 0
+    by_key: Counter[str] = field(default_factory=Counter)
+    robots: Counter[str] = field(default_factory=Counter)
+
+    def add(self, head: Head, stored: StoredMap | None = None) -> None:
+        """Count a map; one that is damaged has a head alone."""
+        self._count(head, stored, 1)
+
+    def remove(self, head: Head, stored: StoredMap | None = None) -> None:
+        """Count a map no more."""
+        self._count(head, stored, -1)
+
+    def _count(self, head: Head, stored: StoredMap | None, sign: int) -> None:
+        self.maps += sign
+        self.bytes += sign * head.bytes
+        _add(self.by_key, head.author, sign)
+        for robot, segments in (stored.layers.robots if stored is not None else {}).items():
+            _add(self.robots, robot, sign * segments)
 
 
 @dataclass(frozen=True, slots=True)
 class Quotas:
-    """Of live segments, at most.
+    """The quotas of the settings.
 
     Attributes:
-        robot: of one robot, over all maps.
-        map: in one map.
+        limits: of the settings.
     """
 
-    robot: int
-    map: int
+    limits: Limits
 
-    def check(self, maps: Iterable[StoredMap], old: StoredMap | None, new: Counter[str]) -> None:
-        """See that a write stays within the quotas. What makes a map smaller is never refused.
+    def check_new(self, usage: Usage, author: str, robots: Counter[str], size: int) -> None:
+        """Check that a map may be made.
 
         Args:
-            maps: all that there are, `old` among them.
-            old: the map before the write; None if there was none.
-            new: how many segments each robot will have in it.
+            usage: before the write.
+            author: name of the key that makes it.
+            robots: how many segments each robot will have in it.
+            size: bytes of its file.
 
         Raises:
-            Problem: 507 if it does not.
+            OverQuotaError: a quota would be exceeded.
         """
-        before = old.layers.robots if old is not None else Counter[str]()
-        if new.total() > max(self.map, before.total()):
-            raise _exceeded(f"The map would have {new.total()} segments; {self.map} is the limit.")
-        others = [stored.layers.robots for stored in maps if stored is not old]
+        limits = self.limits
+        if usage.maps >= limits.maps:
+            raise OverQuotaError(f"The service holds {limits.maps} maps, the limit. Delete some.")
+        if usage.by_key[author] >= limits.key_maps:
+            raise OverQuotaError(
+                f"This key has made {limits.key_maps} maps, its limit. Delete some, or write to "
+                "one that is there."
+            )
+        self._check_robots(usage, Counter(), robots)
+        self._check_bytes(usage, 0, size)
+
+    def check_write(
+        self, usage: Usage, old: StoredMap, robots: Counter[str], sources: int, size: int
+    ) -> None:
+        """Check that a version may be added. What only removes segments is never refused.
+
+        Args:
+            usage: before the write.
+            old: the map before it.
+            robots: how many segments each robot will have in the map.
+            sources: how many names of other maps the map will hold.
+            size: bytes of the commit; 0 if it only removes segments.
+
+        Raises:
+            OverQuotaError: a quota would be exceeded.
+        """
+        self._check_robots(usage, old.layers.robots, robots)
+        self._check_names("sources", len(old.layers.sources), sources)
+        if size:
+            self._check_bytes(usage, old.head.bytes, size)
+
+    def _check_robots(self, usage: Usage, before: Counter[str], new: Counter[str]) -> None:
+        limits = self.limits
+        if new.total() > max(limits.map_segments, before.total()):
+            raise OverQuotaError(
+                f"The map would have {new.total()} segments; {limits.map_segments} is the limit."
+            )
+        self._check_names("robots", len(before), len(new))
         for robot in new:
             if new[robot] <= before[robot]:
                 continue
-            total = new[robot] + sum(counts[robot] for counts in others)
-            if total > self.robot:
-                raise _exceeded(
-                    f"{robot!r:.80} would have {total} segments in all maps; {self.robot} is the "
-                    "limit."
+            total = usage.robots[robot] - before[robot] + new[robot]
+            if total > limits.robot_segments:
+                limit = f"{limits.robot_segments} is the limit."
+                raise OverQuotaError(
+                    f"{robot!r:.80} would have too many segments in all maps; {limit}",
+                    f"{robot!r:.80} would have {total} segments in all maps; {limit}",
                 )
 
+    def _check_names(self, what: str, before: int, new: int) -> None:
+        limit = self.limits.map_robots
+        if new > max(limit, before):
+            raise OverQuotaError(f"The map would have {new} {what}; {limit} is the limit.")
 
-def _exceeded(detail: str) -> Problem:
-    return Problem(507, "quota-exceeded", detail)
+    def _check_bytes(self, usage: Usage, before: int, size: int) -> None:
+        limits = self.limits
+        if before + size > limits.map_stored_bytes:
+            raise NoRoomError(
+                f"The map would take {before + size} bytes in the store, with its old versions; "
+                f"{limits.map_stored_bytes} is the limit. {CURE}"
+            )
+        if usage.bytes + size > limits.stored_bytes:
+            limit = f"{limits.stored_bytes} bytes is the limit. {CURE}"
+            raise NoRoomError(
+                f"The store would hold too much, with old versions; {limit}",
+                f"The store would hold {usage.bytes + size} bytes, with old versions; {limit}",
+            )
+
+
+def _add(counts: Counter[str], name: str, number: int) -> None:
+    """Add to a count; names that count nothing are let go."""
+    counts[name] += number
+    if not counts[name]:
+        del counts[name]

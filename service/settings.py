@@ -15,6 +15,7 @@ from pydantic_settings import (
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 
 MEBIBYTE = 1 << 20
+GIBIBYTE = 1 << 30
 
 PREFIX = "PLACECELL_"
 FILE_VARIABLE = PREFIX + "CONFIG"
@@ -82,6 +83,30 @@ class Limits(BaseModel):
         default=2_000_000, ge=1, description="Segments of one robot over all maps, at most."
     )
     map_segments: int = Field(default=4_000_000, ge=1, description="Segments of a map, at most.")
+    map_robots: int = Field(
+        default=1_000,
+        ge=1,
+        description="Robots whose segments a map holds, at most; as many maps that segments were "
+        "merged from.",
+    )
+    maps: int = Field(default=20_000, ge=1, description="Maps, at most.")
+    key_maps: int = Field(
+        default=15_000,
+        ge=1,
+        description="Maps that one key has made, at most; without keys all maps are of one key.",
+    )
+    map_stored_bytes: int = Field(
+        default=4 * GIBIBYTE,
+        ge=1,
+        description="Bytes of a map in the store, with its old versions, at most. From half of it "
+        "on the service lets go of old versions.",
+    )
+    stored_bytes: int = Field(
+        default=64 * GIBIBYTE,
+        ge=1,
+        description="Bytes of all maps in the store, with their old versions, at most. From "
+        "three quarters on the service lets go of old versions.",
+    )
     upload_seconds: float = Field(
         default=120.0,
         gt=0,

@@ -46,7 +46,10 @@ CREATE TABLE bases (
 ) STRICT;
 """
 
-HEAD = "SELECT name, uid, sequence, mark, base, next_id, base_bytes, log_bytes FROM maps"
+HEAD = """
+SELECT name, uid, sequence, mark, base, next_id, base_bytes, log_bytes, coalesce(
+    (SELECT author FROM commits WHERE commits.map = maps.map AND commits.sequence = maps.base), ''
+) FROM maps"""
 COMMIT = "SELECT sequence, time, author, operation, changed, removed, bytes, mark"
 
 

@@ -12,7 +12,7 @@ from fastapi import Depends, Header, Request
 from segments.manifest import ModelError
 from service.changes import Changes
 from service.desk import Desk
-from service.housekeeping import Housekeeper
+from service.housekeeping import Bounds, Housekeeper
 from service.keys import Holder, Keys
 from service.map_cache import MapCache
 from service.map_store import StoreError, StoreLockedError
@@ -115,14 +115,14 @@ def open_state(settings: Settings) -> Iterator[State]:
             store = stack.enter_context(SqliteMapStore.owned(settings.data_dir))
             cache = MapCache(settings.data_dir)
             limits, gauge = settings.limits, metrics.queue_requests
-            quotas = Quotas(limits.robot_segments, limits.map_segments)
-            maps = Maps(store, models, quotas, cache)
+            maps = Maps(store, models, Quotas(limits), cache)
         except (StoreLockedError, StoreError) as error:
             raise StartError(f"data directory: {error}") from error
         except OSError as error:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
         changes = Changes(store)
-        stack.enter_context(Housekeeper(maps, changes, cache).working())
+        bounds = Bounds(map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes)
+        stack.enter_context(Housekeeper(maps, changes, cache, bounds).working())
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
         seconds = limits.upload_seconds

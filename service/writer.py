@@ -1,6 +1,7 @@
 """Writes to maps, each for one request: what is asked, whether it may be, and what it did."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from service.maps import Maps, unknown
 from service.models import Models
 from service.preconditions import Preconditions
 from service.problems import Problem
+from service.quotas import OverQuotaError
 from service.stored_map import StoredMap
 from service.uploads import check_joins, edit_of, map_of
 from service.versions import version
@@ -187,7 +189,8 @@ class Writer:
         """Store a new map, as far as the key and the conditions allow; `Maps.writing` is held."""
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
-        stored = self.maps.create(name, content, self.holder.name, operation)
+        with self._told_quota():
+            stored = self.maps.create(name, content, self.holder.name, operation)
         return Written(stored, len(content), 0, is_new=True)
 
     def commit(
@@ -220,8 +223,19 @@ class Writer:
         else:
             self.conditions.check(stored.tag)
         check(before, delta)
-        stored = self.maps.commit(stored, delta, self.holder.name, operation)
+        with self._told_quota():
+            stored = self.maps.commit(stored, delta, self.holder.name, operation)
         return Written(stored, len(delta.changed), len(delta.removed))
+
+    @contextmanager
+    def _told_quota(self) -> Iterator[None]:
+        """Tell what all maps hold only to a key that opens all."""
+        try:
+            yield
+        except OverQuotaError as error:
+            if self.holder.opens_all:
+                error.detail = error.whole
+            raise
 
 
 def out_of_ids(name: str, error: OutOfIdsError) -> Problem:

@@ -19,7 +19,7 @@ def summary_of(stored: StoredMap) -> MapOut:
         segments=len(stored),
         sequence=head.sequence,
         etag=stored.tag,
-        bytes=head.base_bytes + head.log_bytes,
+        bytes=head.bytes,
         model_id=stored.model_id,
         frame=stored.frame,
         robots=dict(sorted(layers.robots.items())),

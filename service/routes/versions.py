@@ -81,6 +81,4 @@ async def compact_map(
     timing.lap("commit")
     head = stored.head
     tell(request, state, "compact", name, f"versions from {head.oldest} on are kept")
-    return CompactOut(
-        oldest=head.oldest, sequence=head.sequence, bytes=head.base_bytes + head.log_bytes
-    )
+    return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)

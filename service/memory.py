@@ -1,0 +1,39 @@
+"""Memory: what the process gives back to the system when large maps come and go."""
+
+import ctypes
+from contextlib import suppress
+
+_TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
+"""Parameters of glibc's mallopt, as malloc.h counts them."""
+
+LARGE = 2 << 20
+"""Bytes from which an array is mapped by itself, and so given back as soon as it is freed."""
+
+KEPT = 16 << 20
+"""Bytes of free memory that an arena keeps for what comes next."""
+
+ARENAS = 4
+"""Of all threads together; each keeps free memory of its own."""
+
+
+def limit() -> None:
+    """Make the allocator keep little of what is freed.
+
+    By itself glibc maps ever larger arrays inside its arenas (up to 32 MB, as they are freed), and
+    has eight arenas a core: after maps of a million were built anew some times, half of the memory
+    held nothing.
+    """
+    with suppress(OSError, AttributeError):  # another system, or another library
+        library = ctypes.CDLL("libc.so.6")
+        for parameter, value in (
+            (_MMAP_THRESHOLD, LARGE),
+            (_TRIM_THRESHOLD, KEPT),
+            (_ARENA_MAX, ARENAS),
+        ):
+            library.mallopt(parameter, value)
+
+
+def release() -> None:
+    """Give free memory inside the arenas back to the system."""
+    with suppress(OSError, AttributeError):  # another system, or another library
+        ctypes.CDLL("libc.so.6").malloc_trim(0)
