@@ -6,7 +6,6 @@ import re
 import secrets
 from time import perf_counter
 
-import anyio
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -17,9 +16,6 @@ logger = logging.getLogger("placecell.requests")
 
 METHODS = {"GET", "HEAD", "OPTIONS", "PUT", "POST", "DELETE", "PATCH"}
 """Told by name; others are made up by clients, without end."""
-
-SEND_SECONDS = 300.0
-"""That a client may take to read an answer."""
 
 ID_PATTERN = re.compile(r"[A-Za-z0-9._-]{1,64}")
 """Of a request's id that a client may choose: nothing that could forge a line of the log."""
@@ -54,8 +50,8 @@ class Account:
                 headers["Placecell-Model"] = facts.get("model_id", default)
                 if times := timing.header():
                     headers["Server-Timing"] = times
-            with anyio.fail_after(SEND_SECONDS):
-                await send(message)
+            # How long a client may take to read it is the server's matter, which sees the socket.
+            await send(message)
 
         try:
             await self._app(scope, receive, noted)

@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from segments.localisation.localise import Reason
 from service.localise_schemas import PoseOut
 from service.map_store import NAME_PATTERN
+from service.settings import NAMED_MAPS
 
 
 class LaidOut(BaseModel):
@@ -74,8 +75,11 @@ class MergeRequest(BaseModel):
         json_schema_extra={"examples": [{"maps": ["yard", "hall"], "dry_run": True}]},
     )
 
-    maps: list[Annotated[str, Field(strict=True, pattern=NAME_PATTERN)]] = Field(
+    maps: Annotated[
+        list[Annotated[str, Field(strict=True, pattern=NAME_PATTERN)]], Field(fail_fast=True)
+    ] = Field(
         min_length=1,
+        max_length=NAMED_MAPS,
         description="Names. A new site takes the frame of the first, and needs two or more.",
     )
     dry_run: bool = Field(False, strict=True, description="Only tell what would be done.")

@@ -5,9 +5,11 @@ from contextlib import asynccontextmanager
 from importlib import metadata
 
 from fastapi import FastAPI
+from starlette.middleware.cors import CORSMiddleware
 
 from service import openapi, problems
 from service.account import Account
+from service.head import Head
 from service.limits import BodyLimit
 from service.routes import (
     align,
@@ -22,6 +24,19 @@ from service.routes import (
 )
 from service.settings import Settings
 from service.state import State, open_state
+
+EXPOSED_HEADERS = (
+    "ETag",
+    "Location",
+    "Placecell-Model",
+    "Placecell-Next",
+    "Placecell-Since",
+    "Placecell-Until",
+    "Retry-After",
+    "Server-Timing",
+    "X-Request-Id",
+)
+"""Headers of answers that web pages of `cors_origins` may read."""
 
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
@@ -56,8 +71,18 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         description=DESCRIPTION,
         lifespan=lifespan,
         redirect_slashes=False,  # they would lead to whatever host the request names
+        root_path=settings.root_path,
     )
     app.add_middleware(BodyLimit, limits=settings.limits)
+    app.add_middleware(Head)
+    if settings.cors_origins:
+        app.add_middleware(
+            CORSMiddleware,
+            allow_origins=settings.cors_origins,
+            allow_methods=["GET", "HEAD", "POST", "PUT", "DELETE"],
+            allow_headers=["*"],
+            expose_headers=EXPOSED_HEADERS,
+        )
     app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)

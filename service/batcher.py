@@ -1,11 +1,13 @@
-"""Micro-batching: what all requests want of a model, computed together.
+"""Dynamic batching: segments of all requests, computed together.
 
-Nobody waits while the model is idle. While it computes, what arrives gathers, and goes together.
+Requests that arrive during inference are processed as the next batch; an idle model starts at once.
+A large request is computed in parts, in turn with others, and stops when it is cancelled.
 """
 
 import asyncio
+import contextvars
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import anyio.to_thread
 import numpy as np
@@ -15,17 +17,47 @@ from segments.types import Float32
 from service.metrics import Metrics
 from service.timing import Timing
 
+PART = 128
+"""Segments of one request in a batch, at most: others wait for no more than a batch."""
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@dataclass(slots=True, eq=False)
 class Waiting:
-    """One request's inputs, and where its descriptors are awaited."""
+    """One request's inputs, and where its descriptors are awaited.
+
+    Attributes:
+        inputs: of all its segments.
+        timing: the request's stopwatch.
+        answer: will be the descriptors.
+        taken: segments that went into batches so far.
+        found: descriptors so far, one array a batch.
+    """
 
     inputs: Inputs
     timing: Timing
     answer: asyncio.Future[Float32]
+    taken: int = 0
+    found: list[Float32] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(next(iter(self.inputs.values())))
+
+    @property
+    def left(self) -> int:
+        """Segments that are in no batch yet."""
+        return len(self) - self.taken
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """Segments of a request that go into one batch: those from `start` to `stop`."""
+
+    waiting: Waiting
+    start: int
+    stop: int
+
+    def __len__(self) -> int:
+        return self.stop - self.start
 
 
 class Batcher:
@@ -35,10 +67,12 @@ class Batcher:
     """
 
     def __init__(self, extractor: Extractor, metrics: Metrics, most: int) -> None:
-        """Of a model.
+        """Make it for a model.
 
         Args:
-            most: segments of a batch, unless a single request has more.
+            extractor: the model.
+            metrics: count batches.
+            most: segments of a batch.
         """
         self._extractor = extractor
         self._metrics = metrics
@@ -49,13 +83,14 @@ class Batcher:
     async def infer(self, inputs: Inputs, timing: Timing) -> Float32:
         """Descriptors of prepared segments, float32 (rows, dimension).
 
-        Cancelled while it waits, it is left out.
+        Cancelled while it waits, it is left out of the batches that follow.
         """
         waiting = Waiting(inputs, timing, asyncio.get_running_loop().create_future())
         self._queue.append(waiting)
         self._metrics.queue_segments.inc(len(waiting))
         if self._at_work is None:
-            self._at_work = asyncio.create_task(self._work())
+            # In a context of its own: it works for all requests, not for the first alone.
+            self._at_work = asyncio.create_task(self._work(), context=contextvars.Context())
         return await waiting.answer
 
     async def _work(self) -> None:
@@ -65,42 +100,62 @@ class Batcher:
         finally:
             self._at_work = None
 
-    def _take(self) -> list[Waiting]:
-        """The longest waiting, as many as make a batch; those who wait no more are dropped."""
-        batch: list[Waiting] = []
-        while self._queue:
-            if batch and sum(map(len, batch)) + len(self._queue[0]) > self._most:
+    def _take(self) -> list[Part]:
+        """A part of each of the longest waiting; who has more goes behind the others."""
+        batch: list[Part] = []
+        rest: list[Waiting] = []
+        room = self._most
+        while self._queue and room > 0:
+            waiting = self._queue[0]
+            size = min(waiting.left, PART, self._most)
+            if waiting.answer.done():
+                size = waiting.left  # nobody waits any more: all of it leaves the queue
+            elif batch and size > room:
                 break
-            waiting = self._queue.popleft()
-            self._metrics.queue_segments.dec(len(waiting))
-            if not waiting.answer.done():
-                batch.append(waiting)
+            self._queue.popleft()
+            self._metrics.queue_segments.dec(size)
+            start, waiting.taken = waiting.taken, waiting.taken + size
+            if waiting.answer.done():
+                continue
+            batch.append(Part(waiting, start, start + size))
+            room -= size
+            if waiting.left:
+                rest.append(waiting)
+        self._queue.extend(rest)
         return batch
 
-    async def _run(self, batch: list[Waiting]) -> None:
-        for waiting in batch:
-            waiting.timing.lap("queue")
+    async def _run(self, batch: list[Part]) -> None:
+        for part in batch:
+            part.waiting.timing.lap("queue")
         try:
             found = await anyio.to_thread.run_sync(self._infer, batch)
         except Exception as error:
             if len(batch) == 1:
-                _fail(batch[0], error)
+                _fail(batch[0].waiting, error)
                 return
             # Whoever's fault it was: the others must not suffer.
-            for waiting in batch:
-                await self._run([waiting])
+            for part in batch:
+                await self._run([part])
             return
         self._metrics.batch_requests.observe(len(batch))
         self._metrics.batch_segments.observe(sum(map(len, batch)))
-        for waiting, descriptors in zip(batch, found, strict=True):
+        for part, descriptors in zip(batch, found, strict=True):
+            waiting = part.waiting
             waiting.timing.lap("infer")
-            if not waiting.answer.done():
-                waiting.answer.set_result(descriptors)
+            waiting.found.append(descriptors)
+            if part.stop == len(waiting) and not waiting.answer.done():
+                waiting.answer.set_result(
+                    waiting.found[0] if len(waiting.found) == 1 else np.concatenate(waiting.found)
+                )
 
-    def _infer(self, batch: list[Waiting]) -> list[Float32]:
-        names = batch[0].inputs
-        joined = {name: np.concatenate([each.inputs[name] for each in batch]) for name in names}
-        ends = np.cumsum([len(each) for each in batch])
+    def _infer(self, batch: list[Part]) -> list[Float32]:
+        joined = {
+            name: np.concatenate(
+                [part.waiting.inputs[name][part.start : part.stop] for part in batch]
+            )
+            for name in batch[0].waiting.inputs
+        }
+        ends = np.cumsum([len(part) for part in batch])
         return np.split(self._extractor.infer(joined), ends[:-1])
 
 

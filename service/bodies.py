@@ -1,18 +1,15 @@
 """Reading a request's body and writing a response's: media type, then bytes, then schema."""
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-import anyio
-import anyio.to_thread
 from fastapi import Request
 from pydantic import BaseModel, ValidationError
 from pydantic_core import to_json
 
 from service import packing
-from service.compression import CODINGS, decompress
 from service.packed_schemas import PackedRequest
 from service.problems import Problem, invalid
 from service.settings import Limits
@@ -33,49 +30,6 @@ class Body:
 
     media_type: str
     content: bytes
-
-
-async def read_body(
-    request: Request, media_types: Collection[str], seconds: float, most: int
-) -> Body:
-    """The body, if it is of one of these types; a request that names none is taken at its word.
-
-    Args:
-        seconds: in which it must have come.
-        most: bytes that a compressed body may hold.
-
-    Raises:
-        Problem: 415 for another type or coding, 413 for too much, 408 if it does not come.
-    """
-    stated = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if stated and stated not in media_types:
-        raise Problem(
-            415,
-            "unsupported-media-type",
-            f"The body is {stated!r:.80}; {' or '.join(sorted(media_types))} is needed.",
-            headers={"Accept": ", ".join(sorted(media_types))},
-        )
-    coding = request.headers.get("content-encoding", "identity").strip().lower()
-    if coding not in {"identity", *CODINGS}:
-        raise Problem(
-            415,
-            "unsupported-content-encoding",
-            f"The body is coded as {coding!r:.80}; {' and '.join(CODINGS)} are understood.",
-            headers={"Accept-Encoding": ", ".join(CODINGS)},
-        )
-    try:
-        with anyio.fail_after(seconds):
-            content = await request.body()
-    except TimeoutError as error:
-        raise Problem(
-            408,
-            "slow-body",
-            f"The body did not come within {seconds:g} s.",
-            headers={"Connection": "close"},
-        ) from error
-    if coding != "identity":
-        content = await anyio.to_thread.run_sync(decompress, content, coding, most)
-    return Body(stated, content)
 
 
 def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:

@@ -1,6 +1,7 @@
 """The limit on a request's body, enforced while it streams in, before anything buffers it."""
 
 import anyio
+from starlette._utils import get_route_path
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.problems import Problem
@@ -48,7 +49,7 @@ class BodyLimit:
         await self._app(scope, counted, send)
 
     def _limit(self, scope: Scope) -> int:
-        if scope["method"] == "PUT" and scope["path"].startswith("/maps/"):
+        if scope["method"] == "PUT" and get_route_path(scope).startswith("/maps/"):
             return self._limits.map_bytes
         return self._limits.body_bytes
 

@@ -10,6 +10,7 @@ from weakref import WeakValueDictionary
 
 from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
 
+from segments.cancellation import current
 from service.layers import Layers
 from service.map_cache import MapCache
 from service.map_index import LayeredIndex, MapIndex
@@ -21,6 +22,9 @@ from service.replay import newest
 from service.stored_map import KEEPS_FRAME, StoredMap
 
 logger = logging.getLogger("placecell")
+
+TURN_SECONDS = 0.1
+"""How often a write that waits for another looks whether it shall stop."""
 
 
 class Maps:
@@ -134,11 +138,21 @@ class Maps:
 
     @contextmanager
     def writing(self, name: str) -> Iterator[None]:
-        """While nobody else writes to the map of this name."""
+        """While nobody else writes to the map of this name.
+
+        Raises:
+            Cancelled: the request became late, or its client left, before its turn.
+        """
         with self._guard:
             lock = self._locks.setdefault(name, Lock())
-        with lock:
+        token = current()
+        while not lock.acquire(timeout=TURN_SECONDS):
+            token.check()
+        try:
+            token.check()
             yield
+        finally:
+            lock.release()
 
     def create(self, name: str, content: CompactMap, author: str, operation: str) -> StoredMap:
         """Store a map under a new name; on return it is safely on disk.

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from placecell_client import Delta, decode, decode_delta
 from placecell_client.map_edit import compose
 
+from segments.cancellation import current
 from service.layers import Layers
 from service.map_cache import MapCache
 from service.map_store import Head, History, MapStore
@@ -42,11 +43,17 @@ def composed(deltas: Iterable[Delta]) -> Delta | None:
     row = list(deltas)
     # Pairs, then pairs of pairs: each segment is handled log n times, not n.
     while len(row) > 1:
+        current().check()
         pairs = [compose(*row[at : at + 2]) for at in range(0, len(row) - 1, 2)]
         row = pairs + row[2 * len(pairs) :]
     return row[0] if row else None
 
 
 def _after(layers: Layers, history: History, since: int, until: int) -> Layers:
-    delta = composed(decode_delta(blob) for _, blob in history.blobs(since, until))
+    delta = composed(_decoded(blob) for _, blob in history.blobs(since, until))
     return layers if delta is None else layers.after(delta)
+
+
+def _decoded(blob: bytes) -> Delta:
+    current().check()
+    return decode_delta(blob)

@@ -5,6 +5,8 @@ from typing import Annotated, Generic, Self, TypeVar
 from placecell_client.compact_map import COORDINATE_LIMIT
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
+from service.settings import NAMED_MAPS
+
 Coordinate = Annotated[
     float, Field(strict=True, allow_inf_nan=False, ge=-COORDINATE_LIMIT, le=COORDINATE_LIMIT)
 ]
@@ -56,8 +58,10 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
     origin: Point | None = Field(None, description="Of the segments, as for `/describe`.")
     model_id: Name | None = Field(None, description="Of the model that made the codes.")
     codes: CodesT | None = Field(None, description="Stored descriptors, as `/describe` gives them.")
-    maps: Annotated[list[Name], Field(fail_fast=True)] | None = Field(
-        None, min_length=1, description="Names; all maps that can be searched unless said."
+    maps: Annotated[list[Name], Field(fail_fast=True, max_length=NAMED_MAPS)] | None = Field(
+        None,
+        min_length=1,
+        description=f"Names, {NAMED_MAPS:,} at most; all maps that can be searched unless said.",
     )
     k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
 

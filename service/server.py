@@ -1,13 +1,19 @@
-"""The HTTP server: uvicorn, that drains before it stops and tells all errors alike."""
+"""The HTTP server: uvicorn, strict about what is a request, patient with slow networks only."""
 
+import array
 import asyncio
+import fcntl
+import re
 import signal
 import sys
+import termios
+import time
 from types import FrameType
 
 import h11
 import uvicorn
 from fastapi import FastAPI
+from h11._receivebuffer import ReceiveBuffer
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.problems import Problem
@@ -22,24 +28,85 @@ AHEAD_BYTES = 64 << 10
 HEAD_SECONDS = 15.0
 """In which a client must have sent them, and what is left of the request before."""
 
+RESERVE = 16
+"""Connections that are taken beyond the limits when none can be dropped: for health checks."""
+
+_BAD_LINE = re.compile(rb"(?<!\r)\n|\r(?!\n)|\n[ \t]")
+"""A bare line feed or carriage return, or a line folded: servers read them differently."""
+
+
+class _StrictBuffer(ReceiveBuffer):
+    """Received bytes; lines of a head must end in CRLF and not be folded."""
+
+    def maybe_extract_lines(self) -> list[bytearray] | None:
+        """Return the lines of a head, or None if it is not there whole."""
+        held = bytes(self)
+        lines = super().maybe_extract_lines()
+        if lines is not None and _BAD_LINE.search(held[: len(held) - len(self)]):
+            raise h11.RemoteProtocolError("a line of the head is folded, or does not end in CRLF")
+        return lines
+
+
+class _StrictConnection(h11.Connection):
+    """HTTP/1.1 without the forms that servers and proxies read differently (request smuggling)."""
+
+    def __init__(self, max_head_bytes: int) -> None:
+        super().__init__(h11.SERVER, max_incomplete_event_size=max_head_bytes)
+        self._receive_buffer = _StrictBuffer()
+
+    def next_event(self) -> h11.Event | type[h11.NEED_DATA] | type[h11.PAUSED]:
+        """Return the next event; a request whose length is ambiguous is refused."""
+        event = super().next_event()
+        if isinstance(event, h11.Request):
+            _check_framing(event)
+        return event
+
+
+def _check_framing(request: h11.Request) -> None:
+    names = [name for name, _ in request.headers]
+    lengths, codings = names.count(b"content-length"), names.count(b"transfer-encoding")
+    if codings and lengths:
+        raise h11.RemoteProtocolError("Transfer-Encoding and Content-Length exclude each other")
+    if lengths > 1 or codings > 1:
+        raise h11.RemoteProtocolError("the length of the body is stated twice")
+    if codings and request.http_version < b"1.1":
+        raise h11.RemoteProtocolError("Transfer-Encoding needs HTTP/1.1")
+
 
 class Protocol(H11Protocol):
-    """HTTP/1.1 whose refusals are problems too, and whose clients must say what they want."""
+    """HTTP/1.1 whose refusals are problems too, and whose clients must make progress.
+
+    A connection ends when a request's head does not come in time, or when for `stall_seconds` no
+    byte of an answer has left for the client.
+    """
 
     most = 1_000
     """Connections at once."""
 
+    address_most = 256
+    """Connections of one address at once."""
+
+    stall_seconds = 60.0
+    """In which some of an answer must leave."""
+
     _impatience: asyncio.TimerHandle | None = None
+    _watch: asyncio.TimerHandle | None = None
+    _unsent = 0
+    _progress = 0.0
+    _used = 0.0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """A client has come; it must send a request's head in time."""
         super().connection_made(transport)
-        if len(self.connections) > self.most:
-            transport.abort()
+        self.conn = _StrictConnection(self.config.h11_max_incomplete_event_size or HEAD_BYTES)
+        self._used = self._progress = time.monotonic()
+        self._make_room()
         self._wait_for_head()
+        self._watch_progress()
 
     def data_received(self, data: bytes) -> None:
         """Some bytes have come."""
+        self._used = time.monotonic()
         before = self.cycle
         super().data_received(data)
         self._patient_if_new(before)
@@ -48,15 +115,61 @@ class Protocol(H11Protocol):
     def on_response_complete(self) -> None:
         """An answer was sent; what is left of its request, and the next one's head, must come."""
         before = self.cycle
+        self._used = time.monotonic()
         self._wait_for_head()
         super().on_response_complete()
         self._patient_if_new(before)
         self._listen()
 
+    def resume_writing(self) -> None:
+        """Most of what was handed over has left."""
+        self._progress = time.monotonic()
+        super().resume_writing()
+
     def connection_lost(self, exc: Exception | None) -> None:
         """The client has gone."""
         self._patient()
+        if self._watch is not None:
+            self._watch.cancel()
         super().connection_lost(exc)
+
+    def _make_room(self) -> None:
+        """Keep the number of connections within the limits: drop the one that is idle longest."""
+        every = [each for each in self.connections if isinstance(each, Protocol) and each != self]
+        own = [each for each in every if each.client_address == self.client_address]
+        if not self.client_address:  # a Unix socket: a proxy's, that counts for itself
+            own = []
+        for others, most in ((own, self.address_most), (every, self.most)):
+            if len(others) < most:
+                continue
+            victim = _least_useful(others)
+            if victim is not None:
+                victim.connections.discard(victim)
+                victim.transport.abort()
+            elif len(others) >= most + RESERVE:
+                self.connections.discard(self)
+                self.transport.abort()
+                return
+
+    @property
+    def client_address(self) -> str:
+        """The client's address, without its port."""
+        return self.client[0] if self.client else ""
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no request is at work and no answer is on its way."""
+        return (self.cycle is None or self.cycle.response_complete) and not self._pending()
+
+    @property
+    def is_receiving(self) -> bool:
+        """Whether the body of the request at hand is still on its way."""
+        return self.cycle is not None and self.cycle.more_body
+
+    @property
+    def last_used(self) -> float:
+        """When the client last sent something, or was last answered; of `time.monotonic`."""
+        return self._used
 
     def _listen(self) -> None:
         # Where a request comes ahead of an answer, uvicorn stops reading: it would not see that
@@ -69,9 +182,38 @@ class Protocol(H11Protocol):
         ):
             self.flow.resume_reading()
 
+    def _pending(self) -> int:
+        """Bytes of answers that were handed over and that the client's machine does not have."""
+        size = self.transport.get_write_buffer_size()
+        sock = self.transport.get_extra_info("socket")
+        held = array.array("i", [0])
+        try:
+            fcntl.ioctl(sock.fileno(), termios.TIOCOUTQ, held)
+        except (OSError, ValueError, AttributeError):
+            return size
+        return size + held[0]
+
+    def _watch_progress(self) -> None:
+        """End the connection if nothing leaves, though something should."""
+        pending, now = self._pending(), time.monotonic()
+        if pending == 0 or pending < self._unsent:
+            self._progress = now
+        self._unsent = pending
+        if now - self._progress >= self.stall_seconds:
+            self.transport.abort()
+            return
+        self._watch = self.loop.call_later(self.stall_seconds / 8, self._watch_progress)
+
     def _wait_for_head(self) -> None:
         self._patient()
-        self._impatience = self.loop.call_later(HEAD_SECONDS, self.transport.abort)
+        self._impatience = self.loop.call_later(HEAD_SECONDS, self._head_is_late)
+
+    def _head_is_late(self) -> None:
+        if self._pending():
+            # The client still takes the last answer; how long it may is watched elsewhere.
+            self._wait_for_head()
+        else:
+            self.transport.abort()
 
     def _patient_if_new(self, before: object) -> None:
         if self.cycle is not None and self.cycle is not before:
@@ -102,19 +244,34 @@ class Protocol(H11Protocol):
         self.transport.close()
 
 
+def _least_useful(connections: list[Protocol]) -> Protocol | None:
+    """The connection that is idle longest; if none is, the one whose body has paused longest."""
+    idle = [each for each in connections if each.is_idle]
+    waiting = idle or [each for each in connections if each.is_receiving]
+    return min(waiting, key=lambda each: each.last_used, default=None)
+
+
 class Server(uvicorn.Server):
     """A server that says it is not ready for a while before it refuses connections."""
 
     def __init__(self, app: FastAPI, state: State) -> None:
         settings = state.settings
         limits = settings.limits
+        facts = {
+            "most": limits.connections,
+            "address_most": limits.address_connections,
+            "stall_seconds": limits.stall_seconds,
+        }
         super().__init__(
             uvicorn.Config(
                 app,
-                http=type("Limited", (Protocol,), {"most": limits.connections}),
+                http=type("Limited", (Protocol,), facts),
                 access_log=False,
                 log_config=None,
                 server_header=False,
+                proxy_headers=bool(settings.forwarded_allow_ips),
+                forwarded_allow_ips=list(settings.forwarded_allow_ips),
+                timeout_keep_alive=settings.keep_alive_seconds,
                 h11_max_incomplete_event_size=HEAD_BYTES,
                 timeout_graceful_shutdown=int(max(limits.deadline, limits.body_seconds)) + 1,
             )

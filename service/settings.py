@@ -17,6 +17,9 @@ from segments.models import DEFAULT_MODEL, MODELS_FOLDER
 MEBIBYTE = 1 << 20
 GIBIBYTE = 1 << 30
 
+NAMED_MAPS = 1_000
+"""Maps that a request names, at most, whatever the settings say."""
+
 PREFIX = "PLACECELL_"
 FILE_VARIABLE = PREFIX + "CONFIG"
 DEFAULT_FILE = "placecell.toml"
@@ -59,7 +62,8 @@ class Limits(BaseModel):
     requests: int = Field(
         default=32,
         ge=1,
-        description="Requests for recognition at work or waiting, at most; the others get a 429.",
+        description="Requests for recognition at work or waiting, at most; the others get a 429. "
+        "Clients (keys, or addresses without keys) that ask at the same time share them.",
     )
     deadline: float = Field(
         default=10.0,
@@ -74,10 +78,55 @@ class Limits(BaseModel):
         description="Seconds in which the body of such a request must have come.",
     )
     uploads: int = Field(
-        default=4, ge=1, description="Maps that are uploaded at once; the others get a 429."
+        default=4,
+        ge=1,
+        description="Uploaded maps that are stored or wait, at most; the others get a 429.",
     )
     edits: int = Field(
-        default=16, ge=1, description="Edits of maps taken at once; the others get a 429."
+        default=16,
+        ge=1,
+        description="Edits of maps at work or waiting, at most; the others get a 429.",
+    )
+    reads: int = Field(
+        default=64,
+        ge=1,
+        description="Reads of stored maps, versions, changes and lists at work or waiting, at "
+        "most; the others get a 429.",
+    )
+    read_seconds: float = Field(
+        default=60.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds in which such an answer must be ready to be sent.",
+    )
+    bodies: int = Field(
+        default=64, ge=1, description="Bodies that one client sends at once, at most."
+    )
+    held_bytes: int = Field(
+        default=256 * MEBIBYTE,
+        ge=1,
+        description="Bytes of bodies in memory, at most; of one client, half of them.",
+    )
+    answer_bytes: int = Field(
+        default=1024 * MEBIBYTE,
+        ge=1,
+        description="Bytes of large answers under way, on disk, at most; of one client, half of "
+        "them.",
+    )
+    stall_seconds: float = Field(
+        default=60.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds without progress of a body or an answer, until it is given up.",
+    )
+    transfer_seconds: float = Field(
+        default=3_600.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds in which a map, an edit or an answer must have been transferred.",
+    )
+    named_maps: int = Field(
+        default=NAMED_MAPS, ge=1, le=NAMED_MAPS, description="Maps that a request names, at most."
     )
     robot_segments: int = Field(
         default=2_000_000, ge=1, description="Segments of one robot over all maps, at most."
@@ -111,7 +160,7 @@ class Limits(BaseModel):
         default=120.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds in which a map must have come and been stored.",
+        description="Seconds in which a map or an edit must be stored once it has come.",
     )
     alignments: int = Field(
         default=2, ge=1, description="Maps aligned or merged at once; the others get a 429."
@@ -132,7 +181,15 @@ class Limits(BaseModel):
         "that has been silent longest is forgotten.",
     )
     connections: int = Field(
-        default=1_000, ge=1, description="Open at once; further ones are closed."
+        default=1_000,
+        ge=1,
+        description="Connections at once. For a further one, the one that is idle longest is "
+        "closed.",
+    )
+    address_connections: int = Field(
+        default=256,
+        ge=1,
+        description="Connections of one address at once, likewise; allow a proxy more.",
     )
 
 
@@ -161,6 +218,27 @@ class Settings(BaseSettings):
     host: str = Field(default="127.0.0.1", description="Address to listen on.")
     port: int = Field(
         default=8000, ge=0, le=65_535, description="Port to listen on; 0: any free one."
+    )
+    unix_socket: Path | None = Field(
+        default=None, description="Unix socket to listen on, instead of host and port."
+    )
+    root_path: str = Field(
+        default="",
+        pattern=r"^(/[A-Za-z0-9._~-]+)*$",
+        description="Path prefix under which a proxy shows the service, such as /placecell.",
+    )
+    forwarded_allow_ips: tuple[str, ...] = Field(
+        default=(),
+        description="Addresses or networks of proxies whose X-Forwarded-For and -Proto are "
+        "believed, as a JSON list.",
+    )
+    keep_alive_seconds: int = Field(
+        default=5, ge=1, description="Seconds that a connection is kept between two requests."
+    )
+    cors_origins: tuple[str, ...] = Field(
+        default=(),
+        description="Origins of web pages that may call the service from a browser, as a JSON "
+        'list; ["*"]: all.',
     )
     workers: int = Field(
         default=2, ge=1, description="Requests decoded and searched at once, beside the model."

@@ -5,13 +5,11 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Annotated, ParamSpec, TypeVar
 
-import anyio
-import anyio.to_thread
 from fastapi import Depends, Header, Request
 
 from segments.manifest import ModelError
+from service.admission import Lane, admitted
 from service.changes import Changes
-from service.desk import Desk
 from service.housekeeping import Bounds, Housekeeper
 from service.keys import Holder, Keys
 from service.map_cache import MapCache
@@ -21,11 +19,19 @@ from service.metrics import Metrics
 from service.models import Models
 from service.preconditions import Preconditions
 from service.quotas import Quotas
+from service.receiving import BodyRules, ByteBudget, Receiver
 from service.sessions import Sessions
 from service.settings import Settings
 from service.sqlite_store import SqliteMapStore
+from service.streaming import Answers
 from service.timing import Timing
 from service.writer import Writer
+
+READ_THREADS = 2
+"""That read stored maps at once; they hold maps whole, so more would take much memory."""
+
+WRITE_THREADS = 4
+"""That edit maps at once."""
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -47,12 +53,12 @@ class State:
         changes: of maps, for robots that keep a copy.
         keys: who may do what.
         sessions: what robots' last requests for their place found.
-        desk: takes in requests for recognition.
-        uploads: takes in maps.
-        edits: takes in edits of maps.
-        alignments: takes in alignments and merges of maps.
-        turns: limits how many requests are computed at once.
-        hands: limits how many work on stored maps at once.
+        recognition: admits requests for recognition.
+        reads: admits reads of stored maps.
+        uploads: admits uploads of maps.
+        edits: admits edits and all other small writes of maps.
+        alignments: admits alignments and merges of maps.
+        answers: sends large answers.
         draining: the service is about to stop; it is no longer ready.
     """
 
@@ -63,12 +69,12 @@ class State:
     changes: Changes
     keys: Keys
     sessions: Sessions
-    desk: Desk
-    uploads: Desk
-    edits: Desk
-    alignments: Desk
-    turns: anyio.CapacityLimiter
-    hands: anyio.CapacityLimiter
+    recognition: Lane
+    reads: Lane
+    uploads: Lane
+    edits: Lane
+    alignments: Lane
+    answers: Answers
     draining: bool = False
 
     @property
@@ -82,8 +88,14 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do blocking work of recognition (NumPy, FAISS) off the event loop, in turn."""
-        return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.turns)
+        """Do blocking work (NumPy, FAISS, SQLite) in the threads of the request's lane, in turn.
+
+        A request without a lane takes those of recognition.
+        """
+        here = admitted()
+        if here is not None:
+            return await here.run(lambda: work(*args, **kwargs))
+        return await self.recognition.threads.run("", lambda: work(*args, **kwargs))
 
     async def store(
         self,
@@ -91,8 +103,11 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do blocking work on stored maps off the event loop; recognition does not wait for it."""
-        return await anyio.to_thread.run_sync(lambda: work(*args, **kwargs), limiter=self.hands)
+        """Do the same; a request without a lane takes the threads of edits."""
+        here = admitted()
+        if here is not None:
+            return await here.run(lambda: work(*args, **kwargs))
+        return await self.edits.threads.run("", lambda: work(*args, **kwargs))
 
 
 @contextmanager
@@ -114,7 +129,7 @@ def open_state(settings: Settings) -> Iterator[State]:
         try:
             store = stack.enter_context(SqliteMapStore.owned(settings.data_dir))
             cache = MapCache(settings.data_dir)
-            limits, gauge = settings.limits, metrics.queue_requests
+            limits = settings.limits
             maps = Maps(store, models, Quotas(limits), cache)
         except (StoreLockedError, StoreError) as error:
             raise StartError(f"data directory: {error}") from error
@@ -125,7 +140,7 @@ def open_state(settings: Settings) -> Iterator[State]:
         stack.enter_context(Housekeeper(maps, changes, cache, bounds).working())
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
-        seconds = limits.upload_seconds
+        lanes = _lanes(settings, metrics)
         yield State(
             settings=settings,
             metrics=metrics,
@@ -134,17 +149,40 @@ def open_state(settings: Settings) -> Iterator[State]:
             changes=changes,
             keys=keys,
             sessions=Sessions(limits.sessions),
-            desk=Desk(
-                limits.requests, limits.deadline, limits.body_seconds, limits.body_bytes, gauge
-            ),
-            uploads=Desk(limits.uploads, seconds, seconds, limits.map_bytes),
-            edits=Desk(limits.edits, seconds, seconds, limits.body_bytes),
-            alignments=Desk(
-                limits.alignments, limits.alignment_seconds, limits.body_seconds, limits.body_bytes
-            ),
-            turns=anyio.CapacityLimiter(settings.workers),
-            hands=anyio.CapacityLimiter(limits.uploads + limits.alignments),
+            recognition=lanes["recognition"],
+            reads=lanes["reads"],
+            uploads=lanes["uploads"],
+            edits=lanes["edits"],
+            alignments=lanes["alignments"],
+            answers=Answers(settings.data_dir, limits.answer_bytes, limits.transfer_seconds),
         )
+
+
+def _lanes(settings: Settings, metrics: Metrics) -> dict[str, Lane]:
+    limits = settings.limits
+    share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes)
+    receiver = Receiver(limits.bodies, ByteBudget(max(limits.held_bytes, share), share, "bodies"))
+    small = BodyRules(limits.body_seconds, limits.stall_seconds)
+    large = BodyRules(limits.transfer_seconds, limits.stall_seconds)
+
+    def lane(
+        most: int, threads: int, seconds: float, body: BodyRules, body_bytes: int, name: str
+    ) -> Lane:
+        gauge = metrics.queue_requests if name == "recognition" else None
+        return Lane(most, threads, seconds, body, body_bytes, receiver, gauge)
+
+    most_bytes, stored = limits.body_bytes, limits.upload_seconds
+    kinds = {
+        "recognition": (limits.requests, settings.workers, limits.deadline, small, most_bytes),
+        "reads": (limits.reads, READ_THREADS, limits.read_seconds, small, most_bytes),
+        "uploads": (limits.uploads, limits.uploads, stored, large, limits.map_bytes),
+        "edits": (limits.edits, WRITE_THREADS, stored, large, most_bytes),
+        "alignments": (
+            *(limits.alignments, limits.alignments),
+            *(limits.alignment_seconds, small, most_bytes),
+        ),
+    }
+    return {name: lane(*values, name) for name, values in kinds.items()}
 
 
 async def state_of(request: Request) -> State:

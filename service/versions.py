@@ -53,6 +53,15 @@ def version_file(store: MapStore, stored: StoredMap, sequence: int) -> tuple[byt
         return file, tag_of(sequence, history.mark(sequence))
 
 
+def version_tag(store: MapStore, stored: StoredMap, sequence: int) -> str:
+    """The tag of one version; errors as of `version`."""
+    if sequence == stored.head.sequence:
+        return stored.tag
+    with history_of(store, stored) as history:
+        _check_kept(history, sequence)
+        return tag_of(sequence, history.mark(sequence))
+
+
 def _check_kept(history: History, sequence: int) -> None:
     head = history.head
     if not 1 <= sequence <= head.sequence:

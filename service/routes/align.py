@@ -2,11 +2,11 @@
 
 from typing import Annotated, Any, Literal
 
-from anyio.from_thread import check_cancelled
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
+from segments.cancellation import current
 from segments.localisation import LocalisationParameters
 from segments.map_alignment import AlignmentParameters
 from service.aligning import MapSide, align_maps, check_same_model
@@ -77,7 +77,7 @@ def _aligned(
 ) -> AlignmentOut:
     parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
     here, there = MapSide.of(one), MapSide.of(other)
-    found = align_maps(here, there, here.index(model), model, parameters, check_cancelled)
+    found = align_maps(here, there, here.index(model), model, parameters, current().check)
     ids = (here.content.ids, there.content.ids) if pairs else None
     return alignment_of(found, one, other, ids)
 
@@ -107,9 +107,10 @@ async def merge(
     """
     holder.check_write(name)
     async with state.alignments.admit(request, (JSON,), timing) as body:
-        asked = _read(body.content, name, state, holder)
+        asked = await state.store(_read, body.content, name, state, holder)
         parameters = AlignmentParameters(local=LocalisationParameters(model=asked.motion))
-        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check_cancelled)
+        check = current().check
+        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check)
         merged = await state.store(merger.merge, name, asked.maps)
     timing.lap("commit")
     if merged.written is not None:

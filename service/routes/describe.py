@@ -2,6 +2,7 @@
 
 from fastapi import APIRouter, Request, Response
 
+from service.admission import client_of
 from service.bodies import ENCODINGS, MSGPACK, Body, answer_type, parse, render
 from service.describer import Described, Prepared
 from service.models import Model
@@ -33,12 +34,12 @@ async def describe(
     """
     del holder  # any key will do
     answer = answer_type(request)
-    async with state.desk.admit(request, ENCODINGS, timing) as body:
+    async with state.recognition.admit(request, ENCODINGS, timing) as body:
         model, prepared = await state.compute(_read, state, body, timing)
         request.state.model_id = model.id
         described = await model.describer.describe(prepared, timing)
         content = await state.compute(_written, model, described, answer, timing)
-    return Response(content, media_type=answer)
+    return await state.answers.respond(content, client_of(request), answer)
 
 
 def _read(state: State, body: Body, timing: Timing) -> tuple[Model, Prepared]:

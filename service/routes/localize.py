@@ -7,6 +7,7 @@ from fastapi import APIRouter, Request, Response
 
 from segments.localisation import Hypothesis, Localisation, LocalisationParameters
 from segments.localisation.evidence import middle_of
+from service.admission import client_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
 from service.localise_schemas import LocalizeQuery, LocalizeRequest, LocalizeResponse
@@ -48,7 +49,7 @@ async def localize(
     A place that fits nearly as well as the best one makes the answer *ambiguous*.
     """
     answer = answer_type(request)
-    async with state.desk.admit(request, ENCODINGS, timing) as body:
+    async with state.recognition.admit(request, ENCODINGS, timing) as body:
         query, asked = await state.compute(_read, state, holder, body, timing)
         request.state.model_id = asked.model_id
         told: list[Told] = []
@@ -59,7 +60,7 @@ async def localize(
                 work = (state, model, stored, own, query, key, timing)
                 told.append(await state.compute(_locate, *work))
         content = await state.compute(_written, asked, queries, told, answer, timing)
-    return Response(content, media_type=answer)
+    return await state.answers.respond(content, client_of(request), answer)
 
 
 def _read(state: State, holder: Holder, body: Body, timing: Timing) -> tuple[Query, Asked]:

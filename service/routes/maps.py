@@ -6,8 +6,9 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from placecell_client.map_file import MEDIA_TYPE
 
+from service.admission import client_of
 from service.audit import tell, tell_written
-from service.bodies import OCTETS
+from service.bodies import JSON, OCTETS, render
 from service.keys import Holder
 from service.map_name import Name
 from service.map_schemas import MapOut, MapsResponse
@@ -15,7 +16,7 @@ from service.openapi import file_body
 from service.problems import documented
 from service.routes.answers import summary_of
 from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
-from service.versions import version_file
+from service.versions import version_file, version_tag
 
 router = APIRouter(tags=["maps"])
 
@@ -31,10 +32,17 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
 }
 
 
-@router.get("/maps", summary="The stored maps", responses=documented(401))
-async def list_maps(state: StateOf, holder: HolderOf) -> MapsResponse:
+@router.get(
+    "/maps",
+    summary="The stored maps",
+    response_model=MapsResponse,
+    responses=documented(400, 401, 429, 503, 504),
+)
+async def list_maps(request: Request, state: StateOf, holder: HolderOf) -> Response:
     """By name, those that the key opens. Maps of a model that is not loaded are not searched."""
-    return await state.store(_listed, state, holder)
+    async with state.reads.enter(request):
+        content = await state.store(_listed, state, holder)
+    return await state.answers.respond(content, client_of(request), JSON)
 
 
 @router.put(
@@ -63,13 +71,16 @@ async def put_map(
     holder.check_write(name)
     async with state.uploads.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
         written = await state.store(writer.put, name, body.content)
-    timing.lap("commit")
-    tell_written(request, state, "put", written)
-    summary = await state.store(summary_of, written.stored)
+        timing.lap("commit")
+        tell_written(request, state, "put", written)
+        summary = await state.store(summary_of, written.stored)
     return JSONResponse(
         summary.model_dump(mode="json"),
         status_code=201 if written.is_new else 200,
-        headers={"ETag": f'"{written.stored.tag}"', "Location": f"/maps/{name}"},
+        headers={
+            "ETag": f'"{written.stored.tag}"',
+            "Location": f"{state.settings.root_path}/maps/{name}",
+        },
     )
 
 
@@ -77,10 +88,11 @@ async def put_map(
     "/maps/{map}",
     summary="A map's file",
     response_class=Response,
-    responses=_FILE_RESPONSE | documented(401, 403, 404, 410, 422, 500, 503),
+    responses=_FILE_RESPONSE | documented(400, 401, 403, 404, 410, 422, 429, 500, 503, 504),
 )
 async def get_map(
     name: Name,
+    request: Request,
     state: StateOf,
     holder: HolderOf,
     writer: WriterOf,
@@ -95,15 +107,24 @@ async def get_map(
     if version is None and writer.conditions.is_known(stored.tag):
         return Response(status_code=304, headers={"ETag": f'"{stored.tag}"'})
     sequence = stored.head.sequence if version is None else version
-    file, tag = await state.store(version_file, state.maps.store, stored, sequence)
-    return Response(file, media_type=MEDIA_TYPE, headers={"ETag": f'"{tag}"'})
+    client = client_of(request)
+    async with state.reads.enter(request):
+        tag = await state.store(version_tag, state.maps.store, stored, sequence)
+        return await state.answers.respond_shared(
+            f"{stored.head.uid} {tag}",
+            lambda: version_file(state.maps.store, stored, sequence)[0],
+            state.store,
+            client,
+            MEDIA_TYPE,
+            {"ETag": f'"{tag}"'},
+        )
 
 
 @router.delete(
     "/maps/{map}",
     summary="Remove a map",
     status_code=204,
-    responses=documented(401, 403, 404, 412, 422, 500, 503, 507),
+    responses=documented(400, 401, 403, 404, 412, 422, 429, 500, 503, 504, 507),
 )
 async def delete_map(
     name: Name,
@@ -115,14 +136,16 @@ async def delete_map(
 ) -> None:
     """With all its versions. When the answer comes, it is gone from the disk."""
     holder.check_write(name)
-    segments = await state.store(writer.delete, name)
+    async with state.edits.enter(request):
+        segments = await state.store(writer.delete, name)
     timing.lap("commit")
     tell(request, state, "delete", name, f"{segments} segments", segments)
 
 
-def _listed(state: State, holder: Holder) -> MapsResponse:
-    return MapsResponse(
+def _listed(state: State, holder: Holder) -> bytes:
+    response = MapsResponse(
         model_id=state.model_id,
         maps=[summary_of(stored) for stored in state.maps.all() if holder.opens(stored.name)],
         damaged=[name for name in state.maps.damaged() if holder.opens(name)],
     )
+    return render(response, JSON)

@@ -4,6 +4,7 @@ from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
+from service.admission import client_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
 from service.matching import Candidate, found_in, merged
@@ -34,12 +35,12 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
     409 if the request names one. Candidates of several models are sorted by probability.
     """
     answer = answer_type(request)
-    async with state.desk.admit(request, ENCODINGS, timing) as body:
+    async with state.recognition.admit(request, ENCODINGS, timing) as body:
         asked = await state.compute(_read, state, holder, body, timing)
         request.state.model_id = asked.model_id
         queries = await asked.queries(timing)
         content = await state.compute(_search, asked, queries, answer, timing)
-    return Response(content, media_type=answer)
+    return await state.answers.respond(content, client_of(request), answer)
 
 
 def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Asked:

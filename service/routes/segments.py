@@ -7,6 +7,7 @@ from fastapi.responses import JSONResponse
 from placecell_client import encode_delta
 from placecell_client.map_delta import MEDIA_TYPE
 
+from service.admission import client_of
 from service.audit import tell, tell_written
 from service.bodies import OCTETS
 from service.changes import Page
@@ -95,7 +96,7 @@ async def edit_segments(
 @router.post(
     "/maps/{map}/age",
     summary="Remove segments that were not seen again",
-    responses=documented(401, 403, 404, 412, 422, 500, 503, 507),
+    responses=documented(400, 401, 403, 404, 412, 422, 429, 500, 503, 504, 507),
 )
 async def age_segments(
     name: Name,
@@ -116,7 +117,8 @@ async def age_segments(
 ) -> WrittenOut:
     """A version of its own, that can be undone as any other."""
     holder.check_write(name)
-    written = await state.store(writer.age, name, unseen_since, dry_run)
+    async with state.edits.enter(request):
+        written = await state.store(writer.age, name, unseen_since, dry_run)
     timing.lap("commit")
     if not dry_run:
         tell_written(request, state, "age", written)
@@ -126,7 +128,7 @@ async def age_segments(
 @router.post(
     "/maps/{map}/ids",
     summary="Ids for new segments",
-    responses=documented(401, 403, 404, 409, 422, 500, 503, 507),
+    responses=documented(400, 401, 403, 404, 409, 422, 429, 500, 503, 504, 507),
 )
 async def reserve_ids(
     name: Name,
@@ -138,7 +140,8 @@ async def reserve_ids(
 ) -> IdsOut:
     """That no segment of the map ever had, and that nobody else is given."""
     holder.check_write(name)
-    first = await state.store(writer.reserve, name, count)
+    async with state.edits.enter(request):
+        first = await state.store(writer.reserve, name, count)
     tell(request, state, "ids", name, f"{count} ids from {first} on")
     return IdsOut(first=first, count=count)
 
@@ -147,10 +150,11 @@ async def reserve_ids(
     "/maps/{map}/changes",
     summary="What changed since a version",
     response_class=Response,
-    responses=_DELTA_RESPONSE | documented(401, 403, 404, 410, 422, 500, 503),
+    responses=_DELTA_RESPONSE | documented(400, 401, 403, 404, 410, 422, 429, 500, 503, 504),
 )
 async def changes(
     name: Name,
+    request: Request,
     state: StateOf,
     holder: HolderOf,
     since: Annotated[
@@ -178,7 +182,8 @@ async def changes(
     """
     holder.check_map(name)
     stored = state.maps.get(name)
-    page, content = await state.store(_page, state, stored, since, cursor, limit)
+    async with state.reads.enter(request):
+        page, content = await state.store(_page, state, stored, since, cursor, limit)
     headers = {
         "ETag": f'"{page.tag}"',
         "Placecell-Since": str(page.delta.since),
@@ -186,7 +191,7 @@ async def changes(
     }
     if page.next is not None:
         headers["Placecell-Next"] = page.next
-    return Response(content, media_type=MEDIA_TYPE, headers=headers)
+    return await state.answers.respond(content, client_of(request), MEDIA_TYPE, headers)
 
 
 def _page(

@@ -4,12 +4,15 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
 
+from service.admission import client_of
 from service.audit import tell, tell_written
+from service.bodies import JSON, render
 from service.map_name import Name
 from service.map_schemas import CompactOut, VersionsResponse, WrittenOut
 from service.problems import documented
 from service.routes.answers import outcome_of, version_of
-from service.state import HolderOf, StateOf, TimingOf, WriterOf
+from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.stored_map import StoredMap
 from service.versions import commits_of
 
 router = APIRouter(tags=["versions"])
@@ -18,29 +21,28 @@ router = APIRouter(tags=["versions"])
 @router.get(
     "/maps/{map}/versions",
     summary="The versions of a map",
-    responses=documented(401, 403, 404, 422, 500, 503),
+    response_model=VersionsResponse,
+    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504),
 )
 async def list_versions(
     name: Name,
+    request: Request,
     state: StateOf,
     holder: HolderOf,
     limit: Annotated[int, Query(ge=1, le=10_000, description="So many, at most.")] = 100,
-) -> VersionsResponse:
+) -> Response:
     """The newest first: who made it when, by what, and how much it changed."""
     holder.check_map(name)
     stored = state.maps.get(name)
-    commits = await state.store(commits_of, state.maps.store, stored)
-    return VersionsResponse(
-        map=name,
-        oldest=commits[0].sequence,
-        versions=[version_of(commit) for commit in commits[: -limit - 1 : -1]],
-    )
+    async with state.reads.enter(request):
+        content = await state.store(_listed, state, stored, limit)
+    return await state.answers.respond(content, client_of(request), JSON)
 
 
 @router.post(
     "/maps/{map}/versions/{version}/restore",
     summary="Make a map again what it was",
-    responses=documented(401, 403, 404, 410, 412, 422, 500, 503, 507),
+    responses=documented(400, 401, 403, 404, 410, 412, 422, 429, 500, 503, 504, 507),
 )
 async def restore_version(
     name: Name,
@@ -54,7 +56,8 @@ async def restore_version(
 ) -> WrittenOut:
     """A new version with the content of an old one; so this can be undone too."""
     holder.check_write(name)
-    written = await state.store(writer.restore, name, version)
+    async with state.edits.enter(request):
+        written = await state.store(writer.restore, name, version)
     timing.lap("commit")
     tell_written(request, state, "restore", written)
     response.headers["ETag"] = f'"{written.stored.tag}"'
@@ -64,7 +67,7 @@ async def restore_version(
 @router.post(
     "/maps/{map}/compact",
     summary="Let go of old versions",
-    responses=documented(401, 403, 404, 422, 500, 503, 507),
+    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504, 507),
 )
 async def compact_map(
     name: Name,
@@ -77,8 +80,19 @@ async def compact_map(
 ) -> CompactOut:
     """What they alone hold is given back to the disk. The service does so by itself, in time."""
     holder.check_write(name)
-    stored = await state.store(writer.compact, name, keep)
+    async with state.edits.enter(request):
+        stored = await state.store(writer.compact, name, keep)
     timing.lap("commit")
     head = stored.head
     tell(request, state, "compact", name, f"versions from {head.oldest} on are kept")
     return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)
+
+
+def _listed(state: State, stored: StoredMap, limit: int) -> bytes:
+    commits = commits_of(state.maps.store, stored)
+    response = VersionsResponse(
+        map=stored.name,
+        oldest=commits[0].sequence,
+        versions=[version_of(commit) for commit in commits[: -limit - 1 : -1]],
+    )
+    return render(response, JSON)

@@ -78,11 +78,53 @@ def test_what_comes_while_the_model_works_goes_together() -> None:
     assert sample(metrics.registry, "placecell_batch_segments_sum") == 16
 
 
-def test_a_request_larger_than_a_batch_is_one() -> None:
+def test_request_larger_than_a_batch_is_computed_in_parts() -> None:
     model = Doubling()
-    found = asyncio.run(Batcher(model, Metrics(), most=4).infer(rows(1, 9), Timing()))
-    assert len(found) == 9
-    assert model.batches == [9]
+    asked = {"x": np.arange(27, dtype=np.float32).reshape(9, 3)}
+    found = asyncio.run(Batcher(model, Metrics(), most=4).infer(asked, Timing()))
+    np.testing.assert_array_equal(found, 2 * asked["x"])
+    assert model.batches == [4, 4, 1]
+
+
+def test_A4_small_request_does_not_wait_for_the_end_of_a_large_one() -> None:
+    """Row A4, limits on work: a large request takes its turn with those that come later."""
+    model, done = Doubling(), []
+
+    async def asked(name: str, batcher: Batcher, count: int) -> None:
+        await batcher.infer(rows(1, count), Timing())
+        done.append((name, len(model.batches)))
+
+    async def run() -> None:
+        batcher = Batcher(model, Metrics(), most=4)
+        model.go_on.clear()
+        large = asyncio.create_task(asked("large", batcher, 40))
+        await asyncio.to_thread(model.entered.wait)
+        small = asyncio.create_task(asked("small", batcher, 1))
+        await asyncio.sleep(0)
+        model.go_on.set()
+        await asyncio.gather(large, small)
+
+    asyncio.run(run())
+    assert done[0][0] == "small"
+    assert done[0][1] <= 3
+
+
+def test_cancelled_request_stops_between_its_parts() -> None:
+    model, metrics = Doubling(), Metrics()
+
+    async def run() -> None:
+        batcher = Batcher(model, metrics, most=4)
+        model.go_on.clear()
+        large = asyncio.create_task(batcher.infer(rows(1, 40), Timing()))
+        await asyncio.to_thread(model.entered.wait)
+        large.cancel()
+        await asyncio.sleep(0)
+        model.go_on.set()
+        await batcher.infer(rows(2), Timing())
+
+    asyncio.run(run())
+    assert model.batches == [4, 1]
+    assert sample(metrics.registry, "placecell_queue_segments") == 0
 
 
 def test_a_bad_one_fails_alone() -> None:

@@ -1,0 +1,117 @@
+"""Threads that clients share fairly: none of them can keep all threads from the others."""
+
+import asyncio
+import time
+from collections import OrderedDict, deque
+from collections.abc import Callable
+from typing import TypeVar
+
+import anyio
+import anyio.to_thread
+
+Result = TypeVar("Result")
+
+LONG_SECONDS = 0.25
+"""After so long a call no longer keeps a place from those that wait; it goes on beside them."""
+
+LENT = 4
+"""Calls at once, at most: so many times the places. Of one client: half of them."""
+
+
+class FairThreads:
+    """Runs blocking calls in threads.
+
+    Calls that wait are started in turn of their clients, round robin. A client that has no call at
+    work may always start one, and a call that takes long lends its place to others; so a small call
+    never waits for the end of a large one. Belongs to one event loop.
+    """
+
+    def __init__(self, places: int) -> None:
+        """Make the threads.
+
+        Args:
+            places: calls that work at once, as long as none takes long.
+        """
+        self._places = places
+        self._threads = anyio.CapacityLimiter(LENT * places)
+        self._started: dict[object, tuple[str, float]] = {}
+        self._waiting: OrderedDict[str, deque[asyncio.Future[object]]] = OrderedDict()
+        self._timer: asyncio.TimerHandle | None = None
+
+    async def run(self, client: str, work: Callable[[], Result]) -> Result:
+        """Run a call; cancelled while it waits for its turn, it is not started."""
+        ticket = await self._turn(client)
+        try:
+            return await anyio.to_thread.run_sync(work, limiter=self._threads)
+        finally:
+            del self._started[ticket]
+            self._start_waiting()
+
+    async def _turn(self, client: str) -> object:
+        if client not in self._waiting and self._may_start(client):
+            return self._start(client)
+        turn: asyncio.Future[object] = asyncio.get_running_loop().create_future()
+        self._waiting.setdefault(client, deque()).append(turn)
+        self._look_again_later()
+        try:
+            return await turn
+        except asyncio.CancelledError:
+            if turn.done() and not turn.cancelled():
+                del self._started[turn.result()]
+            else:
+                self._forget(client, turn)
+            self._start_waiting()
+            raise
+
+    def _forget(self, client: str, turn: asyncio.Future[object]) -> None:
+        queue = self._waiting.get(client)
+        if queue is not None and turn in queue:
+            queue.remove(turn)
+            if not queue:
+                del self._waiting[client]
+
+    def _start(self, client: str) -> object:
+        ticket = object()
+        self._started[ticket] = (client, time.monotonic())
+        return ticket
+
+    def _may_start(self, client: str) -> bool:
+        if len(self._started) >= LENT * self._places:
+            return False
+        own = sum(each == client for each, _ in self._started.values())
+        if own == 0:
+            return True
+        recent = time.monotonic() - LONG_SECONDS
+        short = sum(began > recent for _, began in self._started.values())
+        return short < self._places and own < LENT * self._places // 2
+
+    def _start_waiting(self) -> None:
+        """Give free places to those that wait, a client at a time."""
+        turned = True
+        while turned:
+            turned = False
+            for client in list(self._waiting):
+                if not self._may_start(client):
+                    continue
+                queue = self._waiting.pop(client)
+                turn = queue.popleft()
+                if queue:
+                    self._waiting[client] = queue  # behind the others
+                if not turn.done():
+                    turn.set_result(self._start(client))
+                turned = True
+        self._look_again_later()
+
+    def _look_again_later(self) -> None:
+        """When a call that works has become a long one, another may begin."""
+        if self._timer is not None or not self._waiting:
+            return
+        recent = time.monotonic() - LONG_SECONDS
+        soon = [began - recent for _, began in self._started.values() if began > recent]
+        if soon:
+            loop = asyncio.get_running_loop()
+            self._timer = loop.call_later(min(soon) + 1e-3, self._look_again)
+
+    def _look_again(self) -> None:
+        self._timer = None
+        self._start_waiting()

@@ -1,0 +1,204 @@
+"""Receiving a request's body: its type, its progress, and the memory that bodies may take."""
+
+import time
+from collections import Counter
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import anyio
+from fastapi import Request
+
+from service.compression import CODINGS
+from service.problems import Problem
+
+RETRY_SECONDS = 1
+
+SLOWEST_RATE = 1_000
+"""Bytes a second on average, beyond the first `stall_seconds`: a slower body is given up."""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyRules:
+    """How long a body may take.
+
+    Attributes:
+        seconds: until it must be there.
+        stall_seconds: without a byte, at most.
+    """
+
+    seconds: float
+    stall_seconds: float
+
+
+class ByteBudget:
+    """Bytes that clients may hold at once: all together, and each of them."""
+
+    def __init__(self, total: int, share: int, what: str) -> None:
+        """Make a budget.
+
+        Args:
+            total: bytes over all clients.
+            share: bytes of one client.
+            what: names in errors what the bytes are of.
+        """
+        self.total = total
+        self.share = share
+        self._what = what
+        self._held: Counter[str] = Counter()
+        self.bytes = 0
+
+    def take(self, client: str, count: int) -> None:
+        """Count bytes of a client; 429 if they are too many."""
+        if self._held[client] + count > self.share:
+            raise busy(
+                f"This client has {self._held[client]} bytes of {self._what} under way; "
+                f"the limit is {self.share}."
+            )
+        if self.bytes + count > self.total:
+            raise busy(
+                f"{self.bytes} bytes of {self._what} are under way; the limit is {self.total}."
+            )
+        self._held[client] += count
+        self.bytes += count
+
+    def has_room(self, client: str, count: int) -> bool:
+        """Whether that many bytes of a client could be taken."""
+        return self._held[client] + count <= self.share and self.bytes + count <= self.total
+
+    def give_back(self, client: str, count: int) -> None:
+        """Count bytes of a client no longer."""
+        self.bytes -= count
+        self._held[client] -= count
+        if not self._held[client]:
+            del self._held[client]
+
+
+class Held:
+    """Bytes that one request holds of a budget."""
+
+    def __init__(self, budget: ByteBudget, client: str) -> None:
+        self._budget = budget
+        self._client = client
+        self._bytes = 0
+
+    def add(self, count: int) -> None:
+        """Hold more; 429 if they are too many."""
+        self._budget.take(self._client, count)
+        self._bytes += count
+
+    def release(self) -> None:
+        """Hold none."""
+        self._budget.give_back(self._client, self._bytes)
+        self._bytes = 0
+
+
+class Receiver:
+    """Receives bodies: so many at once of a client, and so many bytes."""
+
+    def __init__(self, bodies: int, budget: ByteBudget) -> None:
+        """Make a receiver.
+
+        Args:
+            bodies: of one client at once.
+            budget: of bytes.
+        """
+        self._bodies = bodies
+        self._budget = budget
+        self._receiving: Counter[str] = Counter()
+
+    @contextmanager
+    def holding(self, client: str) -> Iterator[Held]:
+        """Count the bytes of a request's body for a block."""
+        held = Held(self._budget, client)
+        try:
+            yield held
+        finally:
+            held.release()
+
+    async def receive(self, request: Request, client: str, rules: BodyRules, held: Held) -> bytes:
+        """The body as it was sent.
+
+        Raises:
+            Problem: 408 if it does not come, 429 if the client sends too much at once.
+        """
+        if self._receiving[client] >= self._bodies:
+            raise busy(f"This client sends {self._bodies} bodies already, the limit.", closes=True)
+        self._receiving[client] += 1
+        try:
+            return await _receive(request, rules, held)
+        finally:
+            self._receiving[client] -= 1
+            if not self._receiving[client]:
+                del self._receiving[client]
+
+
+async def _receive(request: Request, rules: BodyRules, held: Held) -> bytes:
+    parts: list[bytes] = []
+    received = 0
+    began = time.monotonic()
+    stream = request.stream()
+    while True:
+        spent = time.monotonic() - began
+        patience = min(rules.seconds - spent, rules.stall_seconds)
+        part = None
+        with anyio.move_on_after(patience):
+            part = await anext(stream, b"")
+            if not part:
+                return b"".join(parts)
+        if part is None:
+            raise _slow(rules, spent + patience, received)
+        received += len(part)
+        late = time.monotonic() - began - rules.stall_seconds
+        if received < SLOWEST_RATE * late:
+            raise _slow(rules, late + rules.stall_seconds, received)
+        try:
+            held.add(len(part))
+        except Problem as problem:
+            problem.headers = {**(problem.headers or {}), "Connection": "close"}
+            raise
+        parts.append(part)
+
+
+def _slow(rules: BodyRules, spent: float, received: int) -> Problem:
+    if spent >= rules.seconds:
+        why = f"The body did not come within {rules.seconds:g} s."
+    else:
+        why = (
+            f"The body came too slowly: {received} bytes in {spent:.3g} s. It must not pause for "
+            f"{rules.stall_seconds:g} s."
+        )
+    return Problem(408, "slow-body", why, headers={"Connection": "close"})
+
+
+def check_types(request: Request, media_types: Collection[str]) -> tuple[str, str]:
+    """The body's media type, empty if the request names none, and its coding.
+
+    Raises:
+        Problem: 415 for another type or coding.
+    """
+    stated = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if stated and stated not in media_types:
+        raise Problem(
+            415,
+            "unsupported-media-type",
+            f"The body is {stated!r:.80}; {' or '.join(sorted(media_types))} is needed.",
+            headers={"Accept": ", ".join(sorted(media_types))},
+        )
+    coding = request.headers.get("content-encoding", "identity").strip().lower()
+    if coding not in {"identity", *CODINGS}:
+        raise Problem(
+            415,
+            "unsupported-content-encoding",
+            f"The body is coded as {coding!r:.80}; {' and '.join(CODINGS)} are understood.",
+            headers={"Accept-Encoding": ", ".join(CODINGS)},
+        )
+    return stated, coding
+
+
+def busy(detail: str, closes: bool = False) -> Problem:
+    """The problem of a client that asks for too much at once."""
+    headers = {"Retry-After": str(RETRY_SECONDS)}
+    if closes:
+        headers["Connection"] = "close"
+    return Problem(429, "busy", f"{detail} Try again in {RETRY_SECONDS} s.", headers=headers)
