@@ -1,6 +1,6 @@
 """Sessions: what each robot's last requests found, for its next one."""
 
-from collections import OrderedDict
+from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from threading import Lock
@@ -29,10 +29,11 @@ class SessionKey:
 
 
 class Sessions:
-    """All sessions, those used last at the end. Safe to use from many threads.
+    """The sessions of all keys. Safe to use from many threads.
 
-    Whoever has been silent longer than the memory is forgotten; of too many at once, who has been
-    silent longest.
+    A session that was silent longer than the memory is dropped. Of too many at once, the key that
+    has most of them loses the one that was silent longest; so no key can displace the sessions of
+    another that has fewer.
     """
 
     def __init__(
@@ -52,7 +53,9 @@ class Sessions:
         self._parameters = parameters or LocalisationParameters()
         self._clock = clock
         self._lock = Lock()
+        # Those used last stand at the end, of all keys and of each.
         self._by_key: OrderedDict[SessionKey, tuple[float, History]] = OrderedDict()
+        self._of_holder: defaultdict[str, OrderedDict[SessionKey, None]] = defaultdict(OrderedDict)
 
     def __len__(self) -> int:
         return len(self._by_key)
@@ -73,11 +76,25 @@ class Sessions:
         """Add what a request found by itself."""
         with self._lock:
             now = self._clock()
-            _, history = self._by_key.pop(key, (now, History(self._parameters)))
+            _, history = self._by_key.get(key) or (now, History(self._parameters))
             history.add(now, middle, hypotheses)
             self._by_key[key] = now, history
+            self._by_key.move_to_end(key)
+            own = self._of_holder[key.holder]
+            own[key] = None
+            own.move_to_end(key)
             while self._by_key:
                 oldest, (last, _) = next(iter(self._by_key.items()))
-                if len(self._by_key) <= self._most and now - last <= self._parameters.memory:
+                if now - last <= self._parameters.memory:
                     break
-                del self._by_key[oldest]
+                self._drop(oldest)
+            while len(self._by_key) > self._most:
+                largest = max(self._of_holder.values(), key=len)
+                self._drop(next(iter(largest)))
+
+    def _drop(self, key: SessionKey) -> None:
+        del self._by_key[key]
+        own = self._of_holder[key.holder]
+        del own[key]
+        if not own:
+            del self._of_holder[key.holder]

@@ -177,8 +177,8 @@ class Limits(BaseModel):
     sessions: int = Field(
         default=10_000,
         ge=1,
-        description="Sessions of `/localize` that are remembered, for seconds; of more, the one "
-        "that has been silent longest is forgotten.",
+        description="Sessions of `/localize` that are remembered, for seconds. Of more, the key "
+        "that has most of them loses the one that was silent longest.",
     )
     connections: int = Field(
         default=1_000,

@@ -87,6 +87,31 @@ def test_of_too_many_the_one_silent_longest_goes(sessions: Sessions, clock: Cloc
     assert sessions.evidence(key("a"), NOW) is not None
 
 
+def test_A25_a_key_with_many_sessions_displaces_its_own_alone(clock: Clock) -> None:
+    sessions = Sessions(6, LocalisationParameters(memory=10.0), clock)
+    for name in ("a", "b"):
+        sessions.remember(key(name, holder="quiet"), BEFORE, [hypothesis()])
+    sessions.remember(key("c", holder="another"), BEFORE, [hypothesis()])
+    for number in range(50):
+        clock.now += 0.01
+        sessions.remember(key(f"robot {number}", holder="greedy"), BEFORE, [hypothesis()])
+    assert len(sessions) == 6
+    for kept in (key("a", holder="quiet"), key("b", holder="quiet"), key("c", holder="another")):
+        assert sessions.evidence(kept, NOW) is not None
+    greedy = [key(f"robot {number}", holder="greedy") for number in range(50)]
+    assert [each for each in greedy if sessions.evidence(each, NOW) is not None] == greedy[-3:]
+    # A key that comes when all is taken gets its share.
+    sessions.remember(key("d", holder="late"), BEFORE, [hypothesis()])
+    assert sessions.evidence(key("d", holder="late"), NOW) is not None
+    assert sessions.evidence(key("a", holder="quiet"), NOW) is not None
+    assert len(sessions) == 6
+    # All are dropped when their time is over, and nothing is left of their keys.
+    clock.now += 11
+    sessions.remember(key("e", holder="last"), BEFORE, [])
+    assert len(sessions) == 1
+    assert {*sessions._of_holder} == {"last"}
+
+
 def test_a_session_keeps_so_many_requests(sessions: Sessions, clock: Clock) -> None:
     for _ in range(1_000):
         clock.now += 0.001
