@@ -132,7 +132,7 @@ async def _ask_on(
 def request_of(path: str, media_type: str, body: bytes) -> bytes:
     """A whole request, head and body."""
     head = (
-        f"POST {path} HTTP/1.1\r\nHost: placecell\r\nContent-Type: {media_type}\r\n"
+        f"POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: {media_type}\r\n"
         f"Accept: {media_type}\r\nContent-Length: {len(body)}\r\n\r\n"
     )
     return head.encode() + body

@@ -10,6 +10,7 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.problems import Problem, unexpected
+from service.refusals import TOLD, RefusalLog, address_of
 from service.timing import Timing
 
 logger = logging.getLogger("placecell.requests")
@@ -26,6 +27,7 @@ class Account:
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
+        self._refusals = RefusalLog()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, and note what became of it."""
@@ -79,14 +81,19 @@ class Account:
         metrics.requests.labels(route, method, status).inc()
         metrics.seconds.labels(route).observe(seconds)
         metrics.observe(timing)
+        address = address_of(scope)
+        key, request_id = scope["state"].get("key"), scope["state"]["request_id"]
+        if status in TOLD:
+            self._refusals.tell(status, method, route, address, key, request_id)
         logger.info(
             "%s %s %s",
             method,
             route,
             status,
             extra={
-                "request_id": scope["state"]["request_id"],
-                "key": scope["state"].get("key"),
+                "request_id": request_id,
+                "key": key,
+                "client": address,
                 "milliseconds": round(1e3 * seconds, 2),
                 "stages": {stage: round(1e3 * spent, 2) for stage, spent in timing.items()},
             },

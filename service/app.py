@@ -11,6 +11,7 @@ from service import openapi, problems
 from service.account import Account
 from service.head import Head
 from service.limits import BodyLimit
+from service.origins import OriginGuard
 from service.routes import (
     align,
     describe,
@@ -83,6 +84,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
             allow_headers=["*"],
             expose_headers=EXPOSED_HEADERS,
         )
+    app.add_middleware(OriginGuard, settings=settings)
     app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)

@@ -56,3 +56,7 @@ class HealthResponse(BaseModel):
     """That the service is there."""
 
     status: Literal["alive", "ready"]
+    warnings: list[str] | None = Field(
+        default=None,
+        description="What somebody should look at though the service works; not there: none.",
+    )

@@ -1,7 +1,9 @@
 """Keys: who may read, and who may write, which maps.
 
 A file names each key by its SHA-256; the key itself is shown once, when it is made. The file is
-looked at again when it has changed.
+looked at again when it has changed. While it cannot be read, a key works on if its hash still
+stands in the file; any other key works for a minute more, as a file that is being edited may be
+incomplete for a moment.
 
     [robot-7]
     sha256 = "9f86d081884c7d65..."
@@ -13,12 +15,14 @@ looked at again when it has changed.
 import hashlib
 import hmac
 import logging
+import re
 import secrets
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
+from time import monotonic
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
@@ -26,6 +30,9 @@ from service.problems import Problem
 
 PREFIX = "placecell_"
 """Of a key, so that whoever finds one knows what it opens."""
+
+GRACE_SECONDS = 60.0
+"""That a key works after it has gone from a file that cannot be read."""
 
 logger = logging.getLogger("placecell")
 
@@ -99,8 +106,12 @@ KEYS = TypeAdapter(dict[str, Key])
 class Keys:
     """The keys of a file; without a file everyone may do everything."""
 
-    def __init__(self, file: Path | None) -> None:
+    def __init__(self, file: Path | None, clock: Callable[[], float] = monotonic) -> None:
         """Read them.
+
+        Args:
+            file: of the keys.
+            clock: gives seconds that only grow.
 
         Raises:
             ValueError: the file is missing or is no file of keys.
@@ -108,6 +119,9 @@ class Keys:
         self._file = file
         self._mark = _mark(file)
         self._holders = read_keys(file) if file else []
+        self._clock = clock
+        self._bad_since: float | None = None
+        self._standing: frozenset[str] = frozenset()
 
     def __bool__(self) -> bool:
         return self._file is not None
@@ -120,7 +134,7 @@ class Keys:
         """
         if self._file is None:
             return ANYONE
-        self._look_again()
+        self.is_good()
         scheme, _, token = (authorization or "").partition(" ")
         digest = hashlib.sha256(token.strip().encode()).hexdigest()
         found = None
@@ -128,7 +142,7 @@ class Keys:
         for holder in self._holders:
             if hmac.compare_digest(holder.key.sha256, digest):
                 found = holder
-        if found is None or scheme.lower() != "bearer":
+        if found is None or scheme.lower() != "bearer" or not self._works(found):
             raise Problem(
                 401,
                 "unauthorized",
@@ -137,15 +151,38 @@ class Keys:
             )
         return found
 
-    def _look_again(self) -> None:
+    def is_good(self) -> bool:
+        """Look at the file, if it has changed; whether it can be read."""
         mark = _mark(self._file)
-        if mark == self._mark or self._file is None:
-            return
-        try:
-            self._holders = read_keys(self._file)
-        except ValueError as error:
-            logger.error("the keys stay as they were: %s", error)
-        self._mark = mark
+        if self._file is not None and mark != self._mark:
+            try:
+                self._holders = read_keys(self._file)
+            except ValueError as error:
+                if self._bad_since is None:
+                    self._bad_since = self._clock()
+                self._standing = _hashes_in(self._file)
+                logger.error(
+                    "%s; the keys of before work on where their hash still stands in the file, "
+                    "all others for %g s",
+                    error,
+                    GRACE_SECONDS,
+                )
+            else:
+                if self._bad_since is not None:
+                    logger.warning("the file of keys is good again")
+                self._bad_since = None
+            self._mark = mark
+        return self._bad_since is None
+
+    def any_works(self) -> bool:
+        """Whether a request can be let in at all; see `is_good`."""
+        return self._file is None or any(self._works(holder) for holder in self._holders)
+
+    def _works(self, holder: Holder) -> bool:
+        """Whether a key of the last file that was good works still."""
+        if self._bad_since is None or holder.key.sha256 in self._standing:
+            return True
+        return self._clock() - self._bad_since <= GRACE_SECONDS
 
 
 def read_keys(file: Path) -> list[Holder]:
@@ -165,6 +202,16 @@ def read_keys(file: Path) -> list[Holder]:
         where = ".".join(map(str, first["loc"]))
         raise ValueError(f"{file}: {where}: {first['msg']}") from error
     return [Holder(name, key) for name, key in keys.items()]
+
+
+def _hashes_in(file: Path) -> frozenset[str]:
+    """The hashes that stand in a file that is no good, but for its comments."""
+    try:
+        text = file.read_bytes().decode(errors="replace")
+    except OSError:
+        return frozenset()
+    lines = [line.partition("#")[0] for line in text.splitlines()]
+    return frozenset(re.findall(r"[0-9a-f]{64}", "\n".join(lines)))
 
 
 def new_key() -> tuple[str, str]:

@@ -47,6 +47,11 @@ class Metrics:
         self.writes = Counter("placecell_writes", "Changes of maps.", ["operation"], registry=of)
         self.maps = Gauge("placecell_maps", "Maps stored.", registry=of)
         self.map_segments = Gauge("placecell_map_segments", "Segments in all maps.", registry=of)
+        self.keys_file_good = Gauge(
+            "placecell_keys_file_good",
+            "1 if the file of keys can be read, or there is none; 0: see /readyz.",
+            registry=of,
+        )
         self.models = Gauge(
             "placecell_model_info", "Models loaded.", ["model_id", "role"], registry=of
         )

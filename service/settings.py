@@ -240,6 +240,11 @@ class Settings(BaseSettings):
         description="Origins of web pages that may call the service from a browser, as a JSON "
         'list; ["*"]: all.',
     )
+    allowed_hosts: tuple[str, ...] = Field(
+        default=(),
+        description="Without keys: names in Host that are answered beside those of loopback, as a "
+        "JSON list; *.example stands for all below it, * for all.",
+    )
     workers: int = Field(
         default=2, ge=1, description="Requests decoded and searched at once, beside the model."
     )

@@ -138,6 +138,7 @@ def open_state(settings: Settings) -> Iterator[State]:
         changes = Changes(store)
         bounds = Bounds(map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes)
         stack.enter_context(Housekeeper(maps, changes, cache, bounds).working())
+        metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
         lanes = _lanes(settings, metrics)

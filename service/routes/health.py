@@ -12,21 +12,38 @@ from service.state import HolderOf, StateOf
 
 router = APIRouter(tags=["health"])
 
+BAD_KEYS = (
+    "The file of keys is missing or cannot be read, and the log says why. Until it is mended no "
+    "new key works, and keys that it no longer holds are refused after a minute."
+)
 
-@router.get("/livez", summary="The process answers")
+
+@router.get("/livez", summary="The process answers", response_model_exclude_none=True)
 async def livez() -> HealthResponse:
     """Restart the service if this fails."""
     return HealthResponse(status="alive")
 
 
-@router.get("/readyz", summary="The service can work", responses=documented(503))
+@router.get(
+    "/readyz",
+    summary="The service can work",
+    responses=documented(503),
+    response_model_exclude_none=True,
+)
 async def readyz(state: StateOf) -> HealthResponse:
-    """The model and the maps are loaded, and maps can be stored; send no requests if this fails."""
+    """The model and the maps are loaded, and maps can be stored; send no requests if this fails.
+
+    `warnings` tells what works on, but needs somebody: such as a file of keys that is no good.
+    """
     if state.draining:
         raise Problem(503, "not-ready", "The service is about to stop.")
     if not state.maps.writable():
         raise Problem(503, "not-ready", "The data directory is gone or cannot be written.")
-    return HealthResponse(status="ready")
+    if state.keys.is_good():
+        return HealthResponse(status="ready")
+    if not state.keys.any_works():
+        raise Problem(503, "not-ready", f"{BAD_KEYS} No key works any more.")
+    return HealthResponse(status="ready", warnings=[BAD_KEYS])
 
 
 @router.get("/metrics", summary="For Prometheus", response_class=PlainTextResponse)

@@ -14,7 +14,7 @@ from service.timing import STAGES
 
 DEPLOY = Path(__file__).resolve().parents[2] / "deploy"
 DASHBOARD = json.loads((DEPLOY / "dashboard.json").read_text())
-WORDS = {"by", "histogram_quantile", "max", "or", "rate", "sum", "time"}
+WORDS = {"by", "min", "histogram_quantile", "max", "or", "rate", "sum", "time"}
 ADDED_BY_PROMETHEUS = {"up": {"instance"}}
 
 

@@ -16,6 +16,7 @@ from cli import app
 from segments.manifest import Manifest
 from service import keys as keys_module
 from service.keys import new_key, read_keys
+from service.refusals import RefusalLog, address_of
 from service.settings import Settings
 from service.state import StartError, open_state
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
@@ -234,3 +235,131 @@ def test_a_key_s_rights_changed_in_place_are_noticed(start: Any, file: Path) -> 
         file.write_text(file.read_text().replace("admin = true", "admin = false"))
         os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
         assert_problem(service.post("/models/reload", headers=key), 403, "forbidden")
+
+
+def good(service: Any) -> float:
+    """What the metric says of the file."""
+    (line,) = [
+        line for line in service.get("/metrics").text.splitlines()
+        if line.startswith("placecell_keys_file_good")
+    ]  # fmt: skip
+    return float(line.split()[1])
+
+
+@pytest.fixture
+def seconds(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """A clock that keys go by; it stands still until it is set."""
+    now = [100.0]
+    made = keys_module.Keys.__init__
+    monkeypatch.setattr(
+        keys_module.Keys, "__init__", lambda self, file: made(self, file, lambda: now[0])
+    )
+    return now
+
+
+def changed(file: Path, content: str | bytes | None) -> None:
+    """Write the file, or remove it; its times differ from before, however soon it is."""
+    if content is None:
+        file.unlink()
+        return
+    file.write_bytes(content.encode() if isinstance(content, str) else content)
+    later = time.time_ns() + len(content) * 10**9
+    os.utime(file, ns=(later, later))
+
+
+@pytest.mark.parametrize(
+    ("withdraw", "rest_works"),
+    [
+        (lambda text: text.split("\n\n")[1] + "\n[third\n", True),  # a typo elsewhere
+        (lambda text: text.split("\n\n")[1] + "\nrights = 'all'\n", True),  # not a key's
+        (lambda text: text.split("\n\n")[1].encode() + b"# \xff\n", True),
+        (lambda text: "# " + text.replace("\nsha256", "\n#sha256", 1) + "[x\n", True),
+        (lambda text: "[half", False),
+        (lambda _: "\0", False),
+        (lambda _: None, False),  # deleted
+    ],
+)
+def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
+    start: Any, file: Path, seconds: list[float], withdraw: Any, rest_works: bool,
+    caplog: pytest.LogCaptureFixture,
+) -> None:  # fmt: skip
+    first, second = made(file, "first"), made(file, "second")
+    before = file.read_text()
+    with start(keys_file=file) as service:
+        assert service.get("/readyz").json() == {"status": "ready"}
+        assert good(service) == 1
+        changed(file, withdraw(before))
+        # It is told by whoever asks, before any key is used; and robots go on.
+        told = service.get("/readyz")
+        assert told.status_code == 200
+        assert "file of keys" in told.json()["warnings"][0]
+        assert str(file) not in told.text
+        assert good(service) == 0
+        assert any(one.levelname == "ERROR" and str(file) in one.message for one in caplog.records)
+        for headers in (first, second):
+            assert service.get("/info", headers=headers).status_code == 200
+        seconds[0] += 61
+        assert_problem(service.get("/info", headers=first), 401, "unauthorized")
+        expected = 200 if rest_works else 401
+        assert service.get("/info", headers=second).status_code == expected
+        if rest_works:
+            assert service.get("/readyz").json()["warnings"]
+        else:
+            assert_problem(service.get("/readyz"), 503, "not-ready", "No key works")
+        changed(file, before)
+        assert service.get("/readyz").json() == {"status": "ready"}
+        assert good(service) == 1
+        for headers in (first, second):
+            assert service.get("/info", headers=headers).status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status"),
+    [("GET", "/maps", 401), ("GET", "/maps/hall", 403), ("DELETE", "/maps/yard", 403)],
+)
+def test_A21_a_refusal_leaves_a_warning_with_the_address(
+    start: Any, file: Path, method: str, path: str, status: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    reads = made(file, "reader", "--map", "yard")
+    with start(keys_file=file) as service:
+        headers = {} if status == 401 else reads
+        response = service.request(method, path, headers=headers)
+        assert response.status_code == status
+        (line,) = [one for one in caplog.records if one.name == "placecell.refusals"]
+        assert line.levelno == logging.WARNING
+        assert f"{status} " in line.message
+        assert "from 'testclient'" in line.message
+        assert ("key unknown" if status == 401 else "key reader") in line.message
+        assert vars(line)["client"] == "'testclient'"
+        assert vars(line)["request_id"] == response.headers["x-request-id"]
+        service.get("/info", headers=reads)
+        assert len([one for one in caplog.records if one.name == "placecell.refusals"]) == 1
+
+
+def test_A21_the_request_log_has_the_client_s_address(
+    service: Any, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO, "placecell.requests")
+    service.get("/info")
+    (line,) = [one for one in caplog.records if one.name == "placecell.requests"]
+    assert vars(line)["client"] == "'testclient'"
+    assert address_of({"client": ("10.0.0.5", 4711)}) == "10.0.0.5"
+    assert address_of({"client": ("::1", 4711)}) == "::1"
+    assert "\n" not in address_of({"client": ("x\nERROR forged " + "y" * 999, 1)})
+    assert len(address_of({"client": ("y" * 999, 1)})) < 60
+    assert address_of({"client": None}) == "a local socket"
+
+
+def test_A21_refusals_cannot_flood_the_log(caplog: pytest.LogCaptureFixture) -> None:
+    now = [0.0]
+    log = RefusalLog(lambda: now[0])
+    for number in range(5_000):
+        log.tell(401, "GET", "/maps", "10.0.0.5", None, "id")
+        log.tell(429, "GET", "/maps", f"10.1.{number // 250}.{number % 250}", "ann", "id")
+    assert len(caplog.records) == 100
+    assert sum("10.0.0.5" in one.message for one in caplog.records) == 10
+    now[0] += 61
+    log.tell(403, "GET", "/maps", "10.0.0.5", "ann", "id")
+    assert "9900 further requests" in caplog.records[-2].message
+    assert "403 Forbidden: GET /maps from 10.0.0.5, key ann" in caplog.records[-1].message
+    assert len(log._lines) == 1

@@ -172,11 +172,13 @@ def test_bad_input_over_a_real_socket(models_dir: Path, data_dir: Path, manifest
         assert peak_memory(process) - before < 60_000_000
 
         for path in ("/maps/..", "/maps/../../etc/passwd", "/maps/..%2f..%2fetc%2fpasswd"):
-            head = f"DELETE {path} HTTP/1.1\nHost: x\nConnection: close\n\n"
+            head = f"DELETE {path} HTTP/1.1\nHost: localhost\nConnection: close\n\n"
             status, answer = raw_request(address, head)
             assert status in {404, 405, 422}
             assert PROBLEM in answer
-        head = "POST /describe HTTP/1.1\nHost: x\nContent-Length: 999\nConnection: close\n\n"
+        head = (
+            "POST /describe HTTP/1.1\nHost: localhost\nContent-Length: 999\nConnection: close\n\n"
+        )
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=60) as connection:
             connection.sendall(head.replace("\n", "\r\n").encode() + b'{"segments"')
@@ -248,7 +250,7 @@ def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) 
             assert status == 400
             assert PROBLEM in answer
             assert "invalid-http" in answer
-        huge = "GET /livez HTTP/1.1\nHost: x\nX-Huge: " + "a" * 200_000 + "\n\n"
+        huge = "GET /livez HTTP/1.1\nHost: localhost\nX-Huge: " + "a" * 200_000 + "\n\n"
         status, answer = raw_request(address, huge)
         assert status == 431
         assert PROBLEM in answer
@@ -258,7 +260,9 @@ def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) 
 def test_sigterm_drains(models_dir: Path, data_dir: Path) -> None:
     """First it is not ready, but answers; what is in flight is answered; then it ends."""
     body = b'{"model_id": "m", "codes": [[1]]}'
-    head = f"POST /match HTTP/1.1\r\nHost: x\r\nContent-Length: {len(body)}\r\n\r\n".encode()
+    head = (
+        f"POST /match HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n\r\n".encode()
+    )
     with running(models_dir, data_dir) as (process, address):
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=60) as connection:
@@ -299,7 +303,7 @@ def test_a_service_with_keys_may_listen_to_all(
 def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -> None:
     with running(models_dir, data_dir) as (_, address):
         host, port = address.removeprefix("http://").split(":")
-        heads = (b"", b"GET /livez HT", b"POST /describe HTTP/1.1\r\nHost: x\r\n")
+        heads = (b"", b"GET /livez HT", b"POST /describe HTTP/1.1\r\nHost: localhost\r\n")
         connections = [socket.create_connection((host, int(port)), timeout=30) for _ in heads]
         for connection, head in zip(connections, heads, strict=True):
             connection.sendall(head)
@@ -308,7 +312,7 @@ def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -
                 assert connection.recv(1000) == b""
         # Refused before its body has come, a client may not go on for ever.
         with socket.create_connection((host, int(port)), timeout=30) as connection:
-            head = b"POST /describe HTTP/1.1\r\nHost: x\r\nContent-Type: text/plain\r\n"
+            head = b"POST /describe HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/plain\r\n"
             connection.sendall(head + b"Content-Length: 99\r\n\r\n")
             answer = b""
             with suppress(ConnectionResetError):
@@ -324,7 +328,7 @@ def test_a_bad_chunk_after_the_answer_ends_the_connection(models_dir: Path, data
     with running(models_dir, data_dir) as (_, address):
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=30) as connection:
-            head = b"POST /describe HTTP/1.1\r\nHost: x\r\nContent-Type: text/plain\r\n"
+            head = b"POST /describe HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/plain\r\n"
             connection.sendall(head + b"Transfer-Encoding: chunked\r\n\r\n")
             assert connection.recv(65536).startswith(b"HTTP/1.1 415")
             connection.sendall(b"zz\r\n")
@@ -338,7 +342,9 @@ def test_a_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None
     with running(models_dir, data_dir) as (process, address):
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=60) as connection:
-            connection.sendall(b"PUT /maps/a HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\nx")
+            connection.sendall(
+                b"PUT /maps/a HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nx"
+            )
             assert httpx.get(f"{address}/livez").status_code == 200
             process.send_signal(signal.SIGTERM)
             time.sleep(0.2)
