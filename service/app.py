@@ -7,7 +7,7 @@ from importlib import metadata
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
-from service import openapi, problems
+from service import docs_pages, openapi, problems
 from service.account import Account
 from service.head import Head
 from service.limits import BodyLimit
@@ -45,6 +45,9 @@ Send the segments of a scan, get their descriptors, the segments of stored maps 
 or the robot's place in a map. Coordinates are metres in a z-up frame. `/describe`, `/match` and
 `/localize` speak JSON and, with the same meaning and arrays as blobs, `application/msgpack`. Every
 error is `application/problem+json` (RFC 9457).
+
+Routes with a lock need `Authorization: Bearer KEY` where the service has keys; all others, and this
+description, need none.
 """
 
 
@@ -72,8 +75,12 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         description=DESCRIPTION,
         lifespan=lifespan,
         redirect_slashes=False,  # they would lead to whatever host the request names
-        root_path=settings.root_path,
+        openapi_url="/openapi.json" if settings.docs else None,
+        docs_url=None,
+        redoc_url=None,
     )
+    # As an argument it is deprecated, for it is the server's; but any server will do.
+    app.root_path = settings.root_path
     app.add_middleware(BodyLimit, limits=settings.limits)
     app.add_middleware(Head)
     if settings.cors_origins:
@@ -88,6 +95,8 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     app.add_middleware(Account)
     problems.install(app)
     openapi.install(app)
+    if settings.docs:
+        docs_pages.install(app)
     for module in (describe, match, localize, maps, segments, versions, align, models, health):
         app.include_router(module.router)
     return app

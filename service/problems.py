@@ -194,7 +194,8 @@ def _disk_full() -> Problem:
 def _explain(request: Request, error: HTTPException) -> str:
     path = request.url.path
     if error.status_code == 404:
-        return f"No such path: {path!r:.200}. GET /docs lists all; a map's name holds no slash."
+        where = " GET /docs lists all." if request.app.openapi_url else ""
+        return f"No such path: {path!r:.200}.{where} A map's name holds no slash."
     if error.status_code == 405:
         return f"{request.method} is not possible on {path!r:.200}."
     return str(error.detail)

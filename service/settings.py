@@ -245,6 +245,9 @@ class Settings(BaseSettings):
         description="Without keys: names in Host that are answered beside those of loopback, as a "
         "JSON list; *.example stands for all below it, * for all.",
     )
+    docs: bool = Field(
+        default=True, description="Serve the API's description: /docs, /redoc and /openapi.json."
+    )
     workers: int = Field(
         default=2, ge=1, description="Requests decoded and searched at once, beside the model."
     )

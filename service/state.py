@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, ParamSpec, TypeVar
 
 from fastapi import Depends, Header, Request
+from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from segments.manifest import ModelError
 from service.admission import Lane, admitted
@@ -193,8 +194,19 @@ async def state_of(request: Request) -> State:
     return state
 
 
-async def holder_of(request: Request) -> Holder:
+BEARER = HTTPBearer(
+    auto_error=False,
+    description="A key, made with `placecell keys`. A service without keys needs none.",
+)
+"""For the API's description; the header is read by `Keys`."""
+
+
+async def holder_of(
+    request: Request,
+    bearer: Annotated[HTTPAuthorizationCredentials | None, Depends(BEARER)] = None,
+) -> Holder:
     """Who sent the request; 401 if their key is not known."""
+    del bearer  # described, not used
     state = await state_of(request)
     holder = state.keys.holder(request.headers.get("authorization"))
     request.scope["state"]["key"] = holder.name
