@@ -5,12 +5,15 @@ segments of the same scan are counted in rings about its centroid, by height abo
 are averaged out, so that robots need not agree on where north is, nor come from the same side.
 """
 
+import secrets
+
 import numpy as np
 
+from segments.cancellation import current, is_cancelled
 from segments.jit import compiled
 from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.segments import Segments
-from segments.types import Float32, Float64, Int64
+from segments.types import Float32, Float64, Int32, Int64, UInt64
 
 SECTORS = 16
 
@@ -18,6 +21,18 @@ TAN_22_5 = np.tan(np.pi / 8)
 
 CELLS = 1 << 13
 """Voxels along an edge of a segment's box, at most."""
+
+SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
+"""Of the hash tables of voxels, new in each process: nobody can choose points that collide."""
+
+STRIP = 5.0
+"""Edge in meters of the cells in which near voxels are looked up."""
+
+STRIPS = 1 << 20
+"""Cells from the middle to either side, at most; what lies beyond shares the last one."""
+
+BLOCK = 1024
+"""Voxels that are counted together: their intermediate values stay in the nearest cache."""
 
 
 def describe_surroundings(
@@ -44,12 +59,21 @@ def describe_surroundings(
         some = segments.take(together)
         voxels, owners = voxels_by_owner(some, parameters.voxel)
         counted = np.zeros((len(some), *parameters.shape), dtype=np.float32)
-        _count(
-            *(voxels, owners, some.centroids()),
-            *(parameters.ring_of_metre(), np.array(parameters.heights), counted),
-        )
+        count_voxels(voxels, owners, some.centroids(), parameters, counted)
         found[together] = counted
     return found.reshape(len(segments), parameters.size)
+
+
+@compiled
+def slot_of(key: int, seed: UInt64, slots: int) -> np.int64:
+    """Return a key's slot in a hash table, below a power of two that is at most 2**31.
+
+    The finalizer of MurmurHash3 (Appleby) behind a secret affine step.
+    """
+    mixed = (np.uint64(key) + seed[0]) * seed[1]
+    mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xFF51AFD7ED558CCD)
+    mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xC4CEB9FE1A85EC53)
+    return np.int64(mixed >> np.uint64(33)) & (slots - 1)
 
 
 def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
@@ -61,24 +85,39 @@ def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
     Args:
         voxel: edge, metres.
 
+    Raises:
+        Cancelled: nobody waits for it any longer.
+
     Returns:
         points, float64 (n, 3); and of each the segment that it belongs to, int64 (n,).
     """
     means = np.zeros((len(segments.points), 3))
     owners = np.zeros(len(segments.points), dtype=np.int64)
     sizes = np.zeros(1, dtype=np.int64)
-    _merge(segments.points, segments.ends, np.float32(voxel), means, owners, sizes)
+    token = current()
+    _merge(
+        segments.points, segments.ends, np.float32(voxel), SEED, token.flag, means, owners, sizes
+    )
+    token.check()
     return means[: sizes[0]], owners[: sizes[0]]
 
 
 @compiled
 def _merge(
-    points: Float32, ends: Int64, voxel: np.float32, means: Float64, owners: Int64, sizes: Int64
+    points: Float32,
+    ends: Int64,
+    voxel: np.float32,
+    seed: UInt64,
+    flag: Int32,
+    means: Float64,
+    owners: Int64,
+    sizes: Int64,
 ) -> None:
     """Fill means and owners, and tell how many there are.
 
     Voxels are told apart by a hash table of each segment (linear probing; Knuth, The Art of
-    Computer Programming, 6.4): sorting all points takes twice the time.
+    Computer Programming, 6.4): sorting all points takes twice the time. The hash is seeded; voxels
+    are numbered in the order of their first points, so the seed makes no difference.
     """
     longest, start = 1, 0
     for end in ends:
@@ -91,6 +130,8 @@ def _merge(
     counts = np.zeros(len(points), dtype=np.int64)
     found = start = 0
     for segment in range(len(ends)):
+        if is_cancelled(flag):
+            return
         slots = 1
         while slots < 2 * (ends[segment] - start):
             slots *= 2
@@ -110,7 +151,7 @@ def _merge(
                 # No segment is thousands of metres long; what lies beyond shares the last cell.
                 # As it stands, so that a coordinate that is no number is in the first.
                 key = key * CELLS + (min(int(min(cell, CELLS)), CELLS - 1) if cell > 0 else 0)
-            slot = (key ^ (key >> 13) * 7 ^ (key >> 26) * 31) & (slots - 1)
+            slot = slot_of(key, seed, slots)
             while table[slot] >= 0 and keys[slot] != key:
                 slot = (slot + 1) & (slots - 1)
             if table[slot] < 0:
@@ -123,52 +164,157 @@ def _merge(
                 means[place, axis] += points[point, axis]
         start = ends[segment]
     for place in range(found):
-        for axis in range(3):
-            means[place, axis] /= counts[place]
+        means[place] /= counts[place]
     sizes[0] = found
+
+
+def count_voxels(
+    voxels: Float64,
+    owners: Int64,
+    centroids: Float64,
+    parameters: SurroundingsParameters,
+    found: Float32,
+) -> None:
+    """Fill found, (segments, rings, layers), from the voxels about each segment.
+
+    Args:
+        voxels: float64 (n, 3), those of a segment one after the other.
+        owners: int64 (n,), ascending: the segment that each belongs to.
+        centroids: float64 (segments, 3).
+
+    Raises:
+        Cancelled: nobody waits for it any longer.
+    """
+    rings = parameters.ring_of_metre()
+    reach = len(rings)
+    # A last ring, which nobody reads, takes what is out of reach.
+    rings = np.append(rings, len(parameters.rings))
+    bounds = np.searchsorted(owners, np.arange(len(centroids) + 1))
+    # A coordinate that is no number is out of reach.
+    usable = np.flatnonzero(np.isfinite(voxels[:, :2]).all(axis=1))
+    keys = _cell_of(voxels[usable, 1]) * (4 * STRIPS) + _cell_of(voxels[usable, 0])
+    order = np.argsort(keys, kind="stable")
+    near_x, near_y, near_z = (np.ascontiguousarray(column) for column in voxels[usable[order]].T)
+    own_x, own_y, own_z = (np.ascontiguousarray(column) for column in voxels.T)
+    lows, highs = _cell_of(centroids[:, :2] - reach), _cell_of(centroids[:, :2] + reach)
+    logarithms = np.log1p(np.arange(len(voxels) + 1))
+    limits = np.array(parameters.heights, dtype=np.float64)
+    token = current()
+    _count(
+        near_x, near_y, near_z, keys[order], own_x, own_y, own_z, bounds, lows, highs, centroids,
+        rings, limits, logarithms, token.flag, found,
+    )  # fmt: skip
+    token.check()
+
+
+def _cell_of(coordinates: Float64) -> Int64:
+    """Number of the cell along an axis, from 0 on; no number is in the first."""
+    cells = np.nan_to_num(np.floor(coordinates / STRIP), nan=-np.inf)
+    return cells.clip(-STRIPS, STRIPS).astype(np.int64) + STRIPS
 
 
 @compiled
 def _count(
-    voxels: Float64,
-    owners: Int64,
+    xs: Float64,
+    ys: Float64,
+    zs: Float64,
+    keys: Int64,
+    own_xs: Float64,
+    own_ys: Float64,
+    own_zs: Float64,
+    bounds: Int64,
+    lows: Int64,
+    highs: Int64,
     centroids: Float64,
-    ring_of_metre: Int64,
-    heights: Float64,
+    rings: Int64,
+    limits: Float64,
+    logarithms: Float64,
+    flag: Int32,
     found: Float32,
 ) -> None:
-    """Fill found, (segments, rings, layers): the ring by whole metres, the layer by upper limit."""
-    reach = len(ring_of_metre)
-    squared_reach = float(reach * reach)
-    counts = np.zeros((found.shape[1], found.shape[2], SECTORS), dtype=np.int64)
-    logarithms = np.log1p(np.arange(len(voxels) + 1))
+    """Fill found; all voxels are in the order of their cells, and, once more, of their owners.
+
+    A segment's own voxels are counted with the others and taken out again: counts are whole
+    numbers, so nothing is left of them.
+    """
+    row = 4 * STRIPS
+    counts = np.zeros((found.shape[1] + 1, found.shape[2], SECTORS), dtype=np.int64)
+    flat = counts.reshape(-1)
+    metres = np.empty(BLOCK, dtype=np.int64)
+    layers = np.empty(BLOCK, dtype=np.int64)
+    sectors = np.empty(BLOCK, dtype=np.int64)
     for segment in range(len(centroids)):
+        x, y, z = centroids[segment, 0], centroids[segment, 1], centroids[segment, 2]
+        if not (np.isfinite(x) and np.isfinite(y)):
+            continue
         counts[:] = 0
-        for voxel in range(len(voxels)):
-            if owners[voxel] == segment:
-                continue
-            x = abs(voxels[voxel, 0] - centroids[segment, 0])
-            y = abs(voxels[voxel, 1] - centroids[segment, 1])
-            squared = x * x + y * y
-            # As it stands, so that a coordinate that is no number is out of reach.
-            if not squared < squared_reach:
-                continue
-            height = voxels[voxel, 2] - centroids[segment, 2]
-            layer = 0
-            for limit in heights:  # all of them: no branch to be guessed
-                layer += int(height >= limit)
-            # A quarter of the compass, and which quarter of that.
-            sector = int(y > TAN_22_5 * x) + int(y > x) + int(x < TAN_22_5 * y)
-            if voxels[voxel, 0] < centroids[segment, 0]:
-                sector += 4
-            if voxels[voxel, 1] < centroids[segment, 1]:
-                sector += 8
-            # The root of what is just short of the reach may round up to it.
-            metre = min(int(np.sqrt(squared)), reach - 1)
-            counts[ring_of_metre[metre], layer, sector] += 1
-        for ring in range(counts.shape[0]):
-            for layer in range(counts.shape[1]):
+        for strip in range(lows[segment, 1], highs[segment, 1] + 1):
+            begin = np.searchsorted(keys, strip * row + lows[segment, 0])
+            end = np.searchsorted(keys, strip * row + highs[segment, 0], side="right")
+            for first in range(begin, end, BLOCK):
+                if is_cancelled(flag):
+                    return
+                last = min(first + BLOCK, end)
+                _place(
+                    xs[first:last], ys[first:last], zs[first:last], x, y, z,
+                    len(rings) - 1, limits, metres, layers, sectors,
+                )  # fmt: skip
+                for place in range(last - first):
+                    ring = rings[metres[place]]
+                    flat[(ring * found.shape[2] + layers[place]) * SECTORS + sectors[place]] += 1
+        for first in range(bounds[segment], bounds[segment + 1], BLOCK):
+            last = min(first + BLOCK, bounds[segment + 1])
+            _place(
+                own_xs[first:last], own_ys[first:last], own_zs[first:last], x, y, z,
+                len(rings) - 1, limits, metres, layers, sectors,
+            )  # fmt: skip
+            for place in range(last - first):
+                ring = rings[metres[place]]
+                flat[(ring * found.shape[2] + layers[place]) * SECTORS + sectors[place]] -= 1
+        for ring in range(found.shape[1]):
+            for layer in range(found.shape[2]):
                 total = 0.0
                 for sector in range(SECTORS):
                     total += logarithms[counts[ring, layer, sector]]
                 found[segment, ring, layer] = total / SECTORS
+
+
+@compiled
+def _place(
+    xs: Float64,
+    ys: Float64,
+    zs: Float64,
+    x: float,
+    y: float,
+    z: float,
+    reach: int,
+    limits: Float64,
+    metres: Int64,
+    layers: Int64,
+    sectors: Int64,
+) -> None:
+    """Fill whole meters from a centroid (reach: too far), layer and sector of a block of voxels.
+
+    Each loop does one thing without a branch, so that several voxels go through at once.
+    """
+    squared_reach = float(reach * reach)
+    for place in range(len(xs)):
+        dx = abs(xs[place] - x)
+        dy = abs(ys[place] - y)
+        squared = dx * dx + dy * dy
+        # As it stands, so that a coordinate that is no number is out of reach.
+        is_near = squared < squared_reach
+        # The root of what is just short of the reach may round up to it.
+        metre = min(int(np.sqrt(squared if is_near else 0.0)), reach - 1)
+        metres[place] = metre if is_near else reach
+    for place in range(len(xs)):
+        dx = abs(xs[place] - x)
+        dy = abs(ys[place] - y)
+        # A quarter of the compass, and which quarter of that.
+        quarter = int(dy > TAN_22_5 * dx) + int(dy > dx) + int(dx < TAN_22_5 * dy)
+        sectors[place] = quarter + 4 * int(xs[place] < x) + 8 * int(ys[place] < y)
+    for place in range(len(xs)):
+        layers[place] = 0
+    for limit in limits:
+        for place in range(len(xs)):
+            layers[place] += int(zs[place] - z >= limit)

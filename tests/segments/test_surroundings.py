@@ -1,11 +1,21 @@
 """What stands around a segment: counted by hand, and what it does not depend on."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
+from segments.cancellation import Cancelled, CancelToken, cancelled_by
 from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from segments.segments import Segments
-from segments.surroundings import describe_surroundings, voxels_by_owner
+from segments.surroundings import (
+    SEED,
+    count_voxels,
+    describe_surroundings,
+    slot_of,
+    voxels_by_owner,
+)
 
 TWO_RINGS = SurroundingsParameters(voxel=1.0, rings=(2, 5), heights=(0.0,))
 
@@ -125,3 +135,121 @@ def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
         describe_surroundings(lone, parameters=reach)
     with pytest.raises(ValueError, match="16"):
         SurroundingsParameters(sectors=8)
+
+
+def all_pairs(segments: Segments, parameters: SurroundingsParameters) -> np.ndarray:
+    """The same by the plainest way: each voxel held against each centroid."""
+    voxels, owners = voxels_by_owner(segments, parameters.voxel)
+    rings, reach = parameters.ring_of_metre(), parameters.rings[-1]
+    logarithms = np.log1p(np.arange(len(voxels) + 1))
+    found = np.zeros((len(segments), *parameters.shape), dtype=np.float32)
+    for segment, centroid in enumerate(segments.centroids()):
+        with np.errstate(invalid="ignore", over="ignore"):
+            away = voxels - centroid
+            x, y = np.abs(away[:, 0]), np.abs(away[:, 1])
+            squared = x * x + y * y
+            near = (owners != segment) & (squared < reach * reach)
+            layers = (away[:, 2][:, None] >= np.array(parameters.heights)).sum(axis=1)
+            sectors = (y > np.tan(np.pi / 8) * x) + 0 + (y > x) + (x < np.tan(np.pi / 8) * y)
+            sectors += 4 * (voxels[:, 0] < centroid[0]) + 8 * (voxels[:, 1] < centroid[1])
+        metres = np.minimum(np.sqrt(squared[near]).astype(int), reach - 1)
+        counts = np.zeros((*parameters.shape, 16), dtype=np.int64)
+        np.add.at(counts, (rings[metres], layers[near], sectors[near]), 1)
+        total = np.zeros(parameters.shape)
+        for sector in range(16):
+            total = total + logarithms[counts[:, :, sector]]
+        found[segment] = total / 16
+    return found.reshape(len(segments), parameters.size)
+
+
+def odd() -> Segments:
+    segments = street(seed=5)
+    segments.points[::17, 0] = np.nan
+    segments.points[5::29, 2] = np.inf
+    segments.points[7::31, 1] = 1e30
+    return segments
+
+
+def on_a_grid() -> Segments:
+    segments = street(seed=6, count=40)
+    points = (np.round(segments.points * 2) / 2).astype(np.float32)
+    return Segments(points, segments.ends, segments.sensors)
+
+
+@pytest.mark.parametrize(
+    "segments",
+    [
+        pytest.param(street(count=60), id="street"),
+        pytest.param(on_a_grid(), id="grid"),
+        pytest.param(scene([each * 0 for each in np.split(street().points, 12)]), id="one-spot"),
+        pytest.param(scene(list(np.split(street().points * 60, 12))), id="beyond-reach"),
+        pytest.param(scene(list(np.split(street().points + 1e6, 12))), id="far-from-the-origin"),
+        pytest.param(odd(), id="no-numbers"),
+    ],
+)
+def test_A4_cells_give_what_all_pairs_give_bit_for_bit(segments: Segments) -> None:
+    for parameters in (SURROUNDINGS_V1, TWO_RINGS):
+        found = describe_surroundings(segments, parameters=parameters)
+        assert found.tobytes() == all_pairs(segments, parameters).tobytes()
+
+
+def colliding(count: int) -> np.ndarray:
+    """Voxels, (count, 3), that the hash of before, without a seed, put into one slot."""
+    slots = 1
+    while slots < 2 * count:
+        slots *= 2
+    y, x = np.meshgrid(np.arange(2048), np.arange(64))
+    upper = (x.ravel() << 13) + y.ravel()
+    lower = ((upper * 7) ^ ((upper >> 13) * 31)) & (slots - 1)
+    # Of the slot's bits, z fills the lowest 13; the others are those of the key's upper part.
+    rest = (lower >> 13) ^ (upper & ((slots - 1) >> 13))
+    fits = np.flatnonzero(rest == 0)[:count]
+    return np.stack([x.ravel()[fits], y.ravel()[fits], lower[fits] & 8191], axis=1)
+
+
+def test_A4_crafted_voxels_do_not_collide() -> None:
+    cells = colliding(10_000)
+    keys = (cells[:, 0] << 26) + (cells[:, 1] << 13) + cells[:, 2]
+    slots = 32_768
+    before = (keys ^ (keys >> 13) * 7 ^ (keys >> 26) * 31) & (slots - 1)
+    assert len(keys) == 10_000
+    assert len(np.unique(before)) == 1  # they are crafted rightly
+    now = np.array([slot_of(key, SEED, slots) for key in keys.tolist()])
+    assert np.bincount(now).max() < 12
+    other = np.array([slot_of(key, SEED + np.uint64(2), slots) for key in keys.tolist()])
+    assert (now != other).mean() > 0.9
+
+
+def test_A4_seed_makes_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
+    segments = street(seed=9)
+    before = describe_surroundings(segments)
+    voxels, owners = voxels_by_owner(segments, 0.6)
+    monkeypatch.setattr("segments.surroundings.SEED", SEED + np.uint64(12_346))
+    again, owners_again = voxels_by_owner(segments, 0.6)
+    assert describe_surroundings(segments).tobytes() == before.tobytes()
+    assert again.tobytes() == voxels.tobytes()
+    assert owners_again.tolist() == owners.tolist()
+
+
+def test_A4_seed_is_of_the_process() -> None:
+    command = "from segments.surroundings import SEED; print(SEED.tolist())"
+    seeds = {
+        subprocess.run(
+            [sys.executable, "-c", command], check=True, capture_output=True, text=True
+        ).stdout
+        for _ in range(2)
+    }
+    assert len(seeds) == 2
+
+
+def test_A4_cancelled_work_stops() -> None:
+    segments = street()
+    voxels, owners = voxels_by_owner(segments, 0.6)
+    counted = np.zeros((len(segments), *SURROUNDINGS_V1.shape), dtype=np.float32)
+    with cancelled_by(CancelToken()) as token:
+        token.cancel()
+        with pytest.raises(Cancelled):
+            voxels_by_owner(segments, 0.6)
+        with pytest.raises(Cancelled):
+            count_voxels(voxels, owners, segments.centroids(), SURROUNDINGS_V1, counted)
+    assert not counted.any()  # it did not go on to the end
