@@ -6,18 +6,21 @@ another side or of more of the thing: kept, up to a number, for whoever comes th
 (`docs/maps.md` shows what that gains).
 """
 
-from collections import Counter
+import secrets
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from placecell_client import CompactMap, Delta
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply, take, with_optional
-from scipy.spatial import KDTree
 
+from segments.cancellation import current, is_cancelled
+from segments.jit import compiled
 from segments.manifest import Manifest
 from segments.quantiser import Quantiser
-from segments.types import Bool, Float64, UInt32
+from segments.types import Bool, Float64, Int8, Int32, Int64, UInt32, UInt64
 
 RADIUS = 0.5
 """Metres between centroids of one thing. Of pairs this near, seen at different times, 85% were
@@ -31,6 +34,17 @@ SAME_STAND = 5.0
 
 VIEWS = 8
 """Of a thing, at most."""
+
+MOST_COMPARED = 1_024
+"""Stored segments that a new one is compared with; of more within the radius, the latest ones."""
+
+MOST_VISITED = 4_096
+"""Stored segments about a new one whose distance and moment are looked at, the latest ones."""
+
+SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
+"""Of the numbers of cells, new in each process."""
+
+NO_VIEWS: Mapping[int, int] = MappingProxyType({})
 
 NONE: UInt32 = np.zeros(0, dtype=np.uint32)
 
@@ -78,8 +92,13 @@ def sighting(
     same_stand: float = SAME_STAND,
     views: int = VIEWS,
     itself: bool = True,
+    compared: Bool | None = None,
+    views_elsewhere: Mapping[int, int] = NO_VIEWS,
 ) -> Sighting:
     """Compare an upload with what is stored about there, and with itself, in the order of time.
+
+    Memory is linear in the segments. So is time, but for a logarithm: a segment is compared with a
+    bounded number of those that were kept (`MOST_COMPARED`, `MOST_VISITED`).
 
     Args:
         upload: segments; those whose id is stored are replaced, whatever they look like.
@@ -90,50 +109,77 @@ def sighting(
         same_stand: metres between sensors up to which two views are the same.
         views: of a thing, at most.
         itself: whether to compare it with itself, too.
+        compared: of each stored segment whether it is compared, bool (stored,); the others count
+            as views of their things. None: all are.
+        views_elsewhere: segments of the map that are not in `stored`, by the thing (`views`) that
+            they are views of.
+
+    Raises:
+        Cancelled: nobody waits for it any longer.
     """
     stored, given = _filled(stored), _filled(upload)
     # Those that replace others come in their turn, so that an upload that is sent again is told
     # the same.
-    known = take(stored, ~np.isin(stored.ids, given.ids))
+    stays = ~np.isin(stored.ids, given.ids)
+    known = take(stored, stays)
+    is_compared = np.ones(len(known), dtype=bool) if compared is None else compared[stays]
     given = take(given, np.lexsort((given.ids, _moments(given))))
     given, replaces = _as_views_of(given, stored)
 
     both = [known, given]
     seen = np.concatenate([_column(each, "seen") for each in both])
-    things = np.concatenate([_column(each, "views") for each in both])
-    moments = np.concatenate([_moments(each) for each in both])
-    stands = np.concatenate([each.frame_positions[each.frame_index] for each in both])
-    levels = same.quantiser.levels(np.concatenate([each.codes for each in both]))
+    names, things = np.unique(
+        np.concatenate([_column(each, "views") for each in both]), return_inverse=True
+    )
+    count = np.bincount(things[: len(known)], minlength=len(names))
+    count += np.array([views_elsewhere.get(name, 0) for name in names.tolist()], dtype=np.int64)
+    centroids = np.concatenate([each.centroids for each in both])
+    cells = cells_of(centroids, radius)
+    keys = np.empty(len(cells), dtype=np.uint64)
+    _number(cells, SEED, keys)
+    distinct, numbers = np.unique(keys, return_inverse=True)
     is_kept = np.arange(len(seen)) < len(known)
-    count = Counter(things[is_kept].tolist())
-    for row, about in enumerate(_neighbours(known, given, radius), start=len(known)):
-        # What was seen at the same moment, by the same sensor, is something else.
-        elsewhen = (moments[about] != moments[row]) | (stands[about] != stands[row]).any(axis=1)
-        comparable = is_kept[about] & elsewhen
-        others = [
-            other
-            for other, good in zip(about, comparable.tolist(), strict=True)
-            if good and (itself or other < len(known))
-        ]
-        if others and not replaces[row - len(known)]:
-            distances = np.linalg.norm(levels[others] - levels[row].astype(np.float32), axis=1)
-            nearest = others[int(distances.argmin())]
-            of_it = [other for other in others if things[other] == things[nearest]]
-            away = np.linalg.norm(stands[of_it] - stands[row], axis=1).min()
-            is_same = distances.min() <= same.steps or away <= same_stand
-            if is_same or count[things[nearest]] >= views:
-                seen[nearest] = max(seen[nearest], seen[row])
-                continue
-            things[row] = things[nearest]
-        is_kept[row] = True
-        count[things[row]] += 1
+    token = current()
+    _compare(
+        centroids,
+        cells,
+        distinct,
+        numbers,
+        SEED,
+        np.concatenate([_moments(each) for each in both]),
+        np.concatenate([each.frame_positions[each.frame_index] for each in both]),
+        same.quantiser.levels(np.concatenate([each.codes for each in both])),
+        is_compared,
+        replaces,
+        itself,
+        (float(radius), float(np.float32(same.steps)), float(same_stand), int(views)),
+        (MOST_COMPARED, MOST_VISITED),
+        token.flag,
+        things,
+        count,
+        seen,
+        is_kept,
+    )
+    token.check()
+    views_of = names[things]
 
     of_known, of_given = slice(len(known)), slice(len(known), None)
     again = seen[of_known] > _column(known, "seen")
     refreshed = take(replace(known, seen=seen[of_known]), again)
-    kept = take(replace(given, seen=seen[of_given], views=things[of_given]), is_kept[of_given])
+    kept = take(replace(given, seen=seen[of_given], views=views_of[of_given]), is_kept[of_given])
     changed = apply(refreshed, Delta(canonical(kept), NONE))
     return Sighting(changed, refreshed.ids, len(given) - len(kept))
+
+
+def count_elsewhere(content: CompactMap, stored: CompactMap) -> dict[int, int]:
+    """Views that a map has of the things of some of its segments, without these, by thing."""
+    here, there = (_column(_filled(each), "views") for each in (stored, content))
+    things, counts = np.unique(here, return_counts=True)
+    if not len(things):
+        return {}
+    places = np.searchsorted(things, there).clip(max=len(things) - 1)
+    every = np.bincount(places[things[places] == there], minlength=len(things))
+    return dict(zip(things.tolist(), (every - counts).tolist(), strict=True))
 
 
 def _filled(content: CompactMap) -> CompactMap:
@@ -164,9 +210,171 @@ def _moments(content: CompactMap) -> Float64:
     return content.frame_times[content.frame_index]
 
 
-def _neighbours(known: CompactMap, given: CompactMap, radius: float) -> list[list[int]]:
-    """For each given segment those near it, known and given."""
-    if not len(given):
-        return []
-    every = KDTree(np.concatenate([known.centroids, given.centroids]))
-    return list(every.query_ball_point(given.centroids, radius))
+def cells_of(centroids: Float64, radius: float) -> Int64:
+    """Cells of a grid, int64 (n, 3); two centroids within the radius are in neighboring ones."""
+    # A little larger than the radius: rounding puts nothing two cells away.
+    cells = np.floor(centroids / (radius * (1 + 1e-6)))
+    return cells.clip(-(2.0**62), 2.0**62).astype(np.int64)
+
+
+@compiled
+def _key(x: int, y: int, z: int, seed: UInt64) -> np.uint64:
+    """Return the number of a cell; that two have the same costs time, and changes nothing."""
+    mixed: np.uint64 = seed[0]
+    for coordinate in (x, y, z):
+        mixed = (mixed + np.uint64(coordinate)) * seed[1]
+        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xFF51AFD7ED558CCD)
+        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xC4CEB9FE1A85EC53)
+        mixed ^= mixed >> np.uint64(33)
+    return mixed
+
+
+@compiled
+def _number(cells: Int64, seed: UInt64, keys: UInt64) -> None:
+    """Fill keys, the number of each cell."""
+    for row in range(len(cells)):
+        keys[row] = _key(cells[row, 0], cells[row, 1], cells[row, 2], seed)
+
+
+@compiled
+def _compare(
+    centroids: Float64,
+    cells: Int64,
+    distinct: UInt64,
+    numbers: Int64,
+    seed: UInt64,
+    moments: Float64,
+    stands: Float64,
+    levels: Int8,
+    is_compared: Bool,
+    replaces: Bool,
+    itself: bool,
+    limits: tuple[float, float, float, int],
+    most: tuple[int, int],
+    flag: Int32,
+    things: Int64,
+    count: Int64,
+    seen: UInt32,
+    is_kept: Bool,
+) -> None:
+    """Decide of each given segment, in order, whether it is kept.
+
+    Rows are the known segments, then the given ones. What is kept stands in a list of its cell,
+    the latest first.
+
+    Args:
+        cells: of each row.
+        distinct: the cells' numbers, ascending.
+        numbers: of each row, the place of its cell's number in `distinct`.
+        limits: radius, steps of the same look, meters of the same stand, views of a thing.
+        most: how many are compared and visited.
+        things, count, seen, is_kept: are filled; `count` by thing.
+    """
+    radius, steps, same_stand, views = limits
+    first_given = len(is_compared)
+    heads = np.full(len(distinct), -1, dtype=np.int64)
+    following = np.empty(len(cells), dtype=np.int64)
+    others = np.empty(most[0], dtype=np.int64)
+    for row in range(first_given):
+        if is_compared[row]:
+            following[row] = heads[numbers[row]]
+            heads[numbers[row]] = row
+    for row in range(first_given, len(cells)):
+        if is_cancelled(flag):
+            return
+        found = 0
+        if not replaces[row - first_given]:
+            found = _comparable(
+                row, centroids, cells, distinct, seed, heads, following, moments, stands,
+                radius, most[1], others,
+            )  # fmt: skip
+        if found:
+            nearest, distance = _most_alike(row, others[:found], levels)
+            thing = things[nearest]
+            away = np.inf
+            for place in range(found):
+                other = others[place]
+                if things[other] == thing:
+                    squared = 0.0
+                    for axis in range(3):
+                        squared += (stands[other, axis] - stands[row, axis]) ** 2
+                    away = min(away, np.sqrt(squared))
+            if distance <= steps or away <= same_stand or count[thing] >= views:
+                seen[nearest] = max(seen[nearest], seen[row])
+                continue
+            things[row] = thing
+        is_kept[row] = True
+        count[things[row]] += 1
+        if itself:
+            following[row] = heads[numbers[row]]
+            heads[numbers[row]] = row
+
+
+@compiled
+def _comparable(
+    row: int,
+    centroids: Float64,
+    cells: Int64,
+    distinct: UInt64,
+    seed: UInt64,
+    heads: Int64,
+    following: Int64,
+    moments: Float64,
+    stands: Float64,
+    radius: float,
+    most_visited: int,
+    others: Int64,
+) -> int:
+    """Fill others with what was kept near a row, and return how many these are.
+
+    What was seen at the same moment, by the same sensor, is something else.
+    """
+    found = visited = 0
+    for cell in range(27):
+        # The row's own cell first: what is nearest is compared where there is too much.
+        step = (cell + 13) % 27
+        key = _key(
+            cells[row, 0] + step // 9 - 1,
+            cells[row, 1] + step // 3 % 3 - 1,
+            cells[row, 2] + step % 3 - 1,
+            seed,
+        )
+        place = np.searchsorted(distinct, key)
+        if place == len(distinct) or distinct[place] != key:
+            continue
+        other = heads[place]
+        while other >= 0:
+            if found == len(others) or visited == most_visited:
+                return found
+            visited += 1
+            squared = 0.0
+            for axis in range(3):
+                squared += (centroids[other, axis] - centroids[row, axis]) ** 2
+            if squared <= radius * radius and (
+                moments[other] != moments[row]
+                or stands[other, 0] != stands[row, 0]
+                or stands[other, 1] != stands[row, 1]
+                or stands[other, 2] != stands[row, 2]
+            ):
+                others[found] = other
+                found += 1
+            other = following[other]
+    return found
+
+
+@compiled
+def _most_alike(row: int, others: Int64, levels: Int8) -> tuple[int, float]:
+    """Return which of the others looks most like a row, of equal ones the first, and how far off.
+
+    Distances are float32, as those of descriptors are; squares of levels are whole numbers.
+    """
+    nearest, least = -1, np.float32(np.inf)
+    for other in others:
+        squared = np.int32(0)
+        for place in range(levels.shape[1]):
+            away = np.int32(levels[other, place]) - np.int32(levels[row, place])
+            squared = np.int32(squared + np.int32(away * away))
+        distance = np.sqrt(np.float32(squared))
+        if distance < least or (distance == least and other < nearest):
+            nearest, least = other, distance
+    return nearest, float(least)

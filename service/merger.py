@@ -12,7 +12,7 @@ from service.living import RADIUS, SameView
 from service.map_store import OutOfIdsError
 from service.merging import Plan, plan_merge
 from service.problems import Problem
-from service.site import ROUNDED, Part, Share, content_of, join, laid_before, site_of
+from service.site import ROUNDED, Part, Share, content_of, join_settled, laid_before, site_of
 from service.stored_map import StoredMap
 from service.writer import Writer, Written, leading_to, out_of_ids
 
@@ -133,12 +133,12 @@ class Merger:
         site = present if present is not None and len(present) else site_of(plan.maps[0])
         first_id = 0 if stored is None else stored.head.next_id
         try:
-            content, found = join(site, parts, first_id, same)
+            content, found = join_settled(site, parts, first_id, same, self.parameters)
             count = sum(share.added for share in found)
             if stored is not None and count and not self.dry_run:
                 reserved = writer.reserve(name, count)
                 if reserved != first_id:  # others have reserved some since
-                    content, found = join(site, parts, reserved, same)
+                    content, found = join_settled(site, parts, reserved, same, self.parameters)
         except MapFileError as error:
             raise Problem(409, "cannot-merge", f"The maps do not go together: {error}.") from error
         except OutOfIdsError as error:

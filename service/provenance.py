@@ -15,23 +15,36 @@ def moments_of(content: CompactMap, rows: Int64) -> Float64:
 def keys_in(content: CompactMap, other: CompactMap) -> Bool:
     """Which segments of one map the other has too, by source and id there, bool (n,)."""
     found = np.zeros(len(content), dtype=bool)
-    for name in content.sources:
-        here, there = of_source(content, name), of_source(other, name)
-        found[here] = np.isin(_source_ids(content)[here], _source_ids(other)[there])
+    (rows, keys), (_, there) = _keys(content, other)
+    found[rows] = np.isin(keys, there)
     return found
 
 
 def shared(one: CompactMap, other: CompactMap) -> tuple[Int64, Int64]:
     """Rows of what both have, by source and id there, int64 (m,) each."""
-    pairs = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
-    for name in set(one.sources) & set(other.sources):
-        here, there = (np.flatnonzero(of_source(each, name)) for each in (one, other))
-        _, rows, places = np.intersect1d(
-            _source_ids(one)[here], _source_ids(other)[there], return_indices=True
+    (rows, keys), (places, there) = _keys(one, other)
+    _, here, away = np.intersect1d(keys, there, return_indices=True)
+    return rows[here], places[away]
+
+
+def _keys(one: CompactMap, other: CompactMap) -> list[tuple[Int64, Int64]]:
+    """Of each map the rows that have a source, and a number for source and id there.
+
+    The same for both maps. Linear in segments and in sources: a map may name 65,535 of these.
+    """
+    numbers: dict[str, int] = {}
+    found = []
+    for content in (one, other):
+        if content.source is None:
+            found.append((np.zeros(0, np.int64), np.zeros(0, np.int64)))
+            continue
+        of_names = np.array(
+            [numbers.setdefault(name, len(numbers)) for name in content.sources], dtype=np.int64
         )
-        pairs.append((here[rows], there[places]))
-    rows, places = (np.concatenate(each) for each in zip(*pairs, strict=True))
-    return rows, places
+        rows = np.flatnonzero(content.source)
+        ids = _source_ids(content)[rows].astype(np.int64)
+        found.append((rows, (of_names[content.source[rows].astype(np.int64) - 1] << 32) + ids))
+    return found
 
 
 def of_source(content: CompactMap, name: str) -> Bool:

@@ -5,22 +5,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from placecell_client import CompactMap, Delta, moved, originated
-from placecell_client.map_edit import apply, empty, take, with_optional
+from placecell_client.map_edit import apply, difference, empty, take, with_optional
 from scipy.spatial.transform import Rotation
 
+from segments.cancellation import current
 from segments.localisation import Pose
 from segments.localisation.registration import register
 from segments.map_alignment import AlignmentParameters
 from segments.types import Int64, UInt32
 from service.aligning import MapSide
 from service.layers import Layers
-from service.living import NONE, RADIUS, SameView, sighting
+from service.living import NONE, RADIUS, SameView, count_elsewhere, sighting
 from service.map_store import IDS, OutOfIdsError
 from service.provenance import keys_in, moments_of, of_source, shared
 from service.stored_map import StoredMap
 
 ROUNDED = 0.02
 """Metres: two centroids that are the same but for their rounding, before a turn and after it."""
+
+ROUNDS = 20
+"""Of joining, at most; two or three are usual."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,10 +139,18 @@ def join(
         added = renumbered(take(laid, ~known), first_id)
         changed, repeats = added, 0
         if same is not None:
-            # Not with what the map itself gave before: it is another's that is left out.
-            there = take(site, ~gone & ~given)
+            # Not with what the map itself gave before: it is another's that is left out. But its
+            # views count, or what had no room in a thing would have it the next time.
+            there = take(site, ~gone)
             about = Layers.of(there).about(added.centroids, RADIUS)
-            seen = sighting(added, about, same, itself=False)
+            seen = sighting(
+                added,
+                about,
+                same,
+                itself=False,
+                compared=~np.isin(about.ids, site.ids[given]),
+                views_elsewhere=count_elsewhere(there, about),
+            )
             changed, repeats = closed_up(seen.changed, first_id), seen.repeats
         first_id += len(added) - repeats
         removed = np.sort(site.ids[gone])
@@ -147,6 +159,47 @@ def join(
             Share(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
         )
     return site, shares
+
+
+def join_settled(
+    site: CompactMap,
+    parts: Sequence[Part],
+    first_id: int,
+    same: SameView | None,
+    parameters: AlignmentParameters,
+) -> tuple[CompactMap, list[Share]]:
+    """The site with the parts in it, such that joining them again changes nothing.
+
+    What one part adds may show a segment of another one from a new side; so the parts are joined
+    until nothing changes, each as the next merge would lay it. The arguments are those of `join`.
+
+    Raises:
+        MapFileError: a part cannot stand in the site.
+        OutOfIdsError: there are too few ids from the first on.
+        Cancelled: nobody waits for it any longer.
+    """
+    token = current()
+    content, shares = join(site, parts, first_id, same)
+    for _ in range(ROUNDS):
+        token.check()
+        laid = [as_laid(content, part, parameters) for part in parts]
+        free = first_id + sum(share.added for share in shares)
+        after, more = join(content, laid, free, same)
+        changed, removed = difference(content, after)
+        if not len(changed) and not len(removed):
+            break
+        content = after
+        shares = [
+            Share(one.added + other.added, one.known, other.repeats, one.removed + other.removed)
+            for one, other in zip(shares, more, strict=True)
+        ]
+    return content, shares
+
+
+def as_laid(site: CompactMap, part: Part, parameters: AlignmentParameters) -> Part:
+    """A part as it lies in a site that it was merged into; as it is if that is unclear."""
+    pose = laid_before(site, part.content, parameters)
+    return part if pose is None else replace(part, pose=pose, slack=ROUNDED)
 
 
 def replaced(

@@ -11,7 +11,7 @@ from placecell_client.map_edit import apply, delta_between, take
 from segments.types import UInt32
 from service.keys import Holder
 from service.layers import Layers, robots_of
-from service.living import NONE, RADIUS, SameView, Sighting, sighting
+from service.living import NONE, RADIUS, VIEWS, SameView, Sighting, sighting
 from service.map_store import OutOfIdsError
 from service.maps import Maps, unknown
 from service.models import Models
@@ -179,7 +179,8 @@ class Writer:
 
     def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
         upload = edit.changed
-        there = layers.about(upload.centroids, RADIUS)
+        # As far as the views of a thing reach, for all of them count.
+        there = layers.about(upload.centroids, VIEWS * RADIUS)
         stored = apply(there, Delta(layers.take(upload.ids), NONE))
         # What the edit removes was not seen again.
         stored = take(stored, ~np.isin(stored.ids, edit.removed))

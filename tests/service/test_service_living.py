@@ -1,5 +1,7 @@
 """Things that are seen again: stored once, from every side that differs."""
 
+import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +11,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.canonical import canonical
-from placecell_client.map_edit import apply, empty, take
+from placecell_client.map_edit import apply, empty, take, with_optional
 
+from segments.cancellation import Cancelled, CancelToken, cancelled_by
 from segments.manifest import Manifest
 from segments.quantiser import Quantiser
-from service.living import NONE, RADIUS, SAME_VIEW, SameView, Sighting, sighting
+from service import living
+from service.living import (
+    NONE,
+    RADIUS,
+    SAME_STAND,
+    SAME_VIEW,
+    VIEWS,
+    SameView,
+    Sighting,
+    sighting,
+)
 from tests.service.service_builders import assert_problem
 from tests.service.test_service_keys import made
 
@@ -259,3 +272,142 @@ def test_a_part_of_a_map_is_enough(manifest: Manifest) -> None:
     whole, part = look(upload, stored), look(upload, near)
     assert encode(whole.changed) == encode(part.changed)
     assert whole.repeats == part.repeats > 0
+
+
+def compared_with_all(
+    upload: CompactMap, stored: CompactMap, same: SameView, itself: bool
+) -> Sighting:
+    """The same by the plainest way: each segment held against all others near it."""
+    stored, given = (with_optional(each, ["views", "seen"]) for each in (stored, upload))
+    known = take(stored, ~np.isin(stored.ids, given.ids))
+    given = take(given, np.lexsort((given.ids, given.frame_times[given.frame_index])))
+    rows = np.searchsorted(stored.ids, given.ids).clip(max=max(len(stored) - 1, 0))
+    replaces = np.zeros(len(given), bool)
+    if len(stored):
+        replaces = stored.ids[rows] == given.ids
+        latest = np.maximum(np.array(stored.seen)[rows], np.array(given.seen))
+        given = replace(
+            given,
+            views=np.where(replaces, np.array(stored.views)[rows], np.array(given.views)),
+            seen=np.where(replaces, latest, np.array(given.seen)),
+        )
+    both = [known, given]
+    seen, things, codes, centroids = (
+        np.concatenate([np.array(getattr(each, name)) for each in both])
+        for name in ("seen", "views", "codes", "centroids")
+    )
+    moments = np.concatenate([each.frame_times[each.frame_index] for each in both])
+    stands = np.concatenate([each.frame_positions[each.frame_index] for each in both])
+    levels = same.quantiser.levels(codes).astype(np.float32)
+    kept = list(range(len(known)))
+    for row in range(len(known), len(seen)):
+        apart = np.linalg.norm(centroids[kept] - centroids[row], axis=1)
+        elsewhen = (moments[kept] != moments[row]) | (stands[kept] != stands[row]).any(axis=1)
+        among = np.array(kept) < (len(seen) if itself else len(known))
+        others = np.array(kept, dtype=int)[(apart <= RADIUS) & elsewhen & among]
+        if len(others) and not replaces[row - len(known)]:
+            distances = np.linalg.norm(levels[others] - levels[row], axis=1)
+            nearest = others[distances.argmin()]
+            of_it = others[things[others] == things[nearest]]
+            away = np.linalg.norm(stands[of_it] - stands[row], axis=1).min()
+            count = np.count_nonzero(things[kept] == things[nearest])
+            if distances.min() <= same.steps or away <= SAME_STAND or count >= VIEWS:
+                seen[nearest] = max(seen[nearest], seen[row])
+                continue
+            things[row] = things[nearest]
+        kept.append(row)
+    again = seen[: len(known)] > np.array(known.seen)
+    refreshed = take(replace(known, seen=seen[: len(known)]), again)
+    rows = np.array(kept[len(known) :], dtype=int)
+    new = take(
+        replace(given, seen=seen[len(known) :], views=things[len(known) :]), rows - len(known)
+    )
+    changed = apply(refreshed, Delta(canonical(new), NONE))
+    return Sighting(changed, refreshed.ids, len(given) - len(new))
+
+
+def scattered(
+    random: np.random.Generator, count: int, extent: float, first_id: int, moments: int
+) -> CompactMap:
+    """Segments about one place, of some moments, seen from a street beside it."""
+    times = np.sort(random.integers(0, moments, count)).astype(float)
+    stands = np.round(random.uniform(-20, 20, (moments, 3))) * (1, 1, 0)
+    return canonical(
+        CompactMap(
+            model_id="m",
+            preprocessing="1",
+            frame="map",
+            codes=random.integers(-40, 40, (count, 8)).astype(np.int8),
+            centroids=random.uniform(-extent, extent, (count, 3)) * (1, 1, 0.2),
+            ids=first_id
+            + np.sort(random.choice(3 * count, count, replace=False)).astype(np.uint32),
+            robots=("a",),
+            robot=np.zeros(count, np.uint16),
+            frame_index=times.astype(np.uint32),
+            frame_times=np.arange(moments, dtype=float),
+            frame_positions=stands,
+            frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (moments, 1)),
+        )
+    )
+
+
+@pytest.mark.parametrize("itself", [True, False])
+@pytest.mark.parametrize("steps", [10.0, 40.0, 110.0])
+@pytest.mark.parametrize(("extent", "moments"), [(0.3, 300), (1.0, 20), (3.0, 2), (15.0, 40)])
+def test_A1_bounded_comparison_gives_what_comparing_all_gives(
+    extent: float, moments: int, steps: float, itself: bool
+) -> None:
+    same = SameView(Quantiser(0.01, 2), steps)
+    for seed in range(4):
+        random = np.random.default_rng(seed)
+        upload = scattered(random, 160, extent, 0, moments)
+        stored = scattered(random, 90, extent, int(random.choice([0, 1000])), moments)
+        found = sighting(upload, stored, same, itself=itself)
+        expected = compared_with_all(upload, stored, same, itself)
+        assert encode(found.changed) == encode(expected.changed)
+        assert found.refreshed.tolist() == expected.refreshed.tolist()
+        assert found.repeats == expected.repeats
+
+
+def peak_bytes(upload: CompactMap) -> int:
+    """Memory that a comparison takes beside its arguments."""
+    nothing, same = take(upload, slice(0)), SameView(Quantiser(0.01), 1.0)
+    sighting(take(upload, slice(3)), nothing, same)
+    tracemalloc.start()
+    sighting(upload, nothing, same)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return peak
+
+
+@pytest.mark.parametrize("moments", [1, 30, 20_000], ids=["one-moment", "some", "all-differ"])
+def test_A1_memory_is_linear_in_the_upload(moments: int) -> None:
+    upload = scattered(np.random.default_rng(0), 20_000, 0.0, 0, moments)
+    # Neighbors listed for each would be 400 million: 3.2 GB.
+    assert peak_bytes(upload) < 1_000 * len(upload)
+
+
+@pytest.mark.parametrize("name", ["MOST_COMPARED", "MOST_VISITED"])
+def test_A1_segment_is_compared_with_the_latest_so_many(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # 60 things of one moment at one spot; what comes a moment later looks as the first of them.
+    upload = scattered(np.random.default_rng(1), 61, 0.0, 0, 2)
+    upload = replace(
+        upload,
+        frame_index=np.array([0] * 60 + [1], np.uint32),
+        codes=np.array([0, *range(1, 60), 0], np.int8)[:, None],
+    )
+    same = SameView(Quantiser(0.01), 0.5)
+    nothing = take(upload, slice(0))
+    for most, repeats in ((60, 1), (59, 0), (0, 0)):
+        monkeypatch.setattr(living, name, most)
+        assert sighting(upload, nothing, same, same_stand=-1.0).repeats == repeats
+
+
+def test_A1_comparison_stops_when_nobody_waits() -> None:
+    upload = scattered(np.random.default_rng(2), 50, 1.0, 0, 50)
+    with cancelled_by(CancelToken()) as token:
+        token.cancel()
+        with pytest.raises(Cancelled):
+            sighting(upload, take(upload, slice(0)), SameView(Quantiser(0.01), 1.0))
