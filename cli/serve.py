@@ -3,14 +3,20 @@
 import gc
 import ipaddress
 import os
+import resource
 import signal
 import socket
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from pydantic import ValidationError
+
+if TYPE_CHECKING:
+    from service.settings import Settings
 
 
 def serve(
@@ -31,6 +37,30 @@ def serve(
     ] = None,
     keys_file: Annotated[
         Path | None, typer.Option(help="TOML file of keys; 'placecell keys' makes them.")
+    ] = None,
+    unix_socket: Annotated[
+        Path | None, typer.Option(help="Unix socket to listen on, instead of host and port.")
+    ] = None,
+    root_path: Annotated[
+        str | None,
+        typer.Option(help="Path prefix under which a proxy shows the service. (default: none)"),
+    ] = None,
+    keep_alive_seconds: Annotated[
+        int | None,
+        typer.Option(help="Seconds that a connection is kept between requests. (default: 5)"),
+    ] = None,
+    forwarded_allow_ip: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Address or network of a proxy whose X-Forwarded-For is believed; repeatable."
+        ),
+    ] = None,
+    cors_origin: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Origin of web pages that may call the service, such as https://map.example; "
+            "repeatable."
+        ),
     ] = None,
     allow_remote: Annotated[
         bool,
@@ -62,6 +92,11 @@ def serve(
         "model": model,
         "models_dir": models_dir,
         "keys_file": keys_file,
+        "unix_socket": unix_socket,
+        "root_path": root_path,
+        "keep_alive_seconds": keep_alive_seconds,
+        "forwarded_allow_ips": forwarded_allow_ip or None,
+        "cors_origins": cors_origin or None,
     }
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
@@ -70,13 +105,12 @@ def serve(
     logs.install(settings.log)
     memory.limit()
     open_to_all = allow_remote or settings.keys_file is not None
-    with _listening_socket(settings.host, settings.port, open_to_all) as listening:
+    _raise_file_limit(settings.limits.connections)
+    with _listening_socket(settings, open_to_all) as listening:
         try:
             with open_state(settings) as state:
-                address, number = listening.getsockname()[:2]
-                shown = f"[{address}]" if ":" in address else address
                 typer.echo(
-                    f"Placecell {version()} listens on http://{shown}:{number} "
+                    f"Placecell {version()} listens on {_shown(listening)} "
                     f"(model {state.model_id}, {len(state.maps)} maps in {settings.data_dir})"
                 )
                 server = Server(create_app(settings, state), state)
@@ -92,26 +126,83 @@ def serve(
             raise _refusal(str(error)) from error
 
 
-def _listening_socket(host: str, port: int, open_to_all: bool) -> socket.socket:
+@contextmanager
+def _listening_socket(settings: "Settings", open_to_all: bool) -> Iterator[socket.socket]:
     """A socket that listens; what connects now waits until the service is ready."""
+    if settings.unix_socket is not None:
+        with _unix_socket(settings.unix_socket) as listening:
+            yield listening
+        return
+    host, port = settings.host, settings.port
     try:
         family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except (OSError, UnicodeError) as error:
         why = error.strerror if isinstance(error, OSError) else "no name of a host"
         raise _refusal(f"host {host!r}: {why}") from error
-    if not ipaddress.ip_address(address[0]).is_loopback and not open_to_all:
+    parsed = ipaddress.ip_address(address[0])
+    if not parsed.is_loopback and not open_to_all:
         raise _refusal(
             f"host {host!r} can be reached from other machines, and the service has no keys: "
             "make some (placecell keys), listen on 127.0.0.1, or say --allow-remote"
         )
+    # All addresses of IPv6 include those of IPv4, where the system can do so.
+    both = family == socket.AF_INET6 and parsed.is_unspecified and socket.has_dualstack_ipv6()
     try:
-        listening = socket.create_server(address[:2], family=family)
+        listening = socket.create_server(address[:2], family=family, dualstack_ipv6=both)
     except OSError as error:
         raise _refusal(f"cannot listen on {host} port {port}: {error.strerror}") from error
-    # Accepted sockets inherit it. An answer is written in two parts, and the second would wait for
-    # the client to acknowledge the first, which it does after 40 ms.
-    listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return listening
+    with listening:
+        # Accepted sockets inherit it. An answer is written in two parts, and the second would wait
+        # for the client to acknowledge the first, which it does after 40 ms.
+        listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        yield listening
+
+
+@contextmanager
+def _unix_socket(path: Path) -> Iterator[socket.socket]:
+    """A Unix socket that listens; a file that a service left behind is replaced."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as listening:
+        try:
+            if path.is_socket() and not _is_answered(path):
+                path.unlink()
+            listening.bind(str(path))
+            listening.listen()
+        except OSError as error:
+            raise _refusal(f"cannot listen on {path}: {error.strerror or error}") from error
+        try:
+            yield listening
+        finally:
+            path.unlink(missing_ok=True)
+
+
+def _is_answered(path: Path) -> bool:
+    """Whether a process listens on a Unix socket."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+        try:
+            probe.connect(str(path))
+        except ConnectionRefusedError:
+            return False
+    return True
+
+
+def _shown(listening: socket.socket) -> str:
+    """Where the service can be reached, for those who start it."""
+    name = listening.getsockname()
+    if isinstance(name, str):
+        return f"unix:{name}"
+    address, number = name[:2]
+    return f"http://{f'[{address}]' if ':' in address else address}:{number}"
+
+
+def _raise_file_limit(connections: int) -> None:
+    """Let the process open a file for each connection, and some more, if the system allows it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = 2 * connections + 1_024
+    if hard != resource.RLIM_INFINITY:
+        wanted = min(wanted, hard)
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        with suppress(OSError, ValueError):
+            resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
 
 
 def _refusal(message: str) -> typer.Exit:

@@ -1,5 +1,8 @@
 """HEAD requests: answered as GET, without the content."""
 
+from http import HTTPStatus
+
+from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 
@@ -11,18 +14,25 @@ class Head:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on; of a HEAD, as a GET whose content is dropped."""
-        if scope["type"] != "http" or scope["method"] != "HEAD":
+        if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
+        is_head = scope["method"] == "HEAD"
 
-        async def without_content(message: Message) -> None:
-            if message["type"] == "http.response.body":
+        async def changed(message: Message) -> None:
+            if message["type"] == "http.response.body" and is_head:
                 message = {**message, "body": b""}
+            elif message.get("status") == HTTPStatus.METHOD_NOT_ALLOWED:
+                headers = MutableHeaders(scope=message)
+                if headers.get("allow") == "GET":
+                    headers["allow"] = "GET, HEAD"
             await send(message)
 
-        scope["state"]["is_head"] = True
-        scope["method"] = "GET"
+        if is_head:
+            scope["state"]["is_head"] = True
+            scope["method"] = "GET"
         try:
-            await self._app(scope, receive, without_content)
+            await self._app(scope, receive, changed)
         finally:
-            scope["method"] = "HEAD"
+            if is_head:
+                scope["method"] = "HEAD"

@@ -1,0 +1,108 @@
+"""Threads and places that clients share: nobody keeps all of them from the others."""
+
+import asyncio
+import threading
+from typing import Any
+
+import pytest
+
+from service import fair_threads
+from service.fair_threads import FairThreads
+
+
+def run(main: Any) -> Any:
+    async def bounded() -> Any:
+        async with asyncio.timeout(60):
+            return await main()
+
+    return asyncio.run(bounded())
+
+
+def test_A4_one_client_never_holds_all_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fairness: with 2 threads, another client's call runs while one client's calls do not end."""
+    monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
+    release = threading.Event()
+
+    async def main() -> None:
+        threads = FairThreads(2)
+        held = [asyncio.create_task(threads.run("a", lambda: release.wait(60))) for _ in range(20)]
+        await asyncio.sleep(0.05)
+        assert await threads.run("b", lambda: 7) == 7
+        release.set()
+        await asyncio.gather(*held)
+
+    run(main)
+
+
+def test_call_that_takes_long_lends_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fairness: small calls of the same client do not wait for the end of its large ones."""
+    monkeypatch.setattr(fair_threads, "LONG_SECONDS", 0.02)
+    release = threading.Event()
+
+    async def main() -> None:
+        threads = FairThreads(2)
+        held = [asyncio.create_task(threads.run("a", lambda: release.wait(60))) for _ in range(2)]
+        await asyncio.sleep(0)
+        assert await threads.run("a", lambda: 7) == 7
+        release.set()
+        await asyncio.gather(*held)
+
+    run(main)
+
+
+def test_clients_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
+    order: list[str] = []
+
+    async def main() -> None:
+        threads, release = FairThreads(1), threading.Event()
+        # Four clients, the most that are at work at once, keep all threads.
+        held = [asyncio.create_task(threads.run(name, lambda: release.wait(60))) for name in "wxyz"]
+        await asyncio.sleep(0.05)
+        names = "aaaaabbc"
+        calls = [
+            asyncio.create_task(threads.run(name, lambda name=name: order.append(name)))
+            for name in names
+        ]
+        await asyncio.sleep(0)
+        release.set()
+        await asyncio.gather(*held, *calls)
+
+    run(main)
+    assert sorted(order) == list("aaaaabbc")
+    assert set(order[:3]) == {"a", "b", "c"}
+
+
+def test_cancelled_while_waiting_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
+    started: list[int] = []
+
+    async def main() -> None:
+        threads, release = FairThreads(1), threading.Event()
+        held = asyncio.create_task(threads.run("a", lambda: release.wait(60)))
+        await asyncio.sleep(0.02)
+        gone = asyncio.create_task(threads.run("a", lambda: started.append(1)))
+        stays = asyncio.create_task(threads.run("a", lambda: started.append(2)))
+        await asyncio.sleep(0)
+        gone.cancel()
+        release.set()
+        await asyncio.gather(held, stays)
+        with pytest.raises(asyncio.CancelledError):
+            await gone
+        assert await threads.run("a", lambda: 3) == 3
+        assert not threads._started
+        assert not threads._waiting
+
+    run(main)
+    assert started == [2]
+
+
+def test_failed_call_gives_its_place_back() -> None:
+    async def main() -> None:
+        threads = FairThreads(1)
+        for _ in range(9):
+            with pytest.raises(ZeroDivisionError):
+                await threads.run("a", lambda: 1 // 0)
+        assert await threads.run("a", lambda: 3) == 3
+
+    run(main)
