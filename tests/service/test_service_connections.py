@@ -238,7 +238,7 @@ async def answered(address: Served) -> bool:
     reader, writer = await connected(address)
     try:
         writer.write(GET)
-        return (await reader.readline()).startswith(b"HTTP/1.1 200")
+        return bool((await reader.readline()).startswith(b"HTTP/1.1 200"))
     except ConnectionResetError:
         return False
     finally:

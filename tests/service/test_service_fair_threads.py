@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+from functools import partial
 from typing import Any
 
 import pytest
@@ -61,8 +62,7 @@ def test_clients_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
         await asyncio.sleep(0.05)
         names = "aaaaabbc"
         calls = [
-            asyncio.create_task(threads.run(name, lambda name=name: order.append(name)))
-            for name in names
+            asyncio.create_task(threads.run(name, partial(order.append, name))) for name in names
         ]
         await asyncio.sleep(0)
         release.set()

@@ -51,7 +51,7 @@ def test_B11_the_service_answers_on_a_unix_socket(
         try:
             assert f"listens on unix:{path}" in process.stdout.readline()
             transport = httpx.HTTPTransport(uds=str(path))
-            with httpx.Client(transport=transport, base_url="http://placecell") as client:
+            with httpx.Client(transport=transport, base_url="http://localhost") as client:
                 assert client.get("/livez").status_code == 200
                 assert client.get("/maps").json()["maps"] == []
         finally:
@@ -129,7 +129,7 @@ def test_B11_cors_is_off_unless_allowed(start: Any) -> None:
     allowed = "access-control-allow-origin"
     with start() as service:
         assert allowed not in service.get("/livez", headers=page).headers
-        assert service.options("/maps/yard", headers=asks).status_code == 405
+        assert service.options("/maps/yard", headers=asks).status_code in {403, 405}
     with start(cors_origins=["https://map.example"]) as service:
         assert service.get("/livez", headers=page).headers[allowed] == page["Origin"]
         assert (
