@@ -15,7 +15,8 @@ class MapOut(BaseModel):
     frame: str = Field(description="Name of its coordinate frame.")
     robots: dict[str, int] = Field(description="How many segments each has in it.")
     sources: dict[str, int] = Field(
-        description="How many segments were merged from each map, as far as that is known."
+        description="How many segments were merged from each map, as far as that is known and the "
+        "key opens it."
     )
     time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
     optional: list[str] = Field(description="Names of the optional columns that it has.")
@@ -56,7 +57,9 @@ class VersionOut(BaseModel):
     sequence: int
     etag: str
     time: float = Field(description="When it was written, Unix seconds of the service's clock.")
-    author: str = Field(description="Name of the key.")
+    author: str = Field(
+        description="Name of the key; `another key` to a key that opens some maps alone."
+    )
     operation: str = Field(examples=["put", "edit", "restore", "age"])
     changed: int = Field(description="Segments added or replaced.")
     removed: int = Field(description="Segments removed.")

@@ -21,6 +21,7 @@ from service.quotas import OverQuotaError
 from service.stored_map import StoredMap
 from service.uploads import check_joins, edit_of, map_of
 from service.versions import version
+from service.visibility import written_by
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,7 @@ class Writer:
         content = map_of(data, self.models)
         with self.maps.writing(name):
             stored = self.maps.find(name)
+            content = written_by(self.holder, stored, content)
             if stored is None:
                 return self.create(name, content, "put")
             delta = leading_to(stored, content)
@@ -99,6 +101,7 @@ class Writer:
 
         with self.maps.writing(name):
             stored = self.maps.find(name) if create else self.maps.get(name)
+            edit = replace(edit, changed=written_by(self.holder, stored, edit.changed))
             layers = stored.layers if stored is not None else Layers.of(take(edit.changed, NONE))
             check_joins(edit.changed, name, layers.base)
             seen = self._sighting(edit, layers) if deduplicate else None

@@ -5,14 +5,16 @@ from typing import Any
 from scipy.spatial.transform import Rotation
 
 from segments.localisation import Pose
+from service.keys import Holder
 from service.map_schemas import MapOut, VersionOut, WrittenOut
 from service.map_store import Commit
 from service.stored_map import StoredMap, tag_of
+from service.visibility import author_for, sources_for
 from service.writer import Written
 
 
-def summary_of(stored: StoredMap) -> MapOut:
-    """A map in short; looks at all of it, so not for the event loop."""
+def summary_of(stored: StoredMap, holder: Holder) -> MapOut:
+    """A map in short, as a key may know it; looks at all of it, so not for the event loop."""
     head, layers = stored.head, stored.layers
     return MapOut(
         name=stored.name,
@@ -23,7 +25,7 @@ def summary_of(stored: StoredMap) -> MapOut:
         model_id=stored.model_id,
         frame=stored.frame,
         robots=dict(sorted(layers.robots.items())),
-        sources=dict(sorted(layers.sources.items())),
+        sources=sources_for(holder, layers.sources),
         time_span=layers.time_span,
         optional=sorted(layers.optional),
     )
@@ -43,14 +45,14 @@ def outcome_of(written: Written) -> WrittenOut:
     )
 
 
-def version_of(commit: Commit) -> VersionOut:
-    """A version, as it stands in the history."""
+def version_of(commit: Commit, holder: Holder) -> VersionOut:
+    """A version, as it stands in the history and a key may know it."""
     note = commit.note
     return VersionOut(
         sequence=commit.sequence,
         etag=tag_of(commit.sequence, commit.mark),
         time=note.time,
-        author=note.author,
+        author=author_for(holder, note.author),
         operation=note.operation,
         changed=note.changed,
         removed=note.removed,

@@ -1,9 +1,11 @@
 """`/maps`: the maps that robots put, get and remove."""
 
+from collections.abc import Callable
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
+from placecell_client import encode
 from placecell_client.map_file import MEDIA_TYPE
 
 from service.admission import client_of
@@ -16,7 +18,10 @@ from service.openapi import file_body
 from service.problems import documented
 from service.routes.answers import summary_of
 from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.stored_map import StoredMap
+from service.versions import version as version_of
 from service.versions import version_file, version_tag
+from service.visibility import content_for, is_hidden_from
 
 router = APIRouter(tags=["maps"])
 
@@ -73,7 +78,7 @@ async def put_map(
         written = await state.store(writer.put, name, body.content)
         timing.lap("commit")
         tell_written(request, state, "put", written)
-        summary = await state.store(summary_of, written.stored)
+        summary = await state.store(summary_of, written.stored, holder)
     return JSONResponse(
         summary.model_dump(mode="json"),
         status_code=201 if written.is_new else 200,
@@ -101,7 +106,11 @@ async def get_map(
         Query(ge=1, le=1 << 53, description="Sequence of a version; the newest unless said."),
     ] = None,
 ) -> Response:
-    """In its canonical form: equal maps are equal files, byte by byte."""
+    """In its canonical form: equal maps are equal files, byte by byte.
+
+    Where the key does not open a map that segments were merged from, a pseudonym stands for its
+    name; written to this map again, it becomes the name.
+    """
     holder.check_map(name)
     stored = state.maps.get(name)
     if version is None and writer.conditions.is_known(stored.tag):
@@ -110,9 +119,10 @@ async def get_map(
     client = client_of(request)
     async with state.reads.enter(request):
         tag = await state.store(version_tag, state.maps.store, stored, sequence)
+        name, make = _file(state, holder, stored, sequence, tag)
         return await state.answers.respond_shared(
-            f"{stored.head.uid} {tag}",
-            lambda: version_file(state.maps.store, stored, sequence)[0],
+            name,
+            make,
             state.store,
             client,
             MEDIA_TYPE,
@@ -142,10 +152,28 @@ async def delete_map(
     tell(request, state, "delete", name, f"{segments} segments", segments)
 
 
+def _file(
+    state: State, holder: Holder, stored: StoredMap, sequence: int, tag: str
+) -> tuple[str, Callable[[], bytes]]:
+    """The name of a version's file, for keys that see the same, and how it is made."""
+    name, store, uid = f"{stored.head.uid} {tag}", state.maps.store, stored.head.uid
+    newest = sequence == stored.head.sequence
+    if holder.opens_all or (newest and not is_hidden_from(holder, stored.layers)):
+        return name, lambda: version_file(store, stored, sequence)[0]
+
+    def made() -> bytes:
+        layers, _ = version_of(store, stored, sequence)
+        return encode(content_for(holder, uid, layers.content()))
+
+    return f"{name} {' '.join(holder.key.maps)}", made
+
+
 def _listed(state: State, holder: Holder) -> bytes:
     response = MapsResponse(
         model_id=state.model_id,
-        maps=[summary_of(stored) for stored in state.maps.all() if holder.opens(stored.name)],
+        maps=[
+            summary_of(stored, holder) for stored in state.maps.all() if holder.opens(stored.name)
+        ],
         damaged=[name for name in state.maps.damaged() if holder.opens(name)],
     )
     return render(response, JSON)

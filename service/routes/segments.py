@@ -11,6 +11,7 @@ from service.admission import client_of
 from service.audit import tell, tell_written
 from service.bodies import OCTETS
 from service.changes import Page
+from service.keys import Holder
 from service.map_name import Name
 from service.map_schemas import IdsOut, WrittenOut
 from service.openapi import file_body
@@ -18,6 +19,7 @@ from service.problems import documented
 from service.routes.answers import outcome_of
 from service.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.stored_map import StoredMap
+from service.visibility import delta_for
 
 router = APIRouter(tags=["sharing"])
 
@@ -183,7 +185,7 @@ async def changes(
     holder.check_map(name)
     stored = state.maps.get(name)
     async with state.reads.enter(request):
-        page, content = await state.store(_page, state, stored, since, cursor, limit)
+        page, content = await state.store(_page, state, holder, stored, since, cursor, limit)
     headers = {
         "ETag": f'"{page.tag}"',
         "Placecell-Since": str(page.delta.since),
@@ -195,11 +197,11 @@ async def changes(
 
 
 def _page(
-    state: State, stored: StoredMap, since: str, cursor: str | None, limit: int
+    state: State, holder: Holder, stored: StoredMap, since: str, cursor: str | None, limit: int
 ) -> tuple[Page, bytes]:
     """A page, and its file."""
     if cursor is None:
         page = state.changes.since(stored, since, limit)
     else:
         page = state.changes.at(stored, cursor, limit)
-    return page, encode_delta(page.delta)
+    return page, encode_delta(delta_for(holder, stored.head.uid, page.delta))

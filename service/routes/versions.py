@@ -7,6 +7,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from service.admission import client_of
 from service.audit import tell, tell_written
 from service.bodies import JSON, render
+from service.keys import Holder
 from service.map_name import Name
 from service.map_schemas import CompactOut, VersionsResponse, WrittenOut
 from service.problems import documented
@@ -35,7 +36,7 @@ async def list_versions(
     holder.check_map(name)
     stored = state.maps.get(name)
     async with state.reads.enter(request):
-        content = await state.store(_listed, state, stored, limit)
+        content = await state.store(_listed, state, holder, stored, limit)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
@@ -88,11 +89,11 @@ async def compact_map(
     return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)
 
 
-def _listed(state: State, stored: StoredMap, limit: int) -> bytes:
+def _listed(state: State, holder: Holder, stored: StoredMap, limit: int) -> bytes:
     commits = commits_of(state.maps.store, stored)
     response = VersionsResponse(
         map=stored.name,
         oldest=commits[0].sequence,
-        versions=[version_of(commit) for commit in commits[: -limit - 1 : -1]],
+        versions=[version_of(commit, holder) for commit in commits[: -limit - 1 : -1]],
     )
     return render(response, JSON)

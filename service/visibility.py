@@ -1,0 +1,99 @@
+"""What a key may learn of other maps and other keys: nothing, their names neither.
+
+A merged map keeps of each segment the name of the map that it came from. A key that does not open
+that map sees a pseudonym in its place: always the same one within a map, so that copies and changes
+fit each other, and turned back into the name when the key writes what it read.
+"""
+
+import hashlib
+from collections import Counter
+from dataclasses import replace
+
+from placecell_client import CompactMap, Delta
+from placecell_client.canonical import canonical
+
+from service.keys import Holder
+from service.layers import Layers
+from service.problems import Problem
+from service.stored_map import StoredMap
+
+HIDDEN_AUTHOR = "another key"
+"""In place of the name of another key."""
+
+PSEUDONYM = "hidden:"
+"""Begins a pseudonym; no map can be named so."""
+
+
+def author_for(holder: Holder, author: str) -> str:
+    """Return a version's author, as a key may know it: its own name, or all if it opens all."""
+    return author if holder.opens_all or author == holder.name else HIDDEN_AUTHOR
+
+
+def sources_for(holder: Holder, sources: Counter[str]) -> dict[str, int]:
+    """Return the sources of a map that a key may know, by name."""
+    return {name: count for name, count in sorted(sources.items()) if holder.opens(name)}
+
+
+def is_hidden_from(holder: Holder, layers: Layers) -> bool:
+    """Whether a map has sources that a key may not know."""
+    return not holder.opens_all and not all(map(holder.opens, layers.sources))
+
+
+def content_for(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
+    """Return segments of a map with pseudonyms in place of names that a key may not know.
+
+    Args:
+        holder: of the key.
+        uid: of the map; no client knows it, so nobody can try names until a pseudonym fits.
+        content: in canonical form; so is what is returned.
+    """
+    if holder.opens_all:
+        return content
+    hidden = {name for name in content.sources if not holder.opens(name)}
+    return _renamed(content, {name: _pseudonym(uid, name) for name in hidden})
+
+
+def delta_for(holder: Holder, uid: str, delta: Delta) -> Delta:
+    """Return a delta of a map with pseudonyms; see `content_for`."""
+    return replace(delta, changed=content_for(holder, uid, delta.changed))
+
+
+def written_by(holder: Holder, stored: StoredMap | None, content: CompactMap) -> CompactMap:
+    """Return what a key writes to a map, with names in place of the pseudonyms that it was shown.
+
+    Args:
+        holder: of the key.
+        stored: the map as it is; None if there is none yet.
+        content: the segments.
+
+    Raises:
+        Problem: 403 if segments name a source that the key does not open. Whether a name that was
+            tried is one of the map's would show in the pseudonym that comes back.
+    """
+    if holder.opens_all or not content.sources:
+        return content
+    for name in content.sources:
+        if not name.startswith(PSEUDONYM) and not holder.opens(name):
+            raise Problem(
+                403,
+                "forbidden",
+                f"The segments name the source {name!r:.80}, a map that this key does not open.",
+            )
+    if stored is None:
+        return content
+    layers, uid = stored.layers, stored.head.uid
+    names = {*layers.base.sources, *layers.recent.sources}
+    known = {_pseudonym(uid, name): name for name in names}
+    return _renamed(content, {name: known[name] for name in content.sources if name in known})
+
+
+def _pseudonym(uid: str, name: str) -> str:
+    return PSEUDONYM + hashlib.sha256(f"{uid} {name}".encode()).hexdigest()[:16]
+
+
+def _renamed(content: CompactMap, names: dict[str, str]) -> CompactMap:
+    if not names:
+        return content
+    return canonical(
+        replace(content, sources=tuple(names.get(name, name) for name in content.sources))
+    )
