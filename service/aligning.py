@@ -21,6 +21,9 @@ BLOCK = 1 << 16
 """Pairs that are compared at once: their descriptors are much larger than what is told of them."""
 
 
+SEARCHED = 512
+"""Segments that are looked for at once: so often it is asked whether anybody waits."""
+
 Check = Callable[[], None]
 """Raises an exception when nobody waits any longer; is asked for each part of a map."""
 
@@ -57,15 +60,21 @@ class MapSide:
 class MapLikeness:
     """`Likeness` of two maps, a and b, that one model made."""
 
-    def __init__(self, model: Model, a: CompactMap, b: CompactMap) -> None:
+    def __init__(
+        self, model: Model, a: CompactMap, b: CompactMap, check: Check = lambda: None
+    ) -> None:
         self._model = model
         self._a, self._b = a.codes, b.codes
+        self._check = check
 
     def likely(self, a: Int64, b: Int64) -> Float64:
         """How likely each row of a and row of b are the same."""
-        blocks = [slice(begin, begin + BLOCK) for begin in range(0, len(a), BLOCK)]
-        told = [likely(self._model, self._b[b[block]], self._a[a[block]]) for block in blocks]
-        return np.concatenate([np.zeros(0), *told])
+        told = [np.zeros(0)]
+        for begin in range(0, len(a), BLOCK):
+            self._check()
+            block = slice(begin, begin + BLOCK)
+            told.append(likely(self._model, self._b[b[block]], self._a[a[block]]))
+        return np.concatenate(told)
 
 
 class MapLooks(MapLikeness):
@@ -80,15 +89,18 @@ class MapLooks(MapLikeness):
         check: Check = lambda: None,
     ) -> None:
         """With an index over a."""
-        super().__init__(model, a, b)
+        super().__init__(model, a, b, check)
         self._index = index
-        self._check = check
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         """Of each row of b the rows of a that look most like it, and how likely."""
-        self._check()
         distinct, inverse = np.unique(rows, return_inverse=True)
-        _, found = self._index.search(self._b[distinct], K)
+        parts = []
+        for begin in range(0, max(len(distinct), 1), SEARCHED):
+            self._check()
+            _, near = self._index.search(self._b[distinct[begin : begin + SEARCHED]], K)
+            parts.append(near)
+        found = np.concatenate(parts)
         asked = np.repeat(distinct, found.shape[1])
         likely = self.likely(found.ravel(), asked).reshape(found.shape)
         return found[inverse], likely[inverse]

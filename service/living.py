@@ -6,7 +6,6 @@ another side or of more of the thing: kept, up to a number, for whoever comes th
 (`docs/maps.md` shows what that gains).
 """
 
-import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -17,10 +16,11 @@ from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply, take, with_optional
 
 from segments.cancellation import current, is_cancelled
+from segments.cells import neighboring
 from segments.jit import compiled
 from segments.manifest import Manifest
 from segments.quantiser import Quantiser
-from segments.types import Bool, Float64, Int8, Int32, Int64, UInt32, UInt64
+from segments.types import Bool, Float64, Int8, Int32, Int64, UInt32
 
 RADIUS = 0.5
 """Metres between centroids of one thing. Of pairs this near, seen at different times, 85% were
@@ -40,9 +40,6 @@ MOST_COMPARED = 1_024
 
 MOST_VISITED = 4_096
 """Stored segments about a new one whose distance and moment are looked at, the latest ones."""
-
-SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
-"""Of the numbers of cells, new in each process."""
 
 NO_VIEWS: Mapping[int, int] = MappingProxyType({})
 
@@ -134,18 +131,13 @@ def sighting(
     count = np.bincount(things[: len(known)], minlength=len(names))
     count += np.array([views_elsewhere.get(name, 0) for name in names.tolist()], dtype=np.int64)
     centroids = np.concatenate([each.centroids for each in both])
-    cells = cells_of(centroids, radius)
-    keys = np.empty(len(cells), dtype=np.uint64)
-    _number(cells, SEED, keys)
-    distinct, numbers = np.unique(keys, return_inverse=True)
+    numbers, around = neighboring(centroids, radius)
     is_kept = np.arange(len(seen)) < len(known)
     token = current()
     _compare(
         centroids,
-        cells,
-        distinct,
         numbers,
-        SEED,
+        around,
         np.concatenate([_moments(each) for each in both]),
         np.concatenate([each.frame_positions[each.frame_index] for each in both]),
         same.quantiser.levels(np.concatenate([each.codes for each in both])),
@@ -210,39 +202,11 @@ def _moments(content: CompactMap) -> Float64:
     return content.frame_times[content.frame_index]
 
 
-def cells_of(centroids: Float64, radius: float) -> Int64:
-    """Cells of a grid, int64 (n, 3); two centroids within the radius are in neighboring ones."""
-    # A little larger than the radius: rounding puts nothing two cells away.
-    cells = np.floor(centroids / (radius * (1 + 1e-6)))
-    return cells.clip(-(2.0**62), 2.0**62).astype(np.int64)
-
-
-@compiled
-def _key(x: int, y: int, z: int, seed: UInt64) -> np.uint64:
-    """Return the number of a cell; that two have the same costs time, and changes nothing."""
-    mixed: np.uint64 = seed[0]
-    for coordinate in (x, y, z):
-        mixed = (mixed + np.uint64(coordinate)) * seed[1]
-        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xFF51AFD7ED558CCD)
-        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xC4CEB9FE1A85EC53)
-        mixed ^= mixed >> np.uint64(33)
-    return mixed
-
-
-@compiled
-def _number(cells: Int64, seed: UInt64, keys: UInt64) -> None:
-    """Fill keys, the number of each cell."""
-    for row in range(len(cells)):
-        keys[row] = _key(cells[row, 0], cells[row, 1], cells[row, 2], seed)
-
-
 @compiled
 def _compare(
     centroids: Float64,
-    cells: Int64,
-    distinct: UInt64,
     numbers: Int64,
-    seed: UInt64,
+    around: Int64,
     moments: Float64,
     stands: Float64,
     levels: Int8,
@@ -263,30 +227,29 @@ def _compare(
     the latest first.
 
     Args:
-        cells: of each row.
-        distinct: the cells' numbers, ascending.
-        numbers: of each row, the place of its cell's number in `distinct`.
+        numbers: the cell of each row.
+        around: of each cell, see `neighboring`.
         limits: radius, steps of the same look, meters of the same stand, views of a thing.
         most: how many are compared and visited.
         things, count, seen, is_kept: are filled; `count` by thing.
     """
     radius, steps, same_stand, views = limits
     first_given = len(is_compared)
-    heads = np.full(len(distinct), -1, dtype=np.int64)
-    following = np.empty(len(cells), dtype=np.int64)
+    heads = np.full(len(around), -1, dtype=np.int64)
+    following = np.empty(len(numbers), dtype=np.int64)
     others = np.empty(most[0], dtype=np.int64)
     for row in range(first_given):
         if is_compared[row]:
             following[row] = heads[numbers[row]]
             heads[numbers[row]] = row
-    for row in range(first_given, len(cells)):
+    for row in range(first_given, len(numbers)):
         if is_cancelled(flag):
             return
         found = 0
         if not replaces[row - first_given]:
             found = _comparable(
-                row, centroids, cells, distinct, seed, heads, following, moments, stands,
-                radius, most[1], others,
+                row, centroids, around[numbers[row]], heads, following, moments, stands, radius,
+                most[1], others,
             )  # fmt: skip
         if found:
             nearest, distance = _most_alike(row, others[:found], levels)
@@ -314,9 +277,7 @@ def _compare(
 def _comparable(
     row: int,
     centroids: Float64,
-    cells: Int64,
-    distinct: UInt64,
-    seed: UInt64,
+    around: Int64,
     heads: Int64,
     following: Int64,
     moments: Float64,
@@ -330,19 +291,11 @@ def _comparable(
     What was seen at the same moment, by the same sensor, is something else.
     """
     found = visited = 0
-    for cell in range(27):
-        # The row's own cell first: what is nearest is compared where there is too much.
-        step = (cell + 13) % 27
-        key = _key(
-            cells[row, 0] + step // 9 - 1,
-            cells[row, 1] + step // 3 % 3 - 1,
-            cells[row, 2] + step % 3 - 1,
-            seed,
-        )
-        place = np.searchsorted(distinct, key)
-        if place == len(distinct) or distinct[place] != key:
-            continue
-        other = heads[place]
+    # The row's own cell comes first: what is nearest is compared where there is too much.
+    for cell in around:
+        if cell < 0:
+            break
+        other = heads[cell]
         while other >= 0:
             if found == len(others) or visited == most_visited:
                 return found

@@ -83,7 +83,7 @@ def plan_merge(
         one, other = edges[index].one, edges[index].other
         best = found[one, other].best
         assert best is not None  # of that it is an edge
-        likeness = MapLikeness(model, sides[one].content, sides[other].content)
+        likeness = MapLikeness(model, sides[one].content, sides[other].content, check)
         return lies_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
 
     checked = check_loops(edges, lies)

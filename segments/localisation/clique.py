@@ -8,8 +8,9 @@ Here these grow in the order of how much agrees with each vertex *among the neig
 
 import numpy as np
 
+from segments.cancellation import current, is_cancelled
 from segments.jit import compiled
-from segments.types import Bool, Float64, Int64
+from segments.types import Bool, Float64, Int32, Int64
 
 
 def heaviest_clique(
@@ -35,7 +36,9 @@ def heaviest_clique(
     seeds = np.argsort(-bounds, kind="stable")
     best = np.empty(len(left), dtype=np.int64)
     size = np.zeros(1, dtype=np.int64)
-    _grow(graph, neighbours, ends, weights, bounds, seeds, effort, best, size)
+    token = current()
+    _grow(graph, neighbours, ends, weights, bounds, seeds, effort, token.flag, best, size)
+    token.check()
     return np.sort(best[: size[0]])
 
 
@@ -98,6 +101,7 @@ def _grow(
     bounds: Float64,
     seeds: Int64,
     effort: int,
+    flag: Int32,
     best: Int64,
     size: Int64,
 ) -> None:
@@ -108,7 +112,7 @@ def _grow(
     heaviest = 0.0
     steps = 0
     for seed in seeds:
-        if bounds[seed] <= heaviest or steps > effort:
+        if bounds[seed] <= heaviest or steps > effort or is_cancelled(flag):
             break
         count = 0
         for place in range(ends[seed], ends[seed + 1]):

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from segments.cancellation import current, is_cancelled
+from segments.cells import neighboring
 from segments.jit import compiled
 from segments.localisation.candidates import Candidates
 from segments.localisation.parameters import LocalisationParameters
-from segments.types import Float64, Int64
+from segments.types import Float64, Int32, Int64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,34 +105,54 @@ def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
         rows: int64 (m,), may hold a row more than once.
         centroids: float64 (m, 3), of the rows, metres.
         radius: metres.
+
+    Raises:
+        Cancelled: nobody waits for it any longer.
     """
     _, first, inverse = np.unique(rows, return_index=True, return_inverse=True)
     points = centroids[first]
     order = np.lexsort(points.T[::-1])
     numbers = np.empty(len(points), dtype=np.int64)
-    _lead(points[order], radius, numbers)
+    token = current()
+    _lead(points[order], *neighboring(points[order], radius), radius, token.flag, numbers)
+    token.check()
     places = np.empty(len(points), dtype=np.int64)
     places[order] = numbers
     return places[inverse]
 
 
 @compiled
-def _lead(points: Float64, radius: float, numbers: Int64) -> None:
-    """Fill numbers: of each point, in the order of x, the first leader within the radius."""
+def _lead(
+    points: Float64, cells: Int64, around: Int64, radius: float, flag: Int32, numbers: Int64
+) -> None:
+    """Fill numbers: of each point, in order, the first leader within the radius.
+
+    Leaders are apart from each other, so a cell holds few of them, and each point is held against
+    few, wherever the points are.
+    """
+    heads = np.full(len(around), -1, dtype=np.int64)
+    following = np.empty(len(points), dtype=np.int64)
     leaders = np.empty(len(points), dtype=np.int64)
-    count = begin = 0
+    count = 0
     for point in range(len(points)):
-        while begin < count and points[point, 0] - points[leaders[begin], 0] >= radius:
-            begin += 1
+        if is_cancelled(flag):
+            return
         numbers[point] = -1
-        for place in range(begin, count):
-            squared = 0.0
-            for axis in range(3):
-                squared += (points[point, axis] - points[leaders[place], axis]) ** 2
-            if squared < radius * radius:
-                numbers[point] = place
+        for cell in around[cells[point]]:
+            if cell < 0:
                 break
+            place = heads[cell]
+            while place >= 0:
+                squared = 0.0
+                for axis in range(3):
+                    squared += (points[point, axis] - points[leaders[place], axis]) ** 2
+                if squared < radius * radius and not 0 <= numbers[point] < place:
+                    numbers[point] = place
+                place = following[place]
         if numbers[point] < 0:
             leaders[count] = point
             numbers[point] = count
+            if np.isfinite(points[point]).all():  # else nothing is near it
+                following[count] = heads[cells[point]]
+                heads[cells[point]] = count
             count += 1

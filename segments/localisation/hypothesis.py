@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from segments.cancellation import current
 from segments.localisation.clique import heaviest_clique
 from segments.localisation.consistency import consistent
 from segments.localisation.correspondences import Correspondences
@@ -60,7 +61,9 @@ def find_hypotheses(
     hypotheses = [_grown(pose, found, parameters) for pose in guesses]
     graph = consistent(found, parameters)
     left = np.ones(len(found), dtype=bool)
+    token = current()
     for _ in range(parameters.hypotheses):
+        token.check()
         clique = heaviest_clique(graph, found.weights, found.queries, left, parameters.effort)
         if len(clique) < parameters.least_segments:
             break

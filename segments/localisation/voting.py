@@ -6,6 +6,7 @@ correspondences, where comparing them in pairs is not.
 
 import numpy as np
 
+from segments.cancellation import current
 from segments.localisation.correspondences import Correspondences
 from segments.localisation.parameters import LocalisationParameters
 from segments.types import Float64
@@ -23,7 +24,9 @@ def most_voted(found: Correspondences, parameters: LocalisationParameters) -> Co
     # About the middle of the scan, so that a turn a little off shifts nothing by much.
     source = found.source - np.median(found.source, axis=0)
     steps = int(np.ceil(360 / parameters.vote_yaw))
+    token = current()
     for yaw in 2 * np.pi * np.arange(steps) / steps:
+        token.check()
         shift = found.target - _turned(source, yaw)
         # Two grids, half a cell apart: what lies at a border of one is inside of the other.
         for offset in (0.0, 0.5):

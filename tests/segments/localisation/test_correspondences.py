@@ -4,6 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from segments.cancellation import Cancelled, CancelToken, cancelled_by
+from segments.cells import neighboring
 from segments.localisation.candidates import Candidates
 from segments.localisation.correspondences import Correspondences, correspond, number_places
 from segments.localisation.parameters import LocalisationParameters
@@ -158,3 +160,52 @@ def test_places_do_not_depend_on_how_rows_are_numbered() -> None:
     leads = by_x[first]
     among = apart[np.ix_(leads, leads)] + 9 * np.eye(len(leads))
     assert among.min() >= 1
+
+
+def numbered_plainly(points: np.ndarray, radius: float) -> list[int]:
+    """Places by the plainest way: each point held against all that began a place."""
+    numbers, leaders = np.zeros(len(points), dtype=np.int64), np.zeros((0, 3))
+    for point in np.lexsort(points.T[::-1]):
+        near = ((leaders - points[point]) ** 2).sum(axis=1) < radius * radius
+        numbers[point] = near.argmax() if near.any() else len(leaders)
+        if not near.any():
+            leaders = np.vstack([leaders, points[point]])
+    return numbers.tolist()
+
+
+@pytest.mark.parametrize("extent", [0.5, 3.0, 30.0])
+@pytest.mark.parametrize("kind", ["anywhere", "grid", "line", "no-numbers"])
+def test_A13_places_are_numbered_as_by_comparing_all(extent: float, kind: str) -> None:
+    for seed in range(5):
+        points = np.random.default_rng(seed).uniform(-extent, extent, (150, 3)) * (1, 1, 0.3)
+        if kind == "grid":
+            points = np.round(points * 4) / 4
+        elif kind == "line":
+            points = points * (0, 1, 0)
+        elif kind == "no-numbers":
+            points[::7] = np.nan
+            points[::11, 1] = np.inf
+        with np.errstate(invalid="ignore"):
+            expected = numbered_plainly(points, 1.0)
+        assert number_places(np.arange(150), points, 1.0).tolist() == expected
+
+
+@pytest.mark.parametrize(
+    "direction", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 0, 0)], ids=str
+)
+def test_A13_a_point_is_held_against_few_wherever_they_are(
+    direction: tuple[int, int, int],
+) -> None:
+    points = np.outer(np.arange(2_000) * 1.5, direction)
+    numbers, around = neighboring(points, 1.0)
+    # Leaders of a cell are apart, so what a point may be held against is bounded by the cells.
+    compared = np.bincount(numbers, minlength=len(around))
+    compared[:] = np.minimum(compared, 8)
+    assert np.where(around < 0, 0, compared[around]).sum(axis=1).max() <= 30
+
+
+def test_A13_numbering_stops_when_nobody_waits() -> None:
+    with cancelled_by(CancelToken()) as token:
+        token.cancel()
+        with pytest.raises(Cancelled):
+            number_places(np.arange(10), np.zeros((10, 3)), 1.0)
