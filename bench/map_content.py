@@ -88,27 +88,29 @@ class Views:
         random = np.random.default_rng(seed)
         things = np.arange(count) // VIEWS
         asked = random.choice(things[-1] + 1, queries, replace=queries > things[-1] + 1)
-        base = self._things(int(things[-1]) + 1, random)
+        base = self.things(int(things[-1]) + 1, random)
         return Content(
             self.manifest.model_id,
             np.concatenate(
                 [
-                    self._codes(base, some, random)
+                    self.codes(base, some, random)
                     for some in np.array_split(things, 1 + count // 50_000)
                 ]
             ),
             things,
-            self._codes(base, asked, random),
+            self.codes(base, asked, random),
             asked,
         )
 
-    def _things(self, count: int, random: np.random.Generator) -> Float32:
+    def things(self, count: int, random: np.random.Generator) -> Float32:
+        """Draw descriptors of so many things, float32 (count, d)."""
         real = self.found[random.permutation(len(self.found))[:count]]
         pairs = random.integers(len(self.found), size=(count - len(real), 2))
         mixed = (self.found[pairs[:, 0]] + self.found[pairs[:, 1]]) * np.float32(np.sqrt(0.5))
         return np.concatenate([real, mixed])
 
-    def _codes(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
+    def codes(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
+        """Draw a view of each of these things, int8 (n, code bytes)."""
         apart = self.apart[random.integers(len(self.apart), size=len(things))]
         return self.manifest.quantiser.encode(base[things] + apart)
 

@@ -126,6 +126,11 @@ class Keys:
     def __bool__(self) -> bool:
         return self._file is not None
 
+    @property
+    def patterns(self) -> tuple[tuple[str, ...], ...]:
+        """The names of maps that keys open, each list of patterns once."""
+        return tuple(sorted({holder.key.maps for holder in self._holders}))
+
     def holder(self, authorization: str | None) -> Holder:
         """Who sent a request with this Authorization header.
 

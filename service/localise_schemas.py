@@ -79,6 +79,13 @@ class HypothesisOut(BaseModel):
     inliers: int = Field(description="How many segments agree with it.")
 
 
+class RivalOut(HypothesisOut):
+    """The best place in another map, which is not known to be the same place."""
+
+    map: str
+    frame: str = Field(description="Name of that map's frame; the pose leads to it.")
+
+
 class LocalisationOut(BaseModel):
     """What one map says of the robot's place."""
 
@@ -88,7 +95,8 @@ class LocalisationOut(BaseModel):
     reason: Reason | None = Field(description="Why the robot is not localised; null if it is.")
     detail: str = Field(description="The reason in words; empty if there is none.")
     probability: float = Field(
-        description="That the best hypothesis is right: within 1 m and 3 degrees."
+        description="That the best hypothesis is right: within 1 m and 3 degrees, and in the right "
+        "map. All maps of the request are judged together."
     )
     pose: PoseOut | None = Field(
         description="Of the request's frame in the map's; null if the robot is not localised."
@@ -98,10 +106,17 @@ class LocalisationOut(BaseModel):
         "rotation's (radians) applied after the pose's own: x, y, z, yaw; or x, y, z, and about "
         "x, y, z. It is of the frame's origin: large where the robot is far from that."
     )
-    score: float = Field(description="Evidence for the pose, summed over what agrees with it.")
+    score: float = Field(
+        description="Evidence for the pose, summed over what agrees with it. Comparable between "
+        "maps of one model in one answer."
+    )
     inliers: list[InlierOut]
     others: list[HypothesisOut] = Field(
         description="Second-best hypothesis; the best one first where the robot is not localised."
+    )
+    rival: RivalOut | None = Field(
+        description="The best place in another map of the request. Null if no other map has one, "
+        "or only maps that hold the same segments: a merged map and its sources are one place."
     )
 
 
@@ -113,7 +128,7 @@ class UnusableOut(BaseModel):
 
 
 class LocalizeResponse(BaseModel):
-    """What each map says, the likeliest first."""
+    """What each map says, the likeliest first; equally likely ones by score."""
 
     model_id: str
     localisations: list[LocalisationOut]

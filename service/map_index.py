@@ -77,6 +77,19 @@ class MapIndex(ABC):
         return distances, found
 
     @abstractmethod
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return about the k nearest rows to each query, for choosing maps to search exactly.
+
+        Args:
+            codes: int8 (q, code bytes).
+            k: at most as many as there are rows.
+
+        Returns:
+            Squared distances in steps, rounded, float32 (q, k), ascending; and rows, int64 (q, k);
+            -1 where there is none.
+        """
+
+    @abstractmethod
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         """Rows near to each query.
 
@@ -102,6 +115,11 @@ class FlatIndex(MapIndex):
         for start in range(0, len(codes), ROWS):
             levels = quantiser.levels(codes[start : start + ROWS])
             self._index.add(levels.astype(np.float32))
+
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return the k nearest rows; exact in this index."""
+        faiss.omp_set_num_threads(1)
+        return self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)
@@ -179,6 +197,12 @@ class NibbleIndex(MapIndex):
         # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
         nibbles = 2 * codes.shape[1]
         self._bound = nibbles * self._tables.widest / 2 * max(1 / 255, nibbles / 65_535)
+
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return about the k nearest rows, by distances as FAISS rounds them."""
+        assert self._index is not None  # nothing is fetched of an empty one
+        faiss.omp_set_num_threads(1)
+        return self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)

@@ -19,6 +19,7 @@ from service.models import Models
 from service.problems import Problem
 from service.quotas import NoRoomError, Quotas, Usage
 from service.replay import newest
+from service.shared_index import SharedIndexes
 from service.stored_map import KEEPS_FRAME, StoredMap
 
 logger = logging.getLogger("placecell")
@@ -56,6 +57,7 @@ class Maps:
         self._committing = Lock()
         self._damaged: dict[str, Head] = {}
         self._by_name: dict[str, StoredMap] = {}
+        self.shared = SharedIndexes()
         self._usage = Usage()
         self._pressed: set[str] = set()
         loaded = {}

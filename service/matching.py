@@ -1,15 +1,18 @@
 """From queries to candidates in one map, some, or all."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from segments.cancellation import current
 from segments.types import Float64, Int8, Int64
 from service.keys import Holder
 from service.maps import Maps
 from service.models import Model, Models
 from service.problems import Problem
+from service.shared_index import Part, Patterns
 from service.stored_map import StoredMap
 
 Candidate = dict[str, Any]
@@ -123,30 +126,67 @@ class Found:
         ]
 
 
-def found_in(codes: Int8, model: Model, searched: tuple[StoredMap, ...], k: int) -> Found:
+def found_in(
+    codes: Int8,
+    model: Model,
+    searched: tuple[StoredMap, ...],
+    k: int,
+    parts: Sequence[Part] | None = None,
+) -> Found:
     """The k nearest over all maps.
 
     Args:
         codes: int8 (q, code bytes), the queries.
         model: that made them and the maps.
-        searched: maps with an index.
+        searched: maps with an index, by name.
         k: candidates a query, at most.
+        parts: that cover the maps, to search several at once; None: each by itself.
     """
+    token = current()
+    if parts is None:
+        parts = [Part(np.array([place]), None) for place in range(len(searched))]
     found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
-    for place, stored in enumerate(searched):
-        assert stored.index is not None
-        distances, rows = stored.index.search(stored.layers, codes, k)
-        here = distances, np.full_like(rows, place), rows
+    for part in parts:
+        token.check()
+        here = _nearest(codes, searched, part, k)
         found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
-        if len(searched) > 1:
+        if len(parts) > 1:
             # By distance in steps, then map; those of a map are in the order of their ids, and stay
-            # so. Never more than of two maps at once, however many there are.
+            # so. Never more than of two parts at once, however many there are.
             order = np.lexsort(found[1::-1], axis=1)[:, :k]
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
     probabilities = _probabilities(codes, model, searched, places, rows)
     lengths = distances * model.manifest.quantiser.step
     return Found(searched, places, rows, lengths, probabilities)
+
+
+def _nearest(
+    codes: Int8, searched: tuple[StoredMap, ...], part: Part, k: int
+) -> tuple[Float64, Int64, Int64]:
+    """Of one part: distances in steps, places and rows of the k nearest, (q, up to k) each."""
+    if part.shared is None:
+        place = int(part.places[0])
+        stored = searched[place]
+        assert stored.index is not None
+        distances, rows = stored.index.search(stored.layers, codes, k)
+        return distances, np.full_like(rows, place), rows
+    shared = part.shared
+    distances, found = shared.index.search(codes, k, part.hidden)
+    members = np.searchsorted(shared.starts, found, side="right") - 1
+    return distances, part.places[members], shared.rows[found]
+
+
+def parts_of(
+    maps: Maps, model: Model, searched: Sequence[StoredMap], patterns: Patterns
+) -> list[Part]:
+    """Return what to search for these maps of one model at once.
+
+    Args:
+        patterns: what keys open; maps that are searched together are opened by the same keys.
+    """
+    quantiser = model.manifest.quantiser
+    return maps.shared.parts(searched, maps.all(), model.id, quantiser, patterns)
 
 
 def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:

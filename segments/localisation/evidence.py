@@ -65,6 +65,11 @@ class Evidence:
             total += fading * max(agreeing, default=0.0)
         return self.parameters.past_weight * total
 
+    @property
+    def weight(self) -> float:
+        """Variance of the support, as a share of that of one request's score."""
+        return self.parameters.past_weight**2 * len(self.independent)
+
     def guesses(self, at: Float64) -> list[Pose]:
         """Places to look at again: the best ones of the past, each once, the latest first.
 

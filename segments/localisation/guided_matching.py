@@ -71,6 +71,7 @@ def look_again(
     candidates: Candidates,
     there: Surroundings,
     parameters: LocalisationParameters,
+    beliefs: Float64 | None = None,
 ) -> Hypothesis:
     """Score a hypothesis by all segments and all that lies where it puts them, one to one.
 
@@ -85,7 +86,7 @@ def look_again(
     queries, found = seen[here], rows[near]
     likely = there.likely(queries, found)
     # What the query may be besides; the row itself, where it is a candidate, is among it already.
-    others = candidates.beliefs.sum(axis=1)[queries]
+    others = (candidates.beliefs.sum(axis=1) if beliefs is None else beliefs)[queries]
     is_candidate = (candidates.rows[queries] == found[:, None]).any(axis=1)
     share = likely / np.maximum(others + np.where(is_candidate, 0.0, likely), 1e-9)
     nearness = kernel(np.linalg.norm(places[here] - points[near], axis=1), parameters.kernel)
@@ -94,4 +95,8 @@ def look_again(
     best = np.lexsort((found, queries, -worth))
     for owners in (queries, things):
         best = best[np.sort(np.unique(owners[best], return_index=True)[1])]
-    return replace(hypothesis, score=float(worth[best].sum()))
+    of_queries, looks = np.zeros((2, len(candidates)))
+    of_queries[queries[best]] = worth[best]
+    distinct = np.minimum(share[best], parameters.distinct)
+    looks[queries[best]] = np.log1p(distinct / parameters.unlikely)
+    return replace(hypothesis, score=float(worth[best].sum()), worth=of_queries, looks=looks)

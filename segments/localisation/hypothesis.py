@@ -29,6 +29,10 @@ class Hypothesis:
         rows: int64 (inliers,), the map's row that each was found as.
         source: float64 (inliers, 3), the queries' centroids, metres, in the robot's frame.
         residuals: float64 (inliers,), metres.
+        worth: float64 (n,), what each of the candidates' queries adds to the score (guided
+            matching); None before that.
+        looks: float64 (n,), how much each query's counterpart looks like it, whatever its distance,
+            up to a bound; 0 where there is none. For comparing maps (`joint`).
     """
 
     pose: Pose
@@ -38,6 +42,8 @@ class Hypothesis:
     rows: Int64
     source: Float64
     residuals: Float64
+    worth: Float64 | None = None
+    looks: Float64 | None = None
 
     def __len__(self) -> int:
         return len(self.queries)

@@ -1,5 +1,6 @@
 """Where in a map the robot is: the way from candidates to a pose, step by step."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import erf
 from typing import Literal
@@ -68,25 +69,55 @@ def localise(
         evidence: what the robot's requests of the last seconds found.
         there: the map; as much of it as the candidates show unless given.
     """
+    places = find_places(candidates, parameters, evidence)
+    if not places.hypotheses:
+        return unknown(places.usable, parameters)
+    there = there or AmongCandidates(candidates)
+    hypotheses = [look_again(each, candidates, there, parameters) for each in places.hypotheses]
+    return judge(hypotheses, places.usable, parameters, confidence or shipped(), evidence)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places:
+    """Places in one map where the robot may be, before they are scored and judged.
+
+    Attributes:
+        hypotheses: best first, each at another place; empty if there is none.
+        usable: how many queries have candidates.
+    """
+
+    hypotheses: tuple[Hypothesis, ...]
+    usable: int
+
+
+def find_places(
+    candidates: Candidates, parameters: LocalisationParameters, evidence: Evidence | None = None
+) -> Places:
+    """Find the places in one map that candidates agree on, and those of earlier requests."""
     correspondences = correspond(candidates, parameters)
     if correspondences.usable < parameters.least_segments:
-        return _unknown(
-            "too-few-segments",
-            f"{correspondences.usable} segments have candidates in the map; "
-            f"{parameters.least_segments} or more are needed.",
-        )
+        return Places((), correspondences.usable)
     voted = most_voted(correspondences, parameters)
     guesses = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
-    hypotheses = find_hypotheses(voted, parameters, guesses)
-    if not hypotheses:
-        return _unknown("inconsistent", "No place in the map has the segments as they lie here.")
-    there = there or AmongCandidates(candidates)
-    hypotheses = [look_again(each, candidates, there, parameters) for each in hypotheses]
-    return judge(hypotheses, correspondences.usable, parameters, confidence or shipped(), evidence)
+    return Places(tuple(find_hypotheses(voted, parameters, guesses)), correspondences.usable)
+
+
+def unknown(usable: int, parameters: LocalisationParameters) -> Localisation:
+    """Return the answer of a map in which there is no hypothesis."""
+    if usable < parameters.least_segments:
+        reason: Reason = "too-few-segments"
+        detail = (
+            f"{usable} segments have candidates in the map; "
+            f"{parameters.least_segments} or more are needed."
+        )
+    else:
+        reason = "inconsistent"
+        detail = "No geometrically consistent match was found in the map."
+    return Localisation(None, None, 0.0, reason, detail, None, ())
 
 
 def judge(
-    hypotheses: list[Hypothesis],
+    hypotheses: Sequence[Hypothesis],
     usable: int,
     parameters: LocalisationParameters,
     confidence: Confidence,
@@ -98,8 +129,7 @@ def judge(
         hypotheses: one or more, each at another place.
         usable: how many queries had candidates.
     """
-    support = [evidence.support(each) if evidence else 0.0 for each in hypotheses]
-    totals = np.array([each.score for each in hypotheses]) + support
+    totals = totals_of(hypotheses, evidence)
     order = np.argsort(-totals, kind="stable").tolist()
     best, total = hypotheses[order[0]], float(totals[order[0]])
     second = hypotheses[order[1]] if len(order) > 1 else None
@@ -122,10 +152,12 @@ def judge(
     return Localisation(best, second, probability, reason, detail, features, tuple(hypotheses))
 
 
+def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Float64:
+    """Return each hypothesis' score with what earlier requests add to it, float64 (n,)."""
+    support = [evidence.support(each) if evidence else 0.0 for each in hypotheses]
+    return np.array([each.score for each in hypotheses]) + support
+
+
 def chance_of_direction(deviation: float) -> float:
     """That an angle of this standard deviation, radians, is within the degrees of a right pose."""
     return erf(np.radians(RIGHT_DEGREES) / (np.sqrt(2) * deviation))
-
-
-def _unknown(reason: Reason, detail: str) -> Localisation:
-    return Localisation(None, None, 0.0, reason, detail, None, ())

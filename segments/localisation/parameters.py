@@ -68,6 +68,19 @@ class LocalisationParameters:
     least_probability: float = 0.5
     """A pose that is more likely wrong than right is none."""
 
+    # Judgement of several maps together.
+    distinct: float = 0.05
+    """Share of a segment's belief from which on its counterpart counts in full when two maps are
+    compared: five times `unlikely`. How far beyond varies from view to view, and tells nothing."""
+    decisive: float = 2.25
+    """Standard deviations by which one map has to fit better than another. Less is a coincidence:
+    two maps that show a robot the same differ by more in one of 80 requests."""
+    alike: float = 9.0
+    """Odds that a rival in another map shows the robot the same as the best map does: assumed, nine
+    in ten, not measured."""
+    apart_by: float = 4.0
+    """Standard deviations by which the right map fits better, typically, where the maps differ."""
+
     # Evidence of earlier requests.
     memory: float = 10.0
     """Seconds after which a request is forgotten."""

@@ -5,14 +5,14 @@ from typing import Any
 import numpy as np
 from fastapi import APIRouter, Request, Response
 
-from segments.localisation import Hypothesis, Localisation, LocalisationParameters
-from segments.localisation.evidence import middle_of
+from segments.localisation import Hypothesis, LocalisationParameters
+from segments.localisation.evidence import Evidence, middle_of
 from service.admission import client_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
 from service.localise_schemas import LocalizeQuery, LocalizeRequest, LocalizeResponse
-from service.locating import localise_in
-from service.models import Model
+from service.locating import Group, InMap, localise_among
+from service.matching import parts_of
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedLocalizeRequest
 from service.problems import documented
@@ -20,6 +20,7 @@ from service.queries import Asked, Queries, read_query
 from service.routes.answers import pose_of
 from service.schemas import Failed
 from service.sessions import SessionKey
+from service.shared_index import Part
 from service.state import HolderOf, State, StateOf, TimingOf
 from service.stored_map import StoredMap
 from service.timing import Timing
@@ -42,24 +43,23 @@ Told = dict[str, Any]
 async def localize(
     request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
 ) -> Response:
-    """The pose of the robot's frame in each map's, or why it is not known, the likeliest first.
+    """Return the pose of the robot's frame in each map's, or why there is none; likeliest first.
 
-    Send all segments around the robot, in one frame. In each map candidates of all segments are
-    looked for, as `/match` does, and those that lie to each other as the segments do tell the pose.
-    A place that fits nearly as well as the best one makes the answer *ambiguous*.
+    Send all segments around the robot, in one frame. Candidates of all segments are searched in
+    all maps at once, and those that agree with each other give the pose. The maps are judged
+    together: a place that fits nearly as well as the best one makes the answer *ambiguous*, also
+    if it is in another map. `rival` then names that map and its pose. A merged map and its sources
+    are one place. At most eight maps, those in which most segments agree, are searched in full;
+    `detail` says where a map was not.
     """
     answer = answer_type(request)
     async with state.recognition.admit(request, ENCODINGS, timing) as body:
         query, asked = await state.compute(_read, state, holder, body, timing)
         request.state.model_id = asked.model_id
-        told: list[Told] = []
         queries = await asked.queries(timing)
-        for (model, searched), own in zip(asked.scope.searched, queries, strict=True):
-            for stored in searched:
-                key = _session_key(holder, query, stored)
-                work = (state, model, stored, own, query, key, timing)
-                told.append(await state.compute(_locate, *work))
-        content = await state.compute(_written, asked, queries, told, answer, timing)
+        content = await state.compute(
+            _answered, state, holder, query, asked, queries, answer, timing
+        )
     return await state.answers.respond(content, client_of(request), answer)
 
 
@@ -76,36 +76,48 @@ def _session_key(holder: Holder, query: Query, stored: StoredMap) -> SessionKey 
     return SessionKey(holder.name, query.session, stored.head.uid, stored.lies_since)
 
 
-def _locate(
+def _answered(
     state: State,
-    model: Model,
-    stored: StoredMap,
-    own: Queries,
+    holder: Holder,
     query: Query,
-    key: SessionKey | None,
+    asked: Asked,
+    queries: list[Queries],
+    answer: str,
     timing: Timing,
-) -> Told:
+) -> bytes:
     timing.lap("queue")
-    assert own.centroids is not None
-    middle = middle_of(own.centroids)
-    evidence = state.sessions.evidence(key, middle) if key else None
-    found = localise_in(
-        own.codes,
-        own.centroids,
-        model,
-        stored,
-        query.k,
-        LocalisationParameters(model=query.motion),
-        timing,
-        evidence,
-    )
-    if key:
-        state.sessions.remember(key, middle, found.hypotheses)
-    return _told(found, stored, own)
+    groups, middles = [], []
+    for (model, searched), own in zip(asked.scope.searched, queries, strict=True):
+        assert own.centroids is not None
+        groups.append(Group(model, searched, own.codes, own.centroids))
+        middles.append(middle_of(own.centroids))
+    middle_in = {
+        stored.head.uid: middle
+        for group, middle in zip(groups, middles, strict=True)
+        for stored in group.searched
+    }
+
+    def evidence(stored: StoredMap) -> Evidence | None:
+        key = _session_key(holder, query, stored)
+        return state.sessions.evidence(key, middle_in[stored.head.uid]) if key else None
+
+    def parts(group: Group) -> list[Part]:
+        return parts_of(state.maps, group.model, group.searched, state.keys.patterns)
+
+    parameters = LocalisationParameters(model=query.motion)
+    found = localise_among(groups, query.k, parameters, timing, parts, evidence)
+    for each in found:
+        key = _session_key(holder, query, each.stored)
+        if key and each.is_full:
+            hypotheses = each.judged.localisation.hypotheses
+            state.sessions.remember(key, middles[each.group], hypotheses)
+    told = [_told(each, queries[each.group]) for each in found]
+    return _written(asked, queries, told, answer, timing)
 
 
-def _told(found: Localisation, stored: StoredMap, own: Queries) -> Told:
+def _told(answer: InMap, own: Queries) -> Told:
     """What one map says."""
+    found, stored, rival = answer.judged.localisation, answer.stored, answer.judged.rival
     best, pose = found.best, found.pose
     inliers: list[Told] = []
     if best is not None and pose is not None:
@@ -130,6 +142,9 @@ def _told(found: Localisation, stored: StoredMap, own: Queries) -> Told:
         "score": 0.0 if best is None else best.score,
         "inliers": inliers,
         "others": [_other(each) for each in others if each is not None],
+        "rival": None
+        if rival is None or answer.rival is None
+        else {"map": answer.rival.name, "frame": answer.rival.frame} | _other(rival.hypothesis),
     }
 
 
@@ -144,13 +159,10 @@ def _other(hypothesis: Hypothesis) -> Told:
 def _written(
     asked: Asked, queries: list[Queries], told: list[Told], answer: str, timing: Timing
 ) -> bytes:
-    timing.lap("queue")
     # What `LocalizeResponse` says, without its checks: the values are our own.
     response = {
         "model_id": asked.model_id,
-        "localisations": sorted(
-            told, key=lambda each: (not each["localised"], -each["probability"], each["map"])
-        ),
+        "localisations": told,
         "unusable": [{"query": query, **failed.model_dump()} for query, failed in _failed(queries)],
         "skipped": [
             {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 from service.admission import client_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder
-from service.matching import Candidate, found_in, merged
+from service.matching import Candidate, found_in, merged, parts_of
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedMatchRequest
 from service.problems import documented
@@ -39,7 +39,7 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
         asked = await state.compute(_read, state, holder, body, timing)
         request.state.model_id = asked.model_id
         queries = await asked.queries(timing)
-        content = await state.compute(_search, asked, queries, answer, timing)
+        content = await state.compute(_search, state, asked, queries, answer, timing)
     return await state.answers.respond(content, client_of(request), answer)
 
 
@@ -49,12 +49,15 @@ def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Asked:
     return read_query(state, holder, query, timing)
 
 
-def _search(asked: Asked, queries: list[Queries], answer: str, timing: Timing) -> bytes:
+def _search(
+    state: State, asked: Asked, queries: list[Queries], answer: str, timing: Timing
+) -> bytes:
     timing.lap("queue")
     found = [
         [candidates[row] if isinstance(row, int) else row for row in own.rows]
         for (model, searched), own in zip(asked.scope.searched, queries, strict=True)
-        for candidates in [found_in(own.codes, model, searched, asked.k).candidates()]
+        for parts in [parts_of(state.maps, model, searched, state.keys.patterns)]
+        for candidates in [found_in(own.codes, model, searched, asked.k, parts).candidates()]
     ]
     if not found:
         assert asked.own is not None
