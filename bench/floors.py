@@ -313,7 +313,7 @@ def _mapped(
 
 def _stored(content: CompactMap, model: Model, name: str) -> StoredMap:
     layers = Layers.of(take(content, np.arange(len(content))))
-    head = Head(name, name, 1, "0" * 16, 1, len(content), 0, 0)
+    head = Head(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
     index = LayeredIndex.of(layers, model.manifest.quantiser)
     return StoredMap(head, layers, 1, 1, index)
 

@@ -6,12 +6,14 @@ compares them. Only the best maps are searched in full.
 """
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from segments.cancellation import current, is_cancelled
 from segments.localisation import LocalisationParameters
+from segments.localisation.near import evenly
 from segments.segments import compiled
 from segments.types import Float32, Float64, Int8, Int32, Int64
 from service.shared_index import Part, centred
@@ -23,7 +25,10 @@ FULL = 8
 NEAREST = 128
 """Rows fetched for each segment from an index of several maps."""
 
-OWN = 3
+SEGMENTS = 64
+"""Segments of a request that are looked for in all maps; of more, so many, evenly."""
+
+OWN = 2
 """Candidates of a segment that count in one map."""
 
 PAIRS = 40_000_000
@@ -31,6 +36,10 @@ PAIRS = 40_000_000
 
 WORTH = 0.4
 """A map of fewer votes than this share of the best one's cannot be as good, by far."""
+
+
+_threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
+"""For all requests together: a search of an idle service takes two cores."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,20 +76,22 @@ def votes_of(
         parameters: say when two candidates agree.
     """
     token = current()
-    found = []
-    for part in parts:
-        token.check()
-        found.append(_nearest(codes, searched, part))
+    asked = evenly(np.flatnonzero(np.isfinite(centroids).all(axis=1)), SEGMENTS)
     votes = np.zeros(len(searched), dtype=np.int64)
-    if not found:
+    if not len(asked) or not parts:
         return votes
+    codes, centroids = codes[asked], centroids[asked]
+
+    def nearest(part: Part) -> Nearest:
+        token.check()
+        return _nearest(codes, searched, part)
+
+    found = [*_threads.map(nearest, parts)]
     places = np.concatenate([each.places for each in found])
     queries = np.concatenate([each.queries for each in found])
     distances = np.concatenate([each.distances for each in found])
     targets = np.concatenate([each.targets for each in found])
-    finite = np.isfinite(centroids).all(axis=1)[queries]
-    order = np.flatnonzero(finite)
-    order = order[np.lexsort((distances[order], queries[order], places[order]))]
+    order = np.lexsort((distances, queries, places))
     places, queries = places[order], queries[order]
     # Of each segment the nearest of each map.
     begins = np.flatnonzero(
@@ -93,7 +104,7 @@ def votes_of(
     counts = np.diff(starts).astype(np.float64)
     pairs = float((counts**2).sum() / 2)
     share = min(1.0, np.sqrt(PAIRS / max(pairs, 1.0)))
-    seen = np.asarray(np.nan_to_num(centroids), np.float64)
+    seen = np.asarray(centroids, np.float64)
     _count(
         *(starts, queries, seen, np.ascontiguousarray(targets[order]), share),
         *(parameters.model == "yaw", parameters.distance_tolerance, parameters.height_tolerance),
