@@ -331,6 +331,6 @@ class _Shared:
 
 def loaded(folder: Path, names: Sequence[str]) -> list[Model]:
     """The models of a folder, as the service loads them."""
-    settings = Settings(models_dir=folder, model=names[0], also=list(names[1:]))
+    settings = Settings(models_dir=folder, model=names[0], also=tuple(names[1:]))
     models = Models(settings, Metrics())
     return [models.named(name) for name in names]

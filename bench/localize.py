@@ -14,7 +14,8 @@ from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client, CompactMap, Description, encode
+from placecell_client import Client, CompactMap, Description, Localisation, encode
+from placecell_client.map_edit import take
 
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import VIEWS, Views, map_of
@@ -40,9 +41,11 @@ class Plan:
         sizes: segments of the map.
         queries: segments of a request.
         k: candidates a segment.
-        rate: requests a second: each finds the service idle.
+        rate: requests a second: each finds the service idle; a quarter of it where no map is named.
         seconds: of each map.
         requests: different ones, sent in turn.
+        maps: that are searched together, by requests that name none; 0: this is not measured.
+        map_segments: of each of those maps.
     """
 
     sizes: tuple[int, ...] = (10_000,)
@@ -51,19 +54,25 @@ class Plan:
     rate: float = 10.0
     seconds: float = 30.0
     requests: int = 100
+    maps: int = 0
+    map_segments: int = 300
 
 
 def bench(
     views: Views, plan: Plan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
     """Measure all; the report as `placecell bench localize` writes it."""
-    rows = []
+    rows: list[dict[str, Any]] = []
+    together: dict[str, Any] | None = None
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
             size, data = plan.sizes[number], Path(folder) / str(number)
             rows.append(_row(views, size, plan, data, seed))
+        if plan.maps:
+            together = _together(views, plan, Path(folder) / "together", seed)
     return {
         "rows": rows,
+        "together": together,
         "model_id": views.manifest.model_id,
         "machine": machine(),
         "seed": seed,
@@ -91,13 +100,44 @@ def _row(views: Views, size: int, plan: Plan, data: Path, seed: int) -> dict[str
     }
 
 
+def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
+    """Measure requests that name no map, among many maps."""
+    frame = random_frame(seed)
+    # One road, cut into maps, no two of which hold the same things; each robot is within one.
+    views_a_map = plan.map_segments // VIEWS * VIEWS
+    size, things = plan.maps * views_a_map, views_a_map // VIEWS
+    road, asked = road_with_queries(views, size, plan, frame, seed, things)
+    with running_service(data) as address, Client(address, timeout=120) as client:
+        for number in range(plan.maps):
+            part = take(road, np.arange(number * views_a_map, (number + 1) * views_a_map))
+            client.put_map(f"road-{number:05}", encode(part))
+        told = [client.localize(each, k=plan.k).best for each in asked]
+        right = sum(_is_right_pose(each, one, frame) for each, one in zip(asked, told, strict=True))
+        bodies = (_body(each, plan.k, named=False) for each in asked)
+        sent = tuple(request_of("/localize", MSGPACK, body) for body in bodies)
+        load = Load(*address_of(address), sent, plan.rate / 4, plan.seconds)
+        outcome = asyncio.run(sent_by_process(load, data))
+    if set(outcome.statuses) != {200}:
+        raise RuntimeError(f"/localize was answered {set(outcome.statuses)}")
+    return {
+        "maps": plan.maps,
+        "segments": plan.maps * views_a_map,
+        "requests": len(outcome.statuses),
+        "localised_right": round(right / len(asked), 4),
+        "milliseconds": percentiles(np.array(outcome.milliseconds)),
+        "stages": {stage: percentiles(np.array(spent)) for stage, spent in outcome.stages.items()},
+    }
+
+
 def road_with_queries(
-    views: Views, size: int, plan: Plan, frame: Pose, seed: int
+    views: Views, size: int, plan: Plan, frame: Pose, seed: int, step: int | None = None
 ) -> tuple[CompactMap, Sequence[Description]]:
     """A map of so many segments, and what a robot sees of it.
 
     Args:
         frame: from the map's to the robot's own.
+        step: things from one stretch that is asked about to the next; as many as are asked about
+            unless given.
     """
     random = np.random.default_rng(seed)
     content = views.draw(size, size // VIEWS, seed)
@@ -107,10 +147,11 @@ def road_with_queries(
     road = replace(road, centroids=things[content.things] + scatter)
     # Each thing is asked about once: in their order, as they stand along the road.
     asked = content.asked[np.argsort(content.asked_things)]
-    stretches = len(asked) // plan.queries
+    step = step or plan.queries
+    stretches = len(asked) // step
     descriptions = []
     for stretch in random.permutation(stretches)[: plan.requests]:
-        rows = stretch * plan.queries + np.arange(plan.queries)
+        rows = stretch * step + np.arange(plan.queries)
         seen = things[rows] + random.normal(scale=SCATTER, size=(plan.queries, 3))
         nothing = np.zeros((plan.queries, 0), np.float32)
         descriptions.append(
@@ -121,19 +162,22 @@ def road_with_queries(
 
 def _is_right(client: Client, asked: Description, k: int, frame: Pose) -> bool:
     (found,) = client.localize(asked, maps=[MAP], k=k).maps
-    if found.pose is None:
+    return _is_right_pose(asked, found, frame)
+
+
+def _is_right_pose(asked: Description, found: Localisation | None, frame: Pose) -> bool:
+    if found is None or found.pose is None:
         return False
     middle = asked.centroids.mean(axis=0)
     metres, angle = Pose.of_matrix(found.pose.matrix).difference(frame.inverse(), middle)
     return metres <= 1.0 and bool(np.degrees(angle) <= 3.0)
 
 
-def _body(asked: Description, k: int) -> bytes:
+def _body(asked: Description, k: int, *, named: bool = True) -> bytes:
     content = {
         "model_id": asked.model_id,
         "codes": asked.codes.tobytes(),
         "centroids": asked.centroids.astype("<f8").tobytes(),
-        "maps": [MAP],
         "k": k,
-    }
+    } | ({"maps": [MAP]} if named else {})
     return bytes(msgpack.packb(content))

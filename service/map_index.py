@@ -202,7 +202,9 @@ class NibbleIndex(MapIndex):
         """Return about the k nearest rows, by distances as FAISS rounds them."""
         assert self._index is not None  # nothing is fetched of an empty one
         faiss.omp_set_num_threads(1)
-        return self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        squared, rows = self._index.search(levels, k)
+        return squared, rows
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantiser.levels(codes).astype(np.float32)

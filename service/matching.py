@@ -104,7 +104,7 @@ class Found:
             ids[here] = layers.column("ids", rows)
             centroids[here] = layers.column("centroids", rows)
             robots[here] = layers.robot_names(rows)
-        names = [(stored.name, stored.frame) for stored in self.searched]
+        names = [(stored.name, stored.frame, stored.model_id) for stored in self.searched]
         stated = (
             np.full(self.rows.shape, None) if self.probabilities is None else self.probabilities
         )
@@ -119,6 +119,7 @@ class Found:
                     "probability": probability,
                     "centroid": centroid,
                     "frame": names[place][1],
+                    "model_id": names[place][2],
                 }
                 for place, id_, robot, distance, probability, centroid in zip(*query, strict=True)
             ]
@@ -190,14 +191,24 @@ def parts_of(
 
 
 def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
-    """One query's candidates of several models: the likeliest, for their distances do not compare.
+    """Merge one query's candidates of several models, the likeliest first.
 
-    Of models without a probability they come last.
+    Distances of two models do not compare. Each probability is calibrated, but on its own model's
+    pairs; so equal ones, such as those at a cap, are in the order of their ranks among their own
+    model's candidates, then by map and id. Candidates of models without a probability come last.
     """
     if len(by_model) == 1:
         return by_model[0]
-    every = [candidate for candidates in by_model for candidate in candidates]
-    return sorted(every, key=lambda one: -(one["probability"] or 0.0))[:k]
+    every = [(rank, each) for candidates in by_model for rank, each in enumerate(candidates)]
+    every.sort(key=lambda one: _standing(*one))
+    return [candidate for _, candidate in every[:k]]
+
+
+def _standing(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, int]:
+    """Where a candidate stands among those of several models."""
+    probability = candidate["probability"]
+    stated = 0.0 if probability is None else probability
+    return probability is None, -stated, rank, candidate["map"], candidate["id"]
 
 
 def _probabilities(

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from segments.cancellation import current, is_cancelled
+from segments.jit import compiled
 from segments.localisation import LocalisationParameters
 from segments.localisation.near import evenly
-from segments.segments import compiled
 from segments.types import Float32, Float64, Int8, Int32, Int64
 from service.shared_index import Part, centred
 from service.stored_map import StoredMap
@@ -105,11 +105,17 @@ def votes_of(
     pairs = float((counts**2).sum() / 2)
     share = min(1.0, np.sqrt(PAIRS / max(pairs, 1.0)))
     seen = np.asarray(centroids, np.float64)
-    _count(
-        *(starts, queries, seen, np.ascontiguousarray(targets[order]), share),
-        *(parameters.model == "yaw", parameters.distance_tolerance, parameters.height_tolerance),
-        *(float(np.tan(np.radians(parameters.tilt))), token.flag, votes),
-    )
+    target, slope = np.ascontiguousarray(targets[order]), float(np.tan(np.radians(parameters.tilt)))
+
+    def count(begin: int, end: int) -> None:
+        _count(
+            *(starts[begin : end + 1], queries, seen, target, share, parameters.model == "yaw"),
+            *(parameters.distance_tolerance, parameters.height_tolerance, slope),
+            *(token.flag, votes[begin:end]),
+        )
+
+    half = len(searched) // 2
+    [*_threads.map(count, (0, half), (half, len(searched)))]
     token.check()
     return votes
 

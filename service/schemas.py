@@ -138,10 +138,14 @@ class CandidateOut(BaseModel):
     probability: float | None = Field(None, description="Null: the model has no classifier.")
     centroid: Point = Field(description="Metres, in the map's frame.")
     frame: str = Field(description="Name of the map's frame.")
+    model_id: str = Field(
+        description="Of the model that made the map: the probability is by its pair classifier, "
+        "the distance between its descriptors. Neither was calibrated against another model's."
+    )
 
 
 class CandidatesOut(BaseModel):
-    """Candidates of one query, nearest first."""
+    """Candidates of one query, nearest first; of maps of several models by probability."""
 
     candidates: list[CandidateOut]
 

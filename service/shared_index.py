@@ -171,7 +171,9 @@ class SharedIndexes:
         return kept
 
     def _filled(self, maps: Sequence[StoredMap], quantiser: Quantiser) -> list[Shared]:
-        made, some, count = [], [], 0
+        made: list[Shared] = []
+        some: list[StoredMap] = []
+        count = 0
         for each in maps:
             if some and (count + len(each) > ROOM or len(some) == MEMBERS):
                 made.append(Shared.of(some, quantiser))

@@ -6,6 +6,7 @@ from cli.benches.align import align
 from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
+from cli.benches.floors import floors
 from cli.benches.ladder import ladder
 from cli.benches.localisation import localisation
 from cli.benches.localize import localize
@@ -24,6 +25,7 @@ bench.command()(soak)
 bench.command()(maps)
 bench.command()(ladder)
 bench.command()(localize)
+bench.command()(floors)
 bench.command()(localisation)
 bench.command()(align)
 bench.command()(town)

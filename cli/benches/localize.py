@@ -1,5 +1,6 @@
 """`placecell bench localize`: how quick an idle service tells a robot where it is."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,6 +16,13 @@ def localize(
         list[int] | None,
         typer.Option(min=1000, help="Segments of the map; may be repeated. (default: 10,000)"),
     ] = None,
+    maps: Annotated[
+        int,
+        typer.Option(
+            min=0, help="Maps to search together, by requests that name none; 0: not measured."
+        ),
+    ] = 0,
+    map_size: Annotated[int, typer.Option(min=200, help="Segments of each of those maps.")] = 300,
     seconds: Annotated[float, typer.Option(min=1.0, help="Of each map.")] = 30.0,
     json_file: JsonFile = None,
     output: Kept = Path("out/bench"),
@@ -34,7 +42,12 @@ def localize(
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)
         views = Views.of(load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recording, seed)
-        plan = Plan(seconds=seconds) if size is None else Plan(tuple(size), seconds=seconds)
+        sizes: tuple[int, ...] = () if maps else (10_000,)
+        if size is not None:
+            sizes = tuple(size)
+        plan = Plan(sizes, seconds=seconds)
+        if maps:
+            plan = replace(plan, maps=maps, map_segments=map_size)
         report = run(views, plan, seed, progress=show) | {"source": recording.name}
         write_json(report, json_file)
     print_rows(report)
@@ -47,9 +60,17 @@ def print_rows(report: dict[str, Any]) -> None:
 
     names = ("p50", "p95", "p99", "max")
     table = Table("segments", "right", *names, "search p50", "verify p50", title="milliseconds")
-    for row in report["rows"]:
+    together = report["together"]
+    for row in [*report["rows"], *([together] if together else [])]:
         steps = (row["stages"][stage]["p50"] for stage in ("search", "verify"))
         spent = (row["milliseconds"][name] for name in names)
         times = (f"{each:.1f}" for each in (*spent, *steps))
-        table.add_row(f"{row['segments']:,}", f"{row['localised_right']:.1%}", *times)
+        table.add_row(_title(row), f"{row['localised_right']:.1%}", *times)
     Console().print(table)
+
+
+def _title(row: dict[str, Any]) -> str:
+    """What was asked: one map of so many segments, or all of so many maps."""
+    if "maps" in row:
+        return f"{row['segments']:,} in {row['maps']:,} maps"
+    return f"{row['segments']:,}"

@@ -9,6 +9,7 @@ from placecell_client.localisation import (
     Localisation,
     Localisations,
     Pose,
+    Rival,
 )
 from placecell_client.map_alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
 from placecell_client.map_copy import ChangesPage, MapCopy
@@ -60,6 +61,7 @@ __all__ = [
     "Overlap",
     "Pose",
     "Retries",
+    "Rival",
     "ServiceError",
     "Skipped",
     "Written",

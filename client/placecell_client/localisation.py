@@ -79,6 +79,19 @@ class Hypothesis:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Rival(Hypothesis):
+    """The best place in another map, which is not known to be the same place.
+
+    Attributes:
+        map: the other map's name.
+        frame: name of its frame, to which the pose leads.
+    """
+
+    map: str
+    frame: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Localisation:
     """What one map says of the robot's place.
 
@@ -94,6 +107,8 @@ class Localisation:
         score: evidence for the pose.
         inliers: the segments that agree with it.
         others: the second-best hypothesis; without a pose, the best one first.
+        rival: the best place in another map of the request; None: there is none, or the service is
+            older than this field.
     """
 
     map: str
@@ -106,6 +121,7 @@ class Localisation:
     score: float
     inliers: Inliers
     others: tuple[Hypothesis, ...]
+    rival: Rival | None = None
 
     def covariance_at(self, point: ArrayLike) -> NDArray[np.float64]:
         """Covariance (3, 3) of where the pose takes a point (3,), such as the sensor: metres^2.
@@ -139,8 +155,23 @@ class Localisations:
 
     @property
     def best(self) -> Localisation | None:
-        """The likeliest one with a pose; None if the robot is localised in no map."""
-        return next((each for each in self.maps if each.pose is not None), None)
+        """The likeliest one with a pose, equally likely ones by score; None if there is none.
+
+        None also if two maps fit about equally well: see `rival`.
+        """
+        told = (each for each in self.maps if each.pose is not None)
+        return max(told, key=lambda each: (each.probability, each.score), default=None)
+
+    @property
+    def rival(self) -> Rival | None:
+        """The map and pose that fit as well as the first map's; None unless that is the reason.
+
+        The first map's own pose is the first of its `others`. Name one of the two in `maps`, or
+        merge them if they show one place.
+        """
+        first = self.maps[0] if self.maps else None
+        is_ambiguous = first is not None and first.reason == "ambiguous"
+        return first.rival if first is not None and is_ambiguous else None
 
 
 def localisation_of(item: dict[str, Any]) -> Localisation:
@@ -165,7 +196,15 @@ def localisation_of(item: dict[str, Any]) -> Localisation:
             Hypothesis(pose_of(each["pose"]), each["score"], each["inliers"])
             for each in item["others"]
         ),
+        rival=_rival_of(item.get("rival")),  # an earlier service tells none
     )
+
+
+def _rival_of(item: dict[str, Any] | None) -> Rival | None:
+    if item is None:
+        return None
+    pose = pose_of(item["pose"])
+    return Rival(pose, item["score"], item["inliers"], item["map"], item["frame"])
 
 
 def pose_of(item: dict[str, Any]) -> Pose:

@@ -225,4 +225,5 @@ def _candidate(item: dict[str, Any]) -> Candidate:
         probability=item["probability"],
         centroid=(x, y, z),
         frame=item["frame"],
+        model_id=item.get("model_id", ""),  # an earlier service tells none
     )

@@ -48,6 +48,8 @@ class Candidate:
         probability: that both are the same place; None if the model has no classifier.
         centroid: metres, in the map's frame.
         frame: name of the map's frame.
+        model_id: of the model that made the map: the probability is by its pair classifier, and
+            the distance between its descriptors. Empty from a service older than this field.
     """
 
     map: str
@@ -57,6 +59,7 @@ class Candidate:
     probability: float | None
     centroid: tuple[float, float, float]
     frame: str
+    model_id: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +72,7 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Matches:
-    """Candidates of each query, nearest first.
+    """Candidates of each query, nearest first; of maps of several models likeliest first.
 
     Attributes:
         model_id: of the model whose descriptors were compared.

@@ -32,7 +32,9 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
 
     Queries are rounded to codes before the search, as the maps' descriptors are. Each map is
     searched with the model that made it. Maps whose model is not loaded are skipped, and listed; a
-    409 if the request names one. Candidates of several models are sorted by probability.
+    409 if the request names one. Candidates of several models are sorted by probability, which is
+    that of the candidate's `model_id`; probabilities of two models were not calibrated against each
+    other.
     """
     answer = answer_type(request)
     async with state.recognition.admit(request, ENCODINGS, timing) as body:

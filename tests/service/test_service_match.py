@@ -84,6 +84,7 @@ def test_a_candidate_says_where_it_is(service: Any, manifest: Manifest) -> None:
                     "probability": None,
                     "centroid": [2.0, -2.0, 1.5],
                     "frame": "hall",
+                    "model_id": manifest.model_id,
                 }
             ]
         }
