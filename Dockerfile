@@ -1,15 +1,25 @@
 # The service alone: no torch, no compiler, no recorded data. deploy/README.md says how to run it.
 #
 #     docker build -t placecell:0.1.0 .
+#
+# Every package is checked against the hashes in requirements/. The base images are named by tag;
+# deploy/pin-images.sh writes their digests here and into deploy/, where a registry can be asked.
 FROM python:3.11-slim-bookworm AS builder
 WORKDIR /build
 COPY . .
 # A checkout made under a strict umask would leave the models unreadable to the service's user.
 RUN chmod -R a+rX models
-# From the environment the pins hold for what builds the packages, too.
-ENV PIP_CONSTRAINT=/build/constraints.txt
-RUN python -m venv /opt/venv && \
-    /opt/venv/bin/pip install --no-cache-dir ./client '.[service]'
+# Should anything be built from source after all: pip 26.2 and later pins its tools by this alone.
+ENV PIP_BUILD_CONSTRAINT=/build/constraints.txt \
+    PIP_NO_CACHE_DIR=1
+# What builds our two packages stays behind; they bring nothing along.
+RUN python -m venv /opt/build && \
+    /opt/build/bin/pip install --require-hashes --only-binary :all: --requirement requirements/build.txt && \
+    /opt/build/bin/pip wheel --no-deps --no-build-isolation --no-index --wheel-dir /wheels ./client . && \
+    python -m venv /opt/venv && \
+    /opt/venv/bin/pip install --require-hashes --only-binary :all: --requirement requirements/service.txt && \
+    /opt/venv/bin/pip install --no-deps --no-index /wheels/*.whl && \
+    /opt/venv/bin/pip check
 
 FROM python:3.11-slim-bookworm
 RUN useradd --uid 10001 --user-group --no-log-init --no-create-home --home-dir /nonexistent placecell && \

@@ -2,9 +2,13 @@
 PYTHON ?= python3
 DRIVE ?=
 BIN := .venv/bin
-PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+# Every file that is installed must have a hash that stands in requirements/.
+HASHED := $(PIP) --require-hashes --requirement
+# For pip 26.2 and later, should anything be built from source: PIP_CONSTRAINT binds it no more.
+export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 
-.PHONY: demo serve test lint format install peers clean help
+.PHONY: demo serve test lint format install lock peers clean help
 
 help:  ## Show this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -29,15 +33,27 @@ format: install  ## Put the code into its form
 
 install: .venv/development.stamp  ## What the tests need, torch included
 
-# The demo installs no torch; what builds the two packages is installed first and pinned too.
-.venv/demo.stamp: pyproject.toml client/pyproject.toml constraints.txt
+# The demo installs no torch. The two packages are built by what is installed already, and bring
+# nothing along.
+.venv/demo.stamp: pyproject.toml client/pyproject.toml requirements/build.txt requirements/demo.txt
 	$(PYTHON) -m venv .venv
-	$(PIP) hatchling editables
-	$(PIP) --no-build-isolation --editable ./client --editable '.[service,town,plots]'
+	$(HASHED) requirements/build.txt
+	$(HASHED) requirements/demo.txt
+	$(PIP) --no-build-isolation --no-deps --editable ./client --editable .
 	touch $@
 
-.venv/development.stamp: .venv/demo.stamp
-	$(PIP) --no-build-isolation --editable ./client --editable '.[development]'
+# torch has a build for each kind of machine, so it is pinned by version alone.
+.venv/development.stamp: .venv/demo.stamp requirements/development.txt constraints.txt
+	$(HASHED) requirements/development.txt
+	$(PIP) --constraint constraints.txt torch pytorch-metric-learning
+	touch $@
+
+lock: .venv-lock/stamp  ## Write requirements/*.txt anew, after constraints.txt has changed
+	.venv-lock/bin/python .ci/lock
+
+.venv-lock/stamp:
+	$(PYTHON) -m venv .venv-lock
+	.venv-lock/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9
 	touch $@
 
 # What we are compared with pins NumPy and more otherwise than we do.
@@ -49,4 +65,4 @@ peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench p
 	touch $@
 
 clean:  ## Remove the environment and what the tools left
-	rm -rf .venv .venv-peers .mypy_cache .pytest_cache .ruff_cache .coverage
+	rm -rf .venv .venv-lock .venv-peers .mypy_cache .pytest_cache .ruff_cache .coverage

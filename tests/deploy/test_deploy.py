@@ -268,7 +268,7 @@ def test_images_are_of_one_version() -> None:
     assert set(re.findall(r"placecell:\d[\w.]*", readme)) == {ours}
     assert f"docker build -t {ours} ." in (ROOT / "Dockerfile").read_text()
     for service in COMPOSE["services"].values():
-        assert re.search(r":v?\d+\.\d+\.\d+$", service["image"]), service["image"]
+        assert re.search(r":v?\d+\.\d+\.\d+(@sha256:\w{64})?$", service["image"]), service["image"]
 
 
 def test_compose_mounts_files_that_exist() -> None:
@@ -299,7 +299,15 @@ def test_the_build_gets_what_it_needs_and_nothing_else() -> None:
     files = {*PROJECT["project"]["license-files"], PROJECT["project"]["readme"]}
 
     assert "*" in lines
-    needed = {*packages, *files, "client", "models", "pyproject.toml", "constraints.txt"}
+    needed = {
+        *packages,
+        *files,
+        "client",
+        "models",
+        "pyproject.toml",
+        "constraints.txt",
+        "requirements",
+    }
     assert allowed == needed
     assert all((ROOT / name).exists() for name in allowed)
 
