@@ -157,13 +157,16 @@ def bench(
     }
 
 
-DECIDES = 0.3
-"""Share of what the robot sees that only the true floor has: from here on it decides."""
+DECIDES, LEAST = 0.3, 10
+"""Share of what the robot sees, and number of segments, that only the true floor has: from here on
+the difference decides."""
 
 
 def decides(trial: Trial) -> bool:
     """Whether the robot sees enough of what differs, and scores of one model tell it."""
-    return trial.differs >= DECIDES and trial.case != "two models"
+    seen = {case.name: case.seen for case in CASES}.get(trial.case, 0)
+    is_enough = trial.differs >= DECIDES and trial.differs * seen >= LEAST
+    return is_enough and trial.case != "two models"
 
 
 def summary(trials: Sequence[Trial]) -> dict[str, Any]:

@@ -57,7 +57,7 @@ PLACE = {
     "map": "yard", "frame": "f", "localised": True, "reason": None, "detail": "",
     "probability": 0.97, "pose": POSE, "covariance": [[0.01, 0, 0, 0]] * 4, "score": 7.5,
     "inliers": [{"query": 0, "id": 9, "residual": 0.25}],
-    "others": [{"pose": POSE, "score": 2.5, "inliers": 3}], "later": "field",
+    "others": [{"pose": POSE, "score": 2.5, "inliers": 3}], "rival": None, "later": "field",
 }  # fmt: skip
 LOCALISED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
 

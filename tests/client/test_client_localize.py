@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from placecell_client import Description, ItemError, Pose
 
-from tests.client.client_fakes import LOCALISED, PLACE, client_of, packed
+from tests.client.client_fakes import LOCALISED, PLACE, POSE, client_of, packed
 
 CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
 UNUSABLE = ItemError("urn:x", "Too few points", "4 points")
@@ -116,6 +116,38 @@ def test_not_localised_is_no_pose() -> None:
     assert found.skipped[0].model_id == "n"
     with pytest.raises(ValueError, match="ambiguous"):
         found.maps[0].covariance_at([0, 0, 0])
+
+
+def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> None:
+    rival = {"map": "hall", "frame": "g", "pose": POSE, "score": 7.25, "inliers": 5}
+    nowhere = {
+        "localised": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
+        "covariance": None, "inliers": [],
+    }  # fmt: skip
+    places = [
+        PLACE | nowhere | {"rival": rival},
+        PLACE | nowhere | {"map": "hall", "rival": rival | {"map": "yard"}},
+    ]
+    with client_of(lambda _: packed(LOCALISED | {"localisations": places})) as client:
+        found = client.localize(DESCRIBED)
+    assert found.best is None
+    assert found.rival is not None
+    assert (found.rival.map, found.rival.frame, found.rival.score) == ("hall", "g", 7.25)
+    assert found.rival.inliers == 5
+    np.testing.assert_allclose(found.rival.pose.translation, POSE["translation"])
+    assert found.maps[1].rival is not None
+    assert found.maps[1].rival.map == "yard"
+
+
+def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
+    """As a service answers that is older than the joint judgement."""
+    old = {name: value for name, value in PLACE.items() if name != "rival"}
+    places = [old | {"map": "a", "score": 73.0}, old | {"map": "z", "score": 129.0}]
+    with client_of(lambda _: packed(LOCALISED | {"localisations": places})) as client:
+        found = client.localize(DESCRIBED)
+    assert found.best is not None
+    assert found.best.map == "z"
+    assert found.rival is None
 
 
 def test_it_takes_one_kind_of_query() -> None:
