@@ -148,9 +148,9 @@ def test_B1_a_merged_map_and_its_source_are_one_place(
     assert [each["rival"] for each in told] == [None, None]
     # A look-alike beside them is a rival of both, and of no other name.
     put(service, "b", seen_again(floor, 2, "bob"))
-    told = {each["map"]: each for each in ask(service, body)}
-    assert {each["reason"] for each in told.values()} == {"ambiguous"}
-    assert told["a"]["rival"]["map"] == told["site"]["rival"]["map"] == "b"
+    by_map = {each["map"]: each for each in ask(service, body)}
+    assert {each["reason"] for each in by_map.values()} == {"ambiguous"}
+    assert by_map["a"]["rival"]["map"] == by_map["site"]["rival"]["map"] == "b"
 
 
 def test_B1_a_map_that_took_a_source_s_name_is_another_place(
