@@ -22,6 +22,7 @@ from prometheus_client import Gauge
 from starlette.requests import ClientDisconnect
 
 from segments.cancellation import Cancelled, CancelToken, cancelled_by
+from service.addresses import client_network
 from service.bodies import Body
 from service.compression import decompress
 from service.fair_threads import FairThreads
@@ -224,7 +225,7 @@ def client_of(request: Request) -> str:
     state = request.app.state.placecell
     if state.keys:
         return f"key {request.scope['state'].get('key', '')}"
-    return f"address {request.client.host if request.client else ''}"
+    return f"address {client_network(request.client.host) if request.client else ''}"
 
 
 def _timeout_of(request: Request) -> float | None:

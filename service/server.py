@@ -16,6 +16,7 @@ from fastapi import FastAPI
 from h11._receivebuffer import ReceiveBuffer
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from service.addresses import client_network
 from service.problems import Problem
 from service.state import State
 
@@ -151,8 +152,8 @@ class Protocol(H11Protocol):
 
     @property
     def client_address(self) -> str:
-        """The client's address, without its port."""
-        return self.client[0] if self.client else ""
+        """What the client's address counts as; empty for a Unix socket."""
+        return client_network(self.client[0]) if self.client else ""
 
     @property
     def is_idle(self) -> bool:

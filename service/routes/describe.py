@@ -22,7 +22,7 @@ router = APIRouter(tags=["recognition"])
     summary="Descriptors of a scan's segments",
     response_model=DescribeResponse,
     responses=packed_response(PackedDescribeResponse)
-    | documented(400, 401, 406, 408, 409, 413, 415, 422, 429, 504),
+    | documented(400, 401, 406, 408, 409, 413, 415, 422, 429, 503, 504),
     openapi_extra=body_of(DescribeRequest, PackedDescribeRequest),
 )
 async def describe(

@@ -37,7 +37,7 @@ Told = dict[str, Any]
     summary="Where in one map, some, or all the robot is",
     response_model=LocalizeResponse,
     responses=packed_response(LocalizeResponse)
-    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 504),
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 503, 504),
     openapi_extra=body_of(LocalizeRequest, PackedLocalizeRequest),
 )
 async def localize(

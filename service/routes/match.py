@@ -24,7 +24,7 @@ router = APIRouter(tags=["recognition"])
     summary="The nearest segments of one map, some, or all",
     response_model=MatchResponse,
     responses=packed_response(MatchResponse)
-    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 504),
+    | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 503, 504),
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
 async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
