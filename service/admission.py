@@ -36,6 +36,9 @@ Result = TypeVar("Result")
 TIMEOUT = "placecell-timeout"
 """Header: seconds after which the client no longer waits."""
 
+HEAVY_BYTES = 1 << 20
+"""A larger body takes much memory as it is read; so does a compressed one, it is not known."""
+
 SHARING_SECONDS = 5.0
 """So long after its last request a client counts as one that others share a lane with."""
 
@@ -102,7 +105,10 @@ class Lane:
             timing.lap("receive")
             spent = time.monotonic() - began
             limit = self._limit(asked, spent)
-            async with self._inside_until(request, client, limit, limit + spent) as admitted:
+            is_heavy = len(content) > HEAVY_BYTES or coding != "identity"
+            async with self._inside_until(
+                request, client, limit, limit + spent, is_heavy
+            ) as admitted:
                 if coding != "identity":
                     packed = content
                     content = await admitted.run(
@@ -131,13 +137,18 @@ class Lane:
 
     @asynccontextmanager
     async def _inside_until(
-        self, request: Request, client: str, seconds: float, told: float
+        self,
+        request: Request,
+        client: str,
+        seconds: float,
+        told: float,
+        is_heavy: bool = False,
     ) -> AsyncIterator["Admitted"]:
         """Take a place in the lane for a block."""
         self._check(client)
         self._change(client, 1)
         token = CancelToken(time.monotonic() + seconds)
-        admitted = Admitted(self, client, token)
+        admitted = Admitted(self, client, token, is_heavy)
         timer = asyncio.get_running_loop().call_later(seconds, token.cancel)
         before = _admitted.set(admitted)
         stopped = False
@@ -205,11 +216,12 @@ class Admitted:
     lane: Lane
     client: str
     token: CancelToken
+    is_heavy: bool = False
 
     async def run(self, work: Callable[[], Result]) -> Result:
         """Run blocking work in one of the lane's threads, in the client's turn."""
         self.token.check()
-        return await self.lane.threads.run(self.client, work)
+        return await self.lane.threads.run(self.client, work, self.is_heavy)
 
 
 _admitted: ContextVar[Admitted | None] = ContextVar("placecell_admitted", default=None)

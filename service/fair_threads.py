@@ -18,12 +18,17 @@ LENT = 4
 """Calls at once, at most: so many times the places. Of one client: half of them."""
 
 
+Kind = tuple[str, bool]
+"""A client, and whether its call is a heavy one."""
+
+
 class FairThreads:
     """Runs blocking calls in threads.
 
     Calls that wait are started in turn of their clients, round robin. A client that has no call at
     work may always start one, and a call that takes long lends its place to others; so a small call
-    never waits for the end of a large one. Belongs to one event loop.
+    never waits for the end of a large one. Heavy calls, which take much memory, wait apart from the
+    others, and no place is lent to them. Belongs to one event loop.
     """
 
     def __init__(self, places: int) -> None:
@@ -34,24 +39,24 @@ class FairThreads:
         """
         self._places = places
         self._threads = anyio.CapacityLimiter(LENT * places)
-        self._started: dict[object, tuple[str, float]] = {}
-        self._waiting: OrderedDict[str, deque[asyncio.Future[object]]] = OrderedDict()
+        self._started: dict[object, tuple[Kind, float]] = {}
+        self._waiting: OrderedDict[Kind, deque[asyncio.Future[object]]] = OrderedDict()
         self._timer: asyncio.TimerHandle | None = None
 
-    async def run(self, client: str, work: Callable[[], Result]) -> Result:
+    async def run(self, client: str, work: Callable[[], Result], heavy: bool = False) -> Result:
         """Run a call; cancelled while it waits for its turn, it is not started."""
-        ticket = await self._turn(client)
+        ticket = await self._turn((client, heavy))
         try:
             return await anyio.to_thread.run_sync(work, limiter=self._threads)
         finally:
             del self._started[ticket]
             self._start_waiting()
 
-    async def _turn(self, client: str) -> object:
-        if client not in self._waiting and self._may_start(client):
-            return self._start(client)
+    async def _turn(self, kind: Kind) -> object:
+        if kind not in self._waiting and self._may_start(kind):
+            return self._start(kind)
         turn: asyncio.Future[object] = asyncio.get_running_loop().create_future()
-        self._waiting.setdefault(client, deque()).append(turn)
+        self._waiting.setdefault(kind, deque()).append(turn)
         self._look_again_later()
         try:
             return await turn
@@ -59,26 +64,31 @@ class FairThreads:
             if turn.done() and not turn.cancelled():
                 del self._started[turn.result()]
             else:
-                self._forget(client, turn)
+                self._forget(kind, turn)
             self._start_waiting()
             raise
 
-    def _forget(self, client: str, turn: asyncio.Future[object]) -> None:
-        queue = self._waiting.get(client)
+    def _forget(self, kind: Kind, turn: asyncio.Future[object]) -> None:
+        queue = self._waiting.get(kind)
         if queue is not None and turn in queue:
             queue.remove(turn)
             if not queue:
-                del self._waiting[client]
+                del self._waiting[kind]
 
-    def _start(self, client: str) -> object:
+    def _start(self, kind: Kind) -> object:
         ticket = object()
-        self._started[ticket] = (client, time.monotonic())
+        self._started[ticket] = (kind, time.monotonic())
         return ticket
 
-    def _may_start(self, client: str) -> bool:
+    def _may_start(self, kind: Kind) -> bool:
         if len(self._started) >= LENT * self._places:
             return False
-        own = sum(each == client for each, _ in self._started.values())
+        client, heavy = kind
+        kinds = [each for each, _ in self._started.values()]
+        if heavy:
+            others = sum(is_heavy for _, is_heavy in kinds)
+            return others < (self._places if kind in kinds else 2 * self._places)
+        own = sum(each == client for each, _ in kinds)
         if own == 0:
             return True
         recent = time.monotonic() - LONG_SECONDS
@@ -90,15 +100,15 @@ class FairThreads:
         turned = True
         while turned:
             turned = False
-            for client in list(self._waiting):
-                if not self._may_start(client):
+            for kind in list(self._waiting):
+                if not self._may_start(kind):
                     continue
-                queue = self._waiting.pop(client)
+                queue = self._waiting.pop(kind)
                 turn = queue.popleft()
                 if queue:
-                    self._waiting[client] = queue  # behind the others
+                    self._waiting[kind] = queue  # behind the others
                 if not turn.done():
-                    turn.set_result(self._start(client))
+                    turn.set_result(self._start(kind))
                 turned = True
         self._look_again_later()
 

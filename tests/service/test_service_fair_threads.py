@@ -106,3 +106,33 @@ def test_failed_call_gives_its_place_back() -> None:
         assert await threads.run("a", lambda: 3) == 3
 
     run(main)
+
+
+def test_heavy_calls_leave_room_for_light_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Fairness: no place is lent to heavy calls, so their memory is bounded; light ones pass."""
+    monkeypatch.setattr(fair_threads, "LONG_SECONDS", 0.001)
+    release, lock = threading.Event(), threading.Lock()
+    inside = most = 0
+
+    def heavy() -> None:
+        nonlocal inside, most
+        with lock:
+            inside += 1
+            most = max(most, inside)
+        release.wait(60)
+        with lock:
+            inside -= 1
+
+    async def main() -> None:
+        threads = FairThreads(2)
+        held = [asyncio.create_task(threads.run("a", heavy, heavy=True)) for _ in range(6)]
+        await asyncio.sleep(0.05)
+        assert await threads.run("a", lambda: 7) == 7
+        assert await threads.run("b", lambda: 7) == 7
+        assert inside == 2
+        assert await threads.run("b", lambda: 8, heavy=True) == 8
+        release.set()
+        await asyncio.gather(*held)
+
+    run(main)
+    assert most <= 4
