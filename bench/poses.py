@@ -70,12 +70,15 @@ def evaluate(
             outcomes.append(outcome_of(found, query, milliseconds))
     first = pair.asker.recordings[0].parameters
     robots = (pair.mapper, pair.asker)
+    recordings = [recording for robot in robots for recording in robot.recordings]
     told = {
         "map_drive": pair.mapper.drive.folder.name,
         "query_drive": pair.asker.drive.folder.name,
         "blocks": pair.blocks,
         "protocol": first.protocol,
         "every": first.frame_step,
+        "skipped_scans": sum(len(each.skipped_scans) for each in recordings),
+        "dropped_points": sum(each.dropped_points for each in recordings),
         "accumulated_scans": first.accumulated_scans,
         "model_id": manifest.model_id,
         "seen": any(manifest.has_seen(each.recordings[0].scan_hashes) for each in robots),

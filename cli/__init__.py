@@ -1,11 +1,15 @@
 """The command line: `placecell`, one file a subcommand; heavy imports wait until it runs."""
 
+from typing import Annotated
+
 import typer
 
 from cli.ablations import ablations
 from cli.benches import bench
 from cli.config import config
 from cli.demo import demo
+from cli.drive_options import takes_drives
+from cli.errors import Commands
 from cli.evaluate import evaluate
 from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
@@ -20,21 +24,49 @@ from cli.train import train
 
 app = typer.Typer(
     name="placecell",
+    cls=Commands,
     help="Place recognition for robot teams: learned 3D segment descriptors, served over HTTP.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-app.command()(demo)
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and end."""
+    if wanted:
+        from importlib import metadata
+
+        try:
+            typer.echo(f"placecell {metadata.version('placecell')}")
+        except metadata.PackageNotFoundError:
+            typer.echo("placecell, version unknown: it is not installed")
+        raise typer.Exit
+
+
+@app.callback()
+def root(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", help="Print the version and exit.", callback=show_version, is_eager=True
+        ),
+    ] = False,
+) -> None:
+    """Place recognition for robot teams: learned 3D segment descriptors, served over HTTP."""
+    del version
+
+
+app.command()(takes_drives(demo))
 app.command()(town)
-app.command()(prepare)
-app.command()(train)
-app.command()(evaluate)
-app.command()(evaluate_poses)
+app.command()(takes_drives(prepare))
+app.command()(takes_drives(train))
+app.command()(takes_drives(evaluate))
+app.command()(takes_drives(evaluate_poses))
 app.command()(fit_confidence)
-app.command()(experiments)
-app.command()(study)
-app.command()(ablations)
+app.command()(takes_drives(experiments))
+app.command()(takes_drives(study))
+app.command()(takes_drives(ablations))
 app.add_typer(bench, name="bench")
 app.command()(serve)
 app.command()(config)

@@ -9,6 +9,7 @@ import typer
 
 from cli.experiments import name
 from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, source, sources
+from cli.tables import progress_console
 
 
 def ablations(
@@ -55,8 +56,10 @@ def ablations(
         if unknown := set(part or ()) - set(parts):
             raise ValueError(f"no part {unknown.pop()!r}; there are {', '.join(parts)}")
         chosen = [one for one in everything if not part or one.part in {"model", *part}]
-        with Progress() as progress:
+        with Progress(console=progress_console()) as progress:
             report = run_ablations(sources(train), source(test), chosen, output, progress)
         file = write_ablations(report | {"command": command}, output)
-        (output / "ablations.json").write_text(json.dumps(report, indent=1) + "\n")
+        (output / "ablations.json").write_text(
+            json.dumps(report, indent=1) + "\n", encoding="utf-8"
+        )
     typer.echo(f"report: {file}")

@@ -2,33 +2,35 @@
 
 import json
 import os
-import tomllib
 from typing import Any
 
 import typer
 
 from cli.sources import clear_errors
+from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 
-def config() -> None:
+def config(as_json: JsonFlag = False) -> None:
     """Show every setting of the service: its value, where that comes from, and what it means.
 
     Settings come from the command line of 'placecell serve', then the environment, then
     placecell.toml (or the file that PLACECELL_CONFIG names), then the defaults.
     """
     from pydantic import BaseModel
-    from rich.console import Console
-    from rich.table import Table
 
-    from service.settings import PREFIX, Settings, settings_file
+    from service.settings import PREFIX, Settings, is_service_link, read_settings, settings_file
 
     with clear_errors():
         settings = Settings()
         file = settings_file()
-        stated = tomllib.loads(file.read_text()) if file.is_file() else {}
+        stated = read_settings(file)
     # Their names may be written in any case.
-    environment = {name.upper(): value for name, value in os.environ.items()}
-    table = Table("setting", "value", "from", "meaning")
+    environment = {
+        name.upper(): value
+        for name, value in os.environ.items()
+        if not is_service_link(name, value)
+    }
+    settings_told: list[dict[str, Any]] = []
 
     def rows(model: BaseModel, inside: str, stated: dict[str, Any]) -> None:
         for name, field in type(model).model_fields.items():
@@ -42,10 +44,20 @@ def config() -> None:
             group = environment.get(PREFIX + inside.rstrip("_").upper(), "{}") if inside else "{}"
             if variable in environment or name in json.loads(group):
                 source = "environment"
-            shown = ", ".join(value) if isinstance(value, tuple) else str(value)
-            table.add_row(variable, shown, source, field.description or "")
+            meaning = field.description or ""
+            settings_told.append(
+                {"setting": variable, "value": value, "from": source, "meaning": meaning}
+            )
 
     rows(settings, "", stated)
-    Console(width=max(Console().width, 120)).print(table)
+    if as_json:
+        print_json({"settings": settings_told, "file": str(file), "present": file.is_file()})
+        return
+    table = new_table("setting", "value", "from", "meaning")
+    for one in settings_told:
+        value = one["value"]
+        shown = ", ".join(value) if isinstance(value, tuple) else str(value)
+        table.add_row(one["setting"], shown, one["from"], one["meaning"])
+    print_tables(table)
     typer.echo(f"In a file: {file} (here {'present' if stated else 'absent'}), such as")
     typer.echo("    port = 9000\n    [limits]\n    k = 50")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cli.sources import clear_errors, fail, show
+from cli.tables import JsonFile, new_table, print_tables, write_json
 
 if TYPE_CHECKING:
     from bench.meeting import Meeting
@@ -23,6 +24,7 @@ def demo(
     ] = Path("out/demo"),
     seed: Annotated[int, typer.Option(help="Of the town.")] = 7,
     scans: Annotated[int, typer.Option(min=20, help="Scans of each robot in the town.")] = 120,
+    json_file: JsonFile = None,
 ) -> None:
     """Let robot A share its map through a real service, robot B find its place in it, and merge.
 
@@ -59,7 +61,8 @@ def demo(
         outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
         baseline = run(mapper, asker, Path(scratch) / "baseline", BASELINE)
     figures = outcome.figures | {BASELINE: baseline.figures}
-    (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n")
+    (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
+    write_json(figures, json_file)
     print_outcome(outcome.figures, baseline.figures)
     typer.echo(f"pictures: {output / 'matches.png'}, {output / 'site.png'}")
     if not outcome.score.findable:
@@ -102,9 +105,6 @@ def conclude(meeting: "Meeting") -> list[tuple[str, str]]:
 
 def print_outcome(figures: dict[str, Any], baseline: dict[str, Any]) -> None:
     """The figures as a table on the terminal, the baseline's beside them."""
-    from rich.console import Console
-    from rich.table import Table
-
     names = {
         "path_m": "metres driven",
         "segments_in_map": "segments in robot A's map",
@@ -132,10 +132,10 @@ def print_outcome(figures: dict[str, Any], baseline: dict[str, Any]) -> None:
         "segments_in_site": "segments in the map of both",
         "repeats_left_out": "segments of robot B left out: seen by robot A",
     }
-    table = Table("", figures["model_id"], baseline["model_id"])
+    table = new_table("", figures["model_id"], baseline["model_id"])
     for key in [name for name in names if name in figures]:
         table.add_row(names[key], *(shown(key, each.get(key, "")) for each in (figures, baseline)))
-    Console().print(table)
+    print_tables(table)
 
 
 def shown(key: str, value: object) -> str:

@@ -1,12 +1,12 @@
 """`placecell evaluate`: how well the extractors recognise the segments of a drive."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from cli.sources import clear_errors, load, parse_scans
+from cli.tables import JsonFile, new_table, print_tables, write_json
 
 ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
 
@@ -32,9 +32,7 @@ def evaluate(
         list[str] | None,
         typer.Option(help="A model's name or folder; may be repeated. (default: all shipped)"),
     ] = None,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", help="Write the figures here.")
-    ] = None,
+    json_file: JsonFile = None,
     seed: Annotated[int, typer.Option(help="Of the pairs that are drawn.")] = 0,
 ) -> None:
     """Measure every extractor on a drive, beside the eigenvalue baseline.
@@ -51,26 +49,22 @@ def evaluate(
         if json_file:
             json_file.parent.mkdir(parents=True, exist_ok=True)
         report = evaluate_recording(load(drive, every), limits, models, seed)
-        if json_file:
-            json_file.write_text(json.dumps(report, indent=2) + "\n")
+        write_json(report, json_file)
     print_table(report)
 
 
 def print_table(report: dict[str, Any]) -> None:
     """The figures as a table on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     first, last = report["scans"]
     typer.echo(
         f"{report['drive']}, scans {first} to {last}, protocol {report['protocol']}: "
         f"{report['segments']:,} segments in {report['groups']:,} groups"
     )
-    table = Table()
+    table = new_table()
     extractors = report["extractors"]
-    table.add_column("")
+    table.add_column("", overflow="fold")
     for name in extractors:
-        table.add_column(name, justify="right")
+        table.add_column(name, justify="right", overflow="fold")
     for row in ROWS:
         shown = (figures[row] for figures in extractors.values())
         table.add_row(row, *map(percent, shown))
@@ -78,7 +72,7 @@ def print_table(report: dict[str, Any]) -> None:
         alone = (figures.get("alone", figures)["top1"] for figures in extractors.values())
         table.add_row("top1, segments alone", *map(percent, alone))
     table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
-    Console().print(table)
+    print_tables(table)
 
 
 def percent(value: float | None) -> str:

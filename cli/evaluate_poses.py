@@ -6,8 +6,8 @@ from typing import Annotated, Any
 
 import typer
 
-from cli.benches.options import write_json
 from cli.sources import clear_errors, show
+from cli.tables import JsonFile, new_table, print_tables, write_json
 
 
 def evaluate_poses(
@@ -51,9 +51,7 @@ def evaluate_poses(
     query_recording: Annotated[
         Path | None, typer.Option(metavar="FILE", help="The same of QUERY_DRIVE.")
     ] = None,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
-    ] = None,
+    json_file: JsonFile = None,
     answers: Annotated[
         Path | None,
         typer.Option(
@@ -84,7 +82,7 @@ def evaluate_poses(
         write_json(report, json_file)
         if answers:
             answers.parent.mkdir(parents=True, exist_ok=True)
-            answers.write_text("".join(json.dumps(row) + "\n" for row in rows))
+            answers.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
         if plot:
             draw(report, plot)
     print_report(report)
@@ -92,20 +90,17 @@ def evaluate_poses(
 
 def print_report(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     where = "by blocks" if report["blocks"] else f"in the map of {report['map_drive']}"
     typer.echo(
         f"{report['query_drive']} {where}, protocol {report['protocol']}, {report['model_id']}: "
         f"{report['queries']:,} queries, {report['map_segments']:,} segments in the map"
     )
-    table = Table("", "share", "95% bounds")
+    table = new_table("", "share", "95% bounds")
     for name, (low, high) in report["bounds_95"].items():
         share = report[name]
         shown = "-" if share is None else f"{share:.2%}"
         table.add_row(name.replace("_", " "), shown, f"{low:.2%} to {high:.2%}")
-    Console().print(table)
+    print_tables(table)
     beyond = report["beyond_the_map"]
     if beyond["queries"]:
         counts = beyond["counts"]

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, source, sources, town_recordings
+from cli.tables import progress_console
 
 
 def experiments(
@@ -85,7 +86,7 @@ def experiments(
                 for recording in town_recordings(seed=1, scans=60 if quick else 400)
             )
             training_sources, test_source = [a], b
-        with Progress() as progress:
+        with Progress(console=progress_console()) as progress:
             report = run_experiments(
                 training_sources, test_source, plan, folder, licence, command, progress
             )

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from cli.sources import clear_errors, show
+from cli.tables import JsonFile, write_json
 
 TOWNS = {51: 0.5, 52: 0.5, 53: 0.5, 54: 0.5, 61: 1.0, 62: 1.0, 63: 1.0}
 """Seeds, and the share of the streets that identical houses line: where is one wrong and sure?"""
@@ -47,6 +48,7 @@ def fit_confidence(
         typer.Option("--output", "-o", metavar="FILE", help="(default: the one that is used)"),
     ] = None,
     seed: Annotated[int, typer.Option(help="Of the segments that are drawn.")] = 0,
+    json_file: JsonFile = None,
 ) -> None:
     """Fit the constants of the probability that a pose is right, on drives through towns.
 
@@ -73,7 +75,8 @@ def fit_confidence(
         pairs = [Pair.of(*both, progress=show) for both in drives]
         content = fit(pairs, folder_of_model, seed, progress=show)
         content["fitted_on"] |= {"towns": seeds, "look_alikes": shares}
-        file.write_text(json.dumps(content, indent=2) + "\n")
+        file.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+        write_json(content, json_file)
     held_out = content["held_out"]
     for row in held_out["reliability"]:
         typer.echo(f"stated {row['stated']:.3f}: right {row['right']:.3f} of {row['count']:,}")

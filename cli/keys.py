@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from cli.sources import clear_errors
+from cli.tables import JsonFlag, print_json
 
 
 def keys(
@@ -26,6 +27,7 @@ def keys(
     robot: Annotated[
         str | None, typer.Option(help="May upload maps of this robot's segments alone.")
     ] = None,
+    as_json: JsonFlag = False,
 ) -> None:
     """Make a key, add its hash to the file, and show the key once.
 
@@ -40,8 +42,11 @@ def keys(
         secret, digest = new_key()
         key = Key(sha256=digest, write=write, admin=admin, maps=tuple(maps or ["*"]), robot=robot)
         section = _section(name, key.model_dump(exclude_none=True))
-        before = file.read_text().rstrip() + "\n\n" if file.exists() else ""
+        before = file.read_text(encoding="utf-8").rstrip() + "\n\n" if file.exists() else ""
         replace(file.resolve(), before + section)
+    if as_json:
+        print_json({"name": name, "key": secret, "file": str(file)})
+        return
     typer.echo(secret)
     typer.echo(f"Shown this once; {file} keeps its hash. A robot sends it as", err=True)
     typer.echo("    Authorization: Bearer KEY", err=True)
@@ -61,7 +66,7 @@ def replace(file: Path, content: str) -> None:
         raise ValueError(f"{file}: would be no file of keys any more ({error!s:.100})") from error
     mode = file.stat().st_mode & 0o777 if file.exists() else 0o600
     descriptor, unfinished = tempfile.mkstemp(".unfinished", ".", file.parent)
-    with os.fdopen(descriptor, "w") as written:
+    with os.fdopen(descriptor, "w", encoding="utf-8") as written:
         written.write(content)
         os.fchmod(written.fileno(), mode)
     Path(unfinished).replace(file)

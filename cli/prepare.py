@@ -1,11 +1,12 @@
 """`placecell prepare`: the segments of drives, written once for training and evaluation."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from cli.sources import clear_errors, load
+from cli.tables import JsonFile, write_json
 
 
 def prepare(
@@ -22,15 +23,28 @@ def prepare(
             help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
         ),
     ] = None,
+    json_file: JsonFile = None,
 ) -> None:
     """Cut drives into segments and groups, and write each as a recording."""
+    rows: list[dict[str, Any]] = []
     with clear_errors():
         for folder in drives:
             recording = load(folder, every)
             file = output / f"{recording.name}.safetensors"
             recording.save(file)
+            row: dict[str, Any] = {
+                "file": str(file),
+                "drive": recording.name,
+                "scans": recording.scans,
+                "skipped_scans": len(recording.skipped_scans),
+                "dropped_points": recording.dropped_points,
+                "segments": len(recording.segments),
+                "distinct": int(recording.distinct.sum()),
+                "groups": int(recording.groups.max(initial=-1)) + 1,
+            }
+            rows.append(row)
             typer.echo(
-                f"{file}: {len(recording.segments):,} segments, "
-                f"{int(recording.distinct.sum()):,} without duplicates, "
-                f"{int(recording.groups.max(initial=-1)) + 1:,} groups"
+                f"{file}: {row['segments']:,} segments, {row['distinct']:,} without duplicates, "
+                f"{row['groups']:,} groups"
             )
+        write_json({"recordings": rows}, json_file)

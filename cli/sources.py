@@ -2,18 +2,24 @@
 
 import re
 import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
-import typer
 from rich.progress import track
 
+from cli.errors import clear_errors, fail
+from cli.tables import progress_console
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from segments.drives import Drive
     from segments.recording import Recording
     from training.training_set import Source
+
+__all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
 
 SOURCE_HELP = (
     "A drive's folder (KITTI odometry or raw layout) or a recording made by 'placecell prepare'; "
@@ -26,26 +32,9 @@ TOWN_SCANS = 300
 """Of each robot's drive through a town that is trained on."""
 
 
-def fail(message: object) -> NoReturn:
-    """End the command with a message and status 1."""
-    typer.secho(f"placecell: {message}", err=True, fg=typer.colors.RED)
-    raise typer.Exit(1)
-
-
-@contextmanager
-def clear_errors() -> Iterator[None]:
-    """Show errors that tell the user what to do as a line, not as a stack trace."""
-    try:
-        yield
-    except ModuleNotFoundError as error:
-        fail(f"needs {error.name}, which is not installed: make install")
-    except (ValueError, OSError) as error:
-        fail(error)
-
-
 def show(items: Iterable[int], total: int, what: str) -> Iterable[int]:
     """Loop with a progress bar on the terminal."""
-    return track(items, description=what, total=total)
+    return track(items, description=what, total=total, console=progress_console())
 
 
 def parse_scans(text: str) -> tuple[int, int]:
@@ -76,7 +65,31 @@ def load(path: Path, every: int | None = None) -> "Recording":
             )
         return recording
     drive = open_drive(path)
-    return record(drive, PROTOCOL_V1.for_drive(len(drive), every), progress=show)
+    recording = record(drive, PROTOCOL_V1.for_drive(len(drive), every), progress=show)
+    refuse_nothing(drive, [recording])
+    return recording
+
+
+def refuse_nothing(drive: "Drive", recordings: "Sequence[Recording]") -> None:
+    """Refuse a drive that gave no segments, and say what its scans are like.
+
+    Raises:
+        ValueError: none of the recordings holds a segment.
+    """
+    import numpy as np
+
+    if any(len(recording.segments) for recording in recordings):
+        return
+    some = np.unique(np.linspace(0, len(drive) - 1, 8).astype(int))
+    scans = [scan for scan in (drive.scan(int(index)) for index in some) if len(scan)]
+    ranges = np.concatenate([np.linalg.norm(scan, axis=1) for scan in scans] or [np.zeros(1)])
+    raise ValueError(
+        f"{drive.folder}: no segments were found in {len(drive)} scans of "
+        f"{np.mean([len(scan) for scan in scans] or [0]):,.0f} points (median range "
+        f"{np.median(ranges):.1f} m), read as {drive.point_layout}. Segments are objects of 100 "
+        "points or more that stand on the ground, within 60 m of the sensor. Check that z is up, "
+        "the unit (--unit), the columns (--columns), and that the poses are the sensor's"
+    )
 
 
 def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from cli.sources import SOURCE_HELP, clear_errors, source
+from cli.tables import JsonFile, progress_console, write_json
 
 
 def study(
@@ -18,6 +19,7 @@ def study(
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for study.json and study.png.")
     ] = Path("out/study"),
+    json_file: JsonFile = None,
 ) -> None:
     """Measure recognition by size, viewpoint, occlusion, density, storage; sort the misses.
 
@@ -38,7 +40,9 @@ def study(
         test = TrainingSet.of([part], SURROUNDINGS_V1)
         curves = {
             name: {"model_id": extractor.manifest.model_id} | study_of(extractor, test)
-            for name, (extractor, _) in track(models.items(), description="studying")
+            for name, (extractor, _) in track(
+                models.items(), description="studying", console=progress_console()
+            )
         }
     report = {
         "drive": part.recording.name,
@@ -48,7 +52,8 @@ def study(
         "machine": machine(),
         "models": curves,
     }
-    (output / "study.json").write_text(json.dumps(report, indent=1) + "\n")
+    (output / "study.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    write_json(report, json_file)
     studies(curves, output / "study.png")
     for name, curve in curves.items():
         shown = ", ".join(f"{what} {share:.1%}" for what, share in curve["misses"].items())

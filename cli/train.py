@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, sources
+from cli.tables import progress_console
 
 if TYPE_CHECKING:
     from segments.manifest import Manifest
@@ -102,7 +103,7 @@ def learn(
     checkpoints = methods.run_folder(runs, method, network, seed)
     if not resume:
         (checkpoints / "checkpoint.pt").unlink(missing_ok=True)
-    with Progress() as progress:
+    with Progress(console=progress_console()) as progress:
         changes = {"epochs": epochs}
         # As the experiments name their runs: what they trained can be published from here.
         identity = fingerprint(data, method, network, changes)

@@ -68,6 +68,11 @@ def record(
         frames.append(np.full(len(some), frame, dtype=np.int64))
         parts.append(some)
         groups.append(grouper.add_frame(some.centroids()))
+    read = range(len(drive)) if scans is None else scans
+    drive.check_usable(read)
+    skipped, dropped = drive.dropouts.within(read)
+    if skipped or dropped:
+        drive.options.tell(f"{drive.folder}: {drive.told(read)}")
     segments = Segments.concatenate(parts)
     del parts  # Of a long drive they are gigabytes.
     group = np.concatenate(groups)
@@ -82,6 +87,8 @@ def record(
         scan_hashes=tuple(drive.scan_hash(index) for index in range(len(drive))),
         path_length=drive.path_length(),
         part=scans,
+        skipped_scans=skipped,
+        dropped_points=dropped,
     )
 
 

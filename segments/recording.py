@@ -51,6 +51,8 @@ class Recording:
         scan_hashes: of each scan, to tell whether a model has seen it.
         path_length: metres driven.
         part: scans that it was made of, where that is not the whole drive.
+        skipped_scans: indices of scans that could not be used.
+        dropped_points: how many points of the other scans were not finite.
     """
 
     name: str
@@ -63,6 +65,8 @@ class Recording:
     scan_hashes: tuple[str, ...]
     path_length: float
     part: range | None = None
+    skipped_scans: tuple[int, ...] = ()
+    dropped_points: int = 0
 
     @property
     def frame_scans(self) -> range:
@@ -103,6 +107,10 @@ class Recording:
             "scan_hashes": list(self.scan_hashes),
             "path_length_m": self.path_length,
         }
+        if self.skipped_scans or self.dropped_points:
+            # Optional: the file of a drive without dropouts is as it always was.
+            header["skipped_scans"] = list(self.skipped_scans)
+            header["dropped_points"] = self.dropped_points
         file.parent.mkdir(parents=True, exist_ok=True)
         unfinished = file.with_name(file.name + ".unfinished")
         columns = {
@@ -149,6 +157,8 @@ class Recording:
                 scans=header["scans"],
                 scan_hashes=tuple(header["scan_hashes"]),
                 path_length=header["path_length_m"],
+                skipped_scans=tuple(header.get("skipped_scans", ())),
+                dropped_points=header.get("dropped_points", 0),
             )
         except (
             OSError,

@@ -197,7 +197,7 @@ def read_keys(file: Path) -> list[Holder]:
         ValueError: it is missing or is no file of keys; the message does not show its content.
     """
     try:
-        keys = KEYS.validate_python(tomllib.loads(file.read_text()))
+        keys = KEYS.validate_python(tomllib.loads(file.read_text(encoding="utf-8-sig")))
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

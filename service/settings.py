@@ -1,15 +1,20 @@
 """Settings: from the command line, the environment (`PLACECELL_LIMITS__K`, ...) or a file."""
 
+import difflib
 import os
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic_settings import (
     BaseSettings,
+    EnvSettingsSource,
+    InitSettingsSource,
     PydanticBaseSettingsSource,
     SettingsConfigDict,
-    TomlConfigSettingsSource,
 )
 
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
@@ -23,6 +28,23 @@ NAMED_MAPS = 1_000
 PREFIX = "PLACECELL_"
 FILE_VARIABLE = PREFIX + "CONFIG"
 DEFAULT_FILE = "placecell.toml"
+
+OTHER_NAMES = {
+    FILE_VARIABLE: "the settings' file",
+    PREFIX + "URL": "'placecell maps': address of the service",
+    PREFIX + "KEY": "'placecell maps': key to send",
+    PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
+    PREFIX + "DRIVES": "tests: folder of recorded drives",
+}
+"""Names in the environment that are no settings of the service, and what reads them."""
+
+SERVICE_LINK = re.compile(
+    r"PLACECELL_([A-Z0-9_]+_)?"
+    r"(SERVICE_HOST|SERVICE_PORT(_[A-Z0-9_]+)?|PORT_\d+_(TCP|UDP|SCTP)(_(PROTO|PORT|ADDR))?)"
+)
+"""Names that Kubernetes adds to every container for a Service that is called `placecell...`."""
+LINKED_PORT = re.compile(r"(tcp|udp|sctp)://", re.IGNORECASE)
+"""Such as `PLACECELL_PORT=tcp://10.0.0.7:8000`, which is not the port to listen on."""
 
 
 class Limits(BaseModel):
@@ -269,10 +291,120 @@ class Settings(BaseSettings):
         dotenv_settings: PydanticBaseSettingsSource,
         file_secret_settings: PydanticBaseSettingsSource,
     ) -> tuple[PydanticBaseSettingsSource, ...]:
-        """What is given goes before the environment, and that before the file."""
+        """Take what is given before the environment, and that before the file.
+
+        Raises:
+            ValueError: the environment or the file has a name that is no setting.
+        """
         del dotenv_settings, file_secret_settings
-        file = TomlConfigSettingsSource(settings_cls, settings_file())
-        return init_settings, env_settings, file
+        environment = {
+            name: value for name, value in os.environ.items() if not is_service_link(name, value)
+        }
+        check_environment(settings_cls, environment)
+        if isinstance(env_settings, EnvSettingsSource):
+            env_settings.env_vars = {
+                name: value
+                for name, value in env_settings.env_vars.items()
+                if not is_service_link(name, value or "")
+            }
+        file = settings_file()
+        content = read_settings(file)
+        check_keys(settings_cls, content, file)
+        return init_settings, env_settings, InitSettingsSource(settings_cls, content)
+
+
+def is_service_link(name: str, value: str) -> bool:
+    """Whether Kubernetes made this name for a Service, and it is none of our settings."""
+    name = name.upper()
+    if SERVICE_LINK.fullmatch(name):
+        return True
+    return (
+        name.startswith(PREFIX)
+        and name.endswith("_PORT")
+        and LINKED_PORT.match(value.strip()) is not None
+    )
+
+
+def is_group(kind: object) -> TypeGuard[type[BaseModel]]:
+    """Whether a setting is a group of others."""
+    return isinstance(kind, type) and issubclass(kind, BaseModel)
+
+
+def variables(model: type[BaseModel], inside: str = PREFIX) -> Iterator[str]:
+    """Names in the environment of all settings, groups among them."""
+    for name, field in model.model_fields.items():
+        yield inside + name.upper()
+        if is_group(field.annotation):
+            yield from variables(field.annotation, f"{inside}{name.upper()}__")
+
+
+def check_environment(model: type[BaseModel], environment: Mapping[str, str]) -> None:
+    """Refuse names that begin as our settings do and are none: a typo must not go unnoticed.
+
+    Raises:
+        ValueError: such a name, and the nearest setting.
+    """
+    known = [*variables(model), *OTHER_NAMES]
+    wrong = [
+        f"{name}{nearest(name.upper(), known)}"
+        for name in sorted(environment)
+        if name.upper().startswith(PREFIX.rstrip("_")) and name.upper() not in known
+    ]
+    if wrong:
+        raise ValueError(
+            f"the environment has what is no setting: {', '.join(wrong)}. "
+            "'placecell config' lists all settings; unset the others"
+        )
+
+
+def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -> None:
+    """Refuse keys of the file that are no settings.
+
+    Raises:
+        ValueError: such a key, and the nearest setting.
+    """
+    wrong = list(unknown_keys(model, content))
+    if wrong:
+        raise ValueError(f"{file}: no setting is called {', '.join(wrong)}")
+
+
+def unknown_keys(
+    model: type[BaseModel], content: Mapping[str, Any], inside: str = ""
+) -> Iterator[str]:
+    """Keys that are no settings, each with the nearest one."""
+    for name, value in content.items():
+        field = model.model_fields.get(name)
+        if field is None:
+            yield f"{inside}{name}{nearest(name, list(model.model_fields))}"
+        elif isinstance(value, dict) and is_group(field.annotation):
+            yield from unknown_keys(field.annotation, value, f"{inside}{name}.")
+
+
+def nearest(name: str, known: list[str]) -> str:
+    """Ask whether the most similar known name was meant; empty if none is similar."""
+
+    def bare(text: str) -> str:
+        return re.sub(r"[^a-z0-9]", "", text.lower())
+
+    by_letters = {bare(each): each for each in known}
+    found = difflib.get_close_matches(bare(name), list(by_letters), 1, cutoff=0.7)
+    return f" (did you mean {by_letters[found[0]]}?)" if found else ""
+
+
+def read_settings(file: Path) -> dict[str, Any]:
+    """Content of the settings' file; empty if there is none.
+
+    Raises:
+        ValueError: it cannot be read, or is no TOML.
+    """
+    try:
+        return tomllib.loads(file.read_text(encoding="utf-8-sig"))
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{file}: is no TOML ({error})") from error
 
 
 def settings_file() -> Path:

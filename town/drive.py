@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.drives.drive import DriveError, check_rotations, read_table
+from segments.drives.drive import check_rotations, read_table
+from segments.drives.errors import DriveError
 from segments.drives.kitti_odometry import as_transforms
 from segments.extraction import Progress, silent
 from segments.types import Float64

@@ -188,6 +188,8 @@ def evaluate(
         "extractors": extractors,
         "protocol": recording.parameters.protocol,
         "every": recording.parameters.frame_step,
+        "skipped_scans": len(recording.skipped_scans),
+        "dropped_points": recording.dropped_points,
         "machine": machine(),
         "seed": seed,
     }

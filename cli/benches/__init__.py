@@ -17,20 +17,21 @@ from cli.benches.serve import serve
 from cli.benches.soak import soak
 from cli.benches.town import town
 from cli.benches.views import views
+from cli.drive_options import takes_drives
 
 bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
-bench.command()(describe)
-bench.command()(serve)
-bench.command()(soak)
-bench.command()(maps)
-bench.command()(ladder)
-bench.command()(localize)
+bench.command()(takes_drives(describe))
+bench.command()(takes_drives(serve))
+bench.command()(takes_drives(soak))
+bench.command()(takes_drives(maps))
+bench.command()(takes_drives(ladder))
+bench.command()(takes_drives(localize))
 bench.command()(floors)
 bench.command()(localisation)
-bench.command()(align)
+bench.command()(takes_drives(align))
 bench.command()(town)
-bench.command()(views)
-bench.command()(peers)
+bench.command()(takes_drives(views))
+bench.command()(takes_drives(peers))
 bench.command()(crash)
 bench.command()(powerloss)
 bench.command()(fleet)

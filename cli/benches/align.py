@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def align(
@@ -46,16 +47,13 @@ def align(
 
 def print_report(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("", "pairs", "right", "wrong", "not aligned")
+    table = new_table("", "pairs", "right", "wrong", "not aligned")
     for name in ("overlapping", "overlapping_enough", "apart"):
         if name in report:
             row = report[name]
             counts = (row["pairs"], row["right"], row["wrong"], row["pairs"] - row["aligned"])
             table.add_row(name.replace("_", " "), *map(str, counts))
-    Console().print(table)
+    print_tables(table)
     if report["median_position_error_m"] is not None:
         typer.echo(
             f"median error {report['median_position_error_m']:.3f} m, "

@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, Kept, Seed, Source, scans_from, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def describe(
@@ -52,17 +53,16 @@ def describe(
 
 def print_report(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     sizes, machine = report["sizes"], report["machine"]
     typer.echo(
         f"{machine['processor']}, {machine['cores']} cores; {sizes['segments']:,} segments of "
         f"{sizes['points_mean']:.0f} points on average, from {report['source']}"
     )
-    table = Table(title="inference, segments a second")
+    table = new_table(title="inference, segments a second")
     for name in ("model", "precision", "batch", "threads", "rate", "top1"):
-        table.add_column(name, justify="left" if name in {"model", "precision"} else "right")
+        table.add_column(
+            name, justify="left" if name in {"model", "precision"} else "right", overflow="fold"
+        )
     for row in report["rows"]:
         table.add_row(
             row["model"],
@@ -72,7 +72,7 @@ def print_report(report: dict[str, Any]) -> None:
             f"{row['segments_per_second']:,.0f}",
             "-" if row["top1"] is None else f"{row['top1']:.1%}",
         )
-    Console().print(table)
+    print_tables(table)
     for threads, rate in report["preprocessing_segments_per_second"].items():
         typer.echo(f"align and voxelise, {threads} threads: {rate:,.0f} segments a second")
     for threads, rate in report["surroundings_segments_per_second"].items():

@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, write_json
 from cli.sources import clear_errors, load, parse_scans
+from cli.tables import new_table, print_tables
 
 
 def ladder(
@@ -44,10 +45,7 @@ def ladder(
 
 def print_rows(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("storage", "bytes", "top1", "cross view", "recall at 25")
+    table = new_table("storage", "bytes", "top1", "cross view", "recall at 25")
     for row in report["rows"]:
         shares = (row[key] for key in ("top1", "cross_view_top1", "recall_at_25"))
         table.add_row(
@@ -55,4 +53,4 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['bytes']:.0f}",
             *("-" if share is None else f"{share:.1%}" for share in shares),
         )
-    Console().print(table)
+    print_tables(table)

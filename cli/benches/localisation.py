@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from cli.sources import clear_errors
+from cli.tables import JsonFile, write_json
 
 
 def localisation(
@@ -20,6 +21,7 @@ def localisation(
         str | None,
         typer.Option(help="Only this one's figures, in full. (default: all systems, in short)"),
     ] = None,
+    json_file: JsonFile = None,
 ) -> None:
     """Write figures of localisation, measured before, as a table in Markdown."""
     from bench.pose_table import comparison, in_full, read
@@ -37,4 +39,5 @@ def localisation(
             lines = list(
                 in_full({name: each[system] for name, each in cases.items() if system in each})
             )
+        write_json({"cases": cases}, json_file)
     typer.echo("\n".join(lines))

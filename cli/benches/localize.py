@@ -8,6 +8,7 @@ import typer
 
 from cli.benches.options import JsonFile, Kept, Seed, Source, recording_from, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def localize(
@@ -55,18 +56,15 @@ def localize(
 
 def print_rows(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     names = ("p50", "p95", "p99", "max")
-    table = Table("segments", "right", *names, "search p50", "verify p50", title="milliseconds")
+    table = new_table("segments", "right", *names, "search p50", "verify p50", title="milliseconds")
     together = report["together"]
     for row in [*report["rows"], *([together] if together else [])]:
         steps = (row["stages"][stage]["p50"] for stage in ("search", "verify"))
         spent = (row["milliseconds"][name] for name in names)
         times = (f"{each:.1f}" for each in (*spent, *steps))
         table.add_row(_title(row), f"{row['localised_right']:.1%}", *times)
-    Console().print(table)
+    print_tables(table)
 
 
 def _title(row: dict[str, Any]) -> str:

@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, Kept, Seed, Source, recording_from, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def maps(
@@ -51,13 +52,10 @@ def maps(
 
 def print_rows(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     rows = report["rows"]
-    table = Table("", *(f"{row['segments']:,} segments" for row in rows))
+    table = new_table("", *(f"{row['segments']:,} segments" for row in rows))
     for key in rows[0]:
         if key != "segments" and not isinstance(rows[0][key], dict):
             table.add_row(key, *(f"{row[key]:,}" for row in rows))
-    Console().print(table)
+    print_tables(table)
     typer.echo(f"map file of 10,000: {report['file_bytes_per_segment']:.1f} bytes a segment")

@@ -1,16 +1,18 @@
 """What the benches share: where segments come from, where figures go."""
 
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from cli.sources import load, show
+from cli.tables import JsonFile, write_json
 
 if TYPE_CHECKING:
     from segments.recording import Recording
     from segments.segments import Segments
+
+__all__ = ["Drawn", "JsonFile", "Kept", "Seed", "Source", "write_json"]
 
 Source = Annotated[
     Path | None,
@@ -20,9 +22,6 @@ Source = Annotated[
         help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
         "(default: a short drive through the synthetic town)",
     ),
-]
-JsonFile = Annotated[
-    Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here.")
 ]
 Kept = Annotated[
     Path,
@@ -49,10 +48,3 @@ def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Se
 
     recording = recording_from(segments, output, seed)
     return scans_of(recording), "synthetic town" if segments is None else segments.stem
-
-
-def write_json(report: dict[str, Any], file: Path | None) -> None:
-    """Write the figures, if that is wanted."""
-    if file:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(json.dumps(report, indent=2) + "\n")

@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 DEFAULT_PYTHON = Path(".venv-peers/bin/python")
 
@@ -100,15 +101,12 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
 
 def print_rows(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     typer.echo(
         f"{report['rows'][0]['queries']} queries of {report['query_drive']} in a map of "
         f"{report['map_frames']} frames of {report['map_drive']}, {report['accumulated_scans']} "
         f"scans each, within {report['local_map_radius']:.0f} m"
     )
-    table = Table("", "right", "wrong", "unknown", "m", "deg", "p50 ms", "p99 ms")
+    table = new_table("", "right", "wrong", "unknown", "m", "deg", "p50 ms", "p99 ms")
     for row in report["rows"]:
         table.add_row(
             row["name"],
@@ -120,7 +118,7 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['p50_ms']:.0f}",
             f"{row['p99_ms']:.0f}",
         )
-    Console().print(table)
+    print_tables(table)
 
 
 def percent(value: float | None) -> str:

@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, Kept, Seed, Source, scans_from, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def serve(
@@ -40,9 +41,6 @@ def serve(
 
 def print_load(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
     names = (
         "case",
         "offered",
@@ -55,7 +53,7 @@ def print_load(report: dict[str, Any]) -> None:
         "p99 of 429",
         "batch",
     )
-    table = Table(*names, title="/match: segments a second, milliseconds")
+    table = new_table(*names, title="/match: segments a second, milliseconds")
     for row in report["rows"]:
         spent = row["milliseconds"]
         table.add_row(
@@ -67,7 +65,7 @@ def print_load(report: dict[str, Any]) -> None:
             str(row["rejected_milliseconds"]["p99"] or "-"),
             f"{row['batch_requests']:.1f}",
         )
-    Console().print(table)
+    print_tables(table)
     typer.echo(
         f"saturation: {report['saturation_segments_per_second']:,.0f} segments a second, "
         f"{report['http_over_library']:.0%} of the library alone; /match of 50 at half of it: "

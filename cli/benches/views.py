@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, Seed, write_json
 from cli.sources import clear_errors, load, parse_scans
+from cli.tables import new_table, print_tables
 
 
 def views(
@@ -35,10 +36,7 @@ def views(
 
 def print_rows(report: dict[str, Any]) -> None:
     """The figures on the terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("kept", "views", "segments", "cross view, top1", "cross view, recall at 25")
+    table = new_table("kept", "views", "segments", "cross view, top1", "cross view, recall at 25")
     for row in report["rows"]:
         shares = (row[key] for key in ("cross_view_top1", "cross_view_recall_at_25"))
         table.add_row(
@@ -47,4 +45,4 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['segments']:,}",
             *(f"{share:.1%}" for share in shares),
         )
-    Console().print(table)
+    print_tables(table)

@@ -1,11 +1,12 @@
 """`placecell maps push`, `pull` and `diff`: maps between files and a service."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cli.maps.connection import LOCAL, Name, Url, is_delta, map_from, service
+from cli.tables import JsonFlag, print_json
 
 if TYPE_CHECKING:
     from placecell_client import MapSummary, Written
@@ -19,6 +20,7 @@ def push(
     replace: Annotated[
         bool, typer.Option("--replace", help="In place of what is there, whoever wrote it.")
     ] = False,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Store a map file, or what a delta file changes; ends when it is safely on the service's disk.
@@ -28,18 +30,25 @@ def push(
     """
     with service(url) as client:
         beside = _etag_of(file)
-        seen = beside.read_text().strip() if beside.is_file() else None
+        seen = beside.read_text(encoding="utf-8").strip() if beside.is_file() else None
         if_match = "*" if replace else seen
         name, data = name or file.stem, file.read_bytes()
         stored: MapSummary | Written
+        done: dict[str, Any] = {"map": name}
         if is_delta(data):
             stored = client.edit_map(name, data, if_match=if_match)
-            typer.echo(f"{name}: {stored.changed:,} changed, {stored.removed:,} removed")
+            done |= {"changed": stored.changed, "removed": stored.removed}
         else:
             stored = client.put_map(name, data, if_match=if_match)
         if seen is not None:
-            beside.write_text(f"{stored.etag}\n")
-        typer.echo(f"{name}: {stored.segments:,} segments, version {stored.sequence}")
+            beside.write_text(f"{stored.etag}\n", encoding="utf-8")
+    done |= {"segments": stored.segments, "version": stored.sequence, "etag": stored.etag}
+    if as_json:
+        print_json(done)
+        return
+    if "changed" in done:
+        typer.echo(f"{name}: {done['changed']:,} changed, {done['removed']:,} removed")
+    typer.echo(f"{name}: {stored.segments:,} segments, version {stored.sequence}")
 
 
 def pull(
@@ -51,6 +60,7 @@ def pull(
             min=1, help="An earlier one, whole, to MAP@VERSION.map unless said; see 'maps show'."
         ),
     ] = None,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Bring a map's file up to date; what it has already does not travel again.
@@ -64,23 +74,34 @@ def pull(
         if version is not None:
             target = file or Path(f"{name}@{version}.map")
             _put(target, client.get_map_file(name, version))
-            typer.echo(f"{target}: version {version}")
+            if as_json:
+                print_json({"map": name, "file": str(target), "version": version})
+            else:
+                typer.echo(f"{target}: version {version}")
             return
         target = file or Path(f"{name}.map")
         beside, copy = _etag_of(target), MapCopy(name)
         if target.is_file() and beside.is_file():
-            copy = MapCopy(name, decode(target.read_bytes()), beside.read_text().strip())
+            copy = MapCopy(
+                name, decode(target.read_bytes()), beside.read_text(encoding="utf-8").strip()
+            )
         before = copy.sequence
         copy = client.pull(copy)
         assert copy.content is not None
         _put(target, encode(copy.content))
-        beside.write_text(f"{copy.etag}\n")
-        typer.echo(f"{target}: {len(copy.content):,} segments, version {before} to {copy.sequence}")
+        beside.write_text(f"{copy.etag}\n", encoding="utf-8")
+        count = len(copy.content)
+        if as_json:
+            versions = {"before": before, "version": copy.sequence, "etag": copy.etag}
+            print_json({"map": name, "file": str(target), "segments": count} | versions)
+        else:
+            typer.echo(f"{target}: {count:,} segments, version {before} to {copy.sequence}")
 
 
 def diff(
     old: Annotated[str, typer.Argument(help="A map file, a map, or a version: MAP@VERSION.")],
     new: Annotated[str, typer.Argument(help="The same.")],
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Tell what was added, changed and removed from one map to the other."""
@@ -91,10 +112,17 @@ def diff(
         before, after = map_from(client, old), map_from(client, new)
         changed, removed = difference(before, after)
         replaced = int(np.isin(changed.ids, before.ids).sum())
-        typer.echo(
-            f"{len(changed) - replaced:,} added, {replaced:,} changed, {len(removed):,} removed, "
-            f"{len(before) - replaced - len(removed):,} the same"
-        )
+    counts = {
+        "added": len(changed) - replaced,
+        "changed": replaced,
+        "removed": len(removed),
+        "same": len(before) - replaced - len(removed),
+    }
+    if as_json:
+        print_json(counts)
+    else:
+        words = {"same": "the same"}
+        typer.echo(", ".join(f"{count:,} {words.get(key, key)}" for key, count in counts.items()))
 
 
 def _put(target: Path, data: bytes) -> None:

@@ -6,28 +6,41 @@ from typing import Annotated
 import typer
 
 from cli.maps.connection import LOCAL, Name, Url, service
+from cli.tables import JsonFlag, print_json
 
 
 def restore(
     name: Name,
     version: Annotated[int, typer.Argument(min=1, help="As 'placecell maps show' lists them.")],
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Make a map again what it was. That is a new version: it can be undone the same way."""
     with service(url) as client:
         done = client.restore_map(name, version)
-        typer.echo(f"{name}: {done.segments:,} segments as in version {version}, "
-                   f"now version {done.sequence}")  # fmt: skip
+    if as_json:
+        facts = {"segments": done.segments, "version": done.sequence, "etag": done.etag}
+        print_json({"map": name, "restored": version} | facts)
+    else:
+        typer.echo(
+            f"{name}: {done.segments:,} segments as in version {version}, "
+            f"now version {done.sequence}"
+        )
 
 
 def compact(
     name: Name,
     keep: Annotated[int, typer.Option(min=1, help="Versions to keep, the newest.")] = 1,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Let go of old versions; the room is given back to the disk."""
     with service(url) as client:
-        typer.echo(f"{name}: version {client.compact_map(name, keep)} is the oldest now")
+        oldest = client.compact_map(name, keep)
+    if as_json:
+        print_json({"map": name, "oldest": oldest})
+    else:
+        typer.echo(f"{name}: version {oldest} is the oldest now")
 
 
 def age(
@@ -36,18 +49,22 @@ def age(
         datetime, typer.Option(help="Segments that were last seen before then go; local time.")
     ],
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Only tell how many.")] = False,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Remove what was not seen again for long."""
     with service(url) as client:
         done = client.age_map(name, unseen_since.timestamp(), dry_run)
-        would = "would go" if dry_run else "removed"
-        typer.echo(f"{name}: {done.removed:,} segments {would}")
+    if as_json:
+        print_json({"map": name, "removed": done.removed, "dry_run": dry_run})
+    else:
+        typer.echo(f"{name}: {done.removed:,} segments {'would go' if dry_run else 'removed'}")
 
 
 def delete(
     name: Name,
     yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Remove a map with all its versions."""
@@ -55,4 +72,7 @@ def delete(
         typer.confirm(f"Remove {name} and all its versions for good?", abort=True)
     with service(url) as client:
         client.delete_map(name)
+    if as_json:
+        print_json({"map": name, "deleted": True})
+    else:
         typer.echo(f"{name} is gone")

@@ -1,5 +1,6 @@
 """`placecell maps list`, `show` and `verify`: what there is, and whether it is whole."""
 
+from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,26 +9,25 @@ import typer
 
 from cli.maps.connection import LOCAL, Name, Url, is_delta, service
 from cli.sources import clear_errors, fail
+from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 if TYPE_CHECKING:
     from placecell_client import CompactMap, MapSummary
 
 
-def list_maps(url: Url = LOCAL) -> None:
+def list_maps(as_json: JsonFlag = False, url: Url = LOCAL) -> None:
     """List the maps, and whose segments they hold; and those that are damaged."""
-    from rich.console import Console
-    from rich.table import Table
-
     with service(url) as client:
-        table = Table("map", "segments", "version", "kB", "robots", "model")
         stored = client.maps()
-        for one in stored:
-            robots = ", ".join(f"{robot} {count:,}" for robot, count in one.robots.items())
-            size = f"{one.bytes / 1000:,.0f}"
-            table.add_row(
-                one.name, f"{one.segments:,}", str(one.sequence), size, robots, one.model_id
-            )
-    Console().print(table)
+    if as_json:
+        print_json({"maps": [asdict(one) for one in stored], "damaged": stored.damaged})
+        return
+    table = new_table("map", "segments", "version", "kB", "robots", "model")
+    for one in stored:
+        robots = ", ".join(f"{robot} {count:,}" for robot, count in one.robots.items())
+        size = f"{one.bytes / 1000:,.0f}"
+        table.add_row(one.name, f"{one.segments:,}", str(one.sequence), size, robots, one.model_id)
+    print_tables(table)
     for damaged in stored.damaged:
         typer.echo(f"{damaged} is damaged and not served; the service's log says how", err=True)
 
@@ -38,24 +38,27 @@ def show(
         Path | None, typer.Option(metavar="FILE", help="Draw it from above into this PNG.")
     ] = None,
     limit: Annotated[int, typer.Option(min=1, help="Versions to list, at most.")] = 20,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Show a map's versions, newest first: who did what, when; and what was merged into it."""
-    from rich.console import Console
-    from rich.table import Table
-
     with service(url) as client:
-        table = Table("version", "when (UTC)", "who", "what", "changed", "removed")
-        for one in client.versions(name, limit):
-            when = datetime.fromtimestamp(one.time, UTC).strftime("%Y-%m-%d %H:%M:%S")
-            counts = f"{one.changed:,}", f"{one.removed:,}"
-            table.add_row(str(one.sequence), when, one.author, one.operation, *counts)
-        Console().print(table)
-        for summary in client.maps():
-            if summary.name == name and summary.sources:
-                typer.echo(_whence(summary))
+        versions = list(client.versions(name, limit))
+        summary = next((one for one in client.maps() if one.name == name), None)
         if plot:
             draw(client.get_map(name), plot)
+    if as_json:
+        about = None if summary is None else asdict(summary)
+        print_json({"map": about, "versions": [asdict(one) for one in versions]})
+        return
+    table = new_table("version", "when (UTC)", "who", "what", "changed", "removed")
+    for one in versions:
+        when = datetime.fromtimestamp(one.time, UTC).strftime("%Y-%m-%d %H:%M:%S")
+        counts = f"{one.changed:,}", f"{one.removed:,}"
+        table.add_row(str(one.sequence), when, one.author, one.operation, *counts)
+    print_tables(table)
+    if summary is not None and summary.sources:
+        typer.echo(_whence(summary))
 
 
 def _whence(summary: "MapSummary") -> str:
@@ -81,11 +84,12 @@ def verify(
         list[Path],
         typer.Argument(help="Map files, delta files, or the data folder of a stopped service."),
     ],
+    as_json: JsonFlag = False,
 ) -> None:
     """See whether files and stored maps are whole; ends with status 1 if one is not."""
     from placecell_client import MapFileError, decode, decode_delta
 
-    bad = 0
+    files = []
     for path in paths:
         with clear_errors():
             found = []
@@ -97,10 +101,12 @@ def verify(
                     (decode_delta if is_delta(data) else decode)(data)
                 except MapFileError as error:
                     found = [str(error)]
-        for wrong in found or ["whole"]:
+        files.append({"path": str(path), "whole": not found, "faults": found})
+        for wrong in [] if as_json else found or ["whole"]:
             typer.echo(f"{path}: {wrong}")
-        bad += bool(found)
-    if bad:
+    if as_json:
+        print_json({"files": files})
+    if not all(file["whole"] for file in files):
         raise typer.Exit(1)
 
 

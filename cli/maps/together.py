@@ -1,6 +1,5 @@
 """`placecell maps align` and `merge`: how maps lie to each other, and one map of them all."""
 
-import json
 from dataclasses import asdict
 from math import degrees
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -9,6 +8,7 @@ import typer
 
 from cli.maps.connection import LOCAL, Name, Url, service
 from cli.sources import fail
+from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 if TYPE_CHECKING:
     from placecell_client import MapAlignment, Merge, MergePair, Overlap, Pose
@@ -20,21 +20,19 @@ Motion = Annotated[
     typer.Option(help="yaw: yaw and translation, for frames are level; se3: all six degrees."),
 ]
 
-Json = Annotated[bool, typer.Option("--json", help="Print all that is known, as JSON.")]
-
 
 def align(
     name: Name,
     other: Annotated[str, typer.Argument(metavar="OTHER", help="The map to lay on it.")],
     motion: Motion = "yaw",
-    as_json: Json = False,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Tell how another map lies to a map; ends with status 1 if the two are not aligned."""
     with service(url) as client:
         found = client.align_maps(name, other, motion=motion)
     if as_json:
-        print_json(found)
+        print_json(asdict(found))
     else:
         print_alignment(found)
     if found.pose is None:
@@ -64,7 +62,7 @@ def merge(
         ),
     ] = None,
     motion: Motion = "yaw",
-    as_json: Json = False,
+    as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
     """Lay maps on each other and put their segments into one; says how to undo it.
@@ -81,7 +79,7 @@ def merge(
             if_match=if_match,
         )
     if as_json:
-        print_json(merged)
+        print_json(asdict(merged))
     else:
         print_merge(merged)
     if not is_any_laid(merged):
@@ -94,19 +92,9 @@ def is_any_laid(merged: "Merge") -> bool:
     return sum(part.merged for part in merged.parts) + is_site_there >= 2
 
 
-def print_json(answer: "MapAlignment | Merge") -> None:
-    """An answer as the client gives it, its arrays as lists."""
-    import numpy as np
-
-    typer.echo(json.dumps(asdict(answer), indent=2, default=np.ndarray.tolist))
-
-
 def print_alignment(found: "MapAlignment") -> None:
     """The ways to lay one map on the other, the best one first; and what both have seen."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("", f"{found.other} in {found.map}: {POSE}", "pairs", "agreement", "score")
+    table = new_table("", f"{found.other} in {found.map}: {POSE}", "pairs", "agreement", "score")
     if found.pose is not None:
         counts = str(found.pairs), f"{found.agreement:.0%}", f"{found.score:.1f}"
         table.add_row("aligned", told(found.pose), *counts)
@@ -114,7 +102,7 @@ def print_alignment(found: "MapAlignment") -> None:
         counts = str(way.pairs), f"{way.agreement:.0%}", f"{way.score:.1f}"
         table.add_row("another way", told(way.pose), *counts)
     if table.row_count:
-        Console().print(table)
+        print_tables(table)
     if found.overlap is not None:
         typer.echo(
             f"both were in {found.overlap.of_map:.0%} of the places of {found.map}, "
@@ -124,19 +112,16 @@ def print_alignment(found: "MapAlignment") -> None:
 
 def print_merge(merged: "Merge") -> None:
     """What was found of each two maps, what became of each, and how to undo it."""
-    from rich.console import Console
-    from rich.table import Table
-
-    pairs = Table("map", "other", "found", "pairs", "agreement", "overlap")
+    pairs = new_table("map", "other", "found", "pairs", "agreement", "overlap")
     for pair in merged.alignments:
         counts = str(pair.pairs), f"{pair.agreement:.0%}", shares(pair.overlap)
         pairs.add_row(pair.map, pair.other, verdict(pair), *counts)
-    parts = Table("map", f"in {merged.map}: {POSE}", "new", "known", "repeats", "removed")
+    parts = new_table("map", f"in {merged.map}: {POSE}", "new", "known", "repeats", "removed")
     for part in merged.parts:
         place = told(part.pose) if part.pose is not None else "left out"
         numbers = (part.added, part.known, part.repeats, part.removed)
         parts.add_row(part.map, place, *(f"{number:,}" for number in numbers))
-    Console().print(pairs, parts)
+    print_tables(pairs, parts)
     for pair in merged.alignments:
         if not pair.aligned:
             typer.echo(f"{pair.map} and {pair.other}: {pair.detail}")

@@ -2,13 +2,25 @@
 
 from pathlib import Path
 
-from segments.drives.drive import Drive, DriveError
+from segments.drives.drive import Drive
+from segments.drives.errors import DriveError
 from segments.drives.kitti_odometry import KittiOdometry
 from segments.drives.kitti_raw import KittiRaw
+from segments.reading import Reading, parse_columns, reading
 
 FORMATS = (KittiOdometry, KittiRaw)
 
-__all__ = ["FORMATS", "Drive", "DriveError", "KittiOdometry", "KittiRaw", "open_drive"]
+__all__ = [
+    "FORMATS",
+    "Drive",
+    "DriveError",
+    "KittiOdometry",
+    "KittiRaw",
+    "Reading",
+    "open_drive",
+    "parse_columns",
+    "reading",
+]
 
 
 def open_drive(folder: Path) -> Drive:

@@ -6,11 +6,14 @@ import numpy as np
 
 from segments.drives.drive import (
     Drive,
-    DriveError,
+    check_motion,
     check_rotations,
     find_scans,
+    read_lines,
     read_table,
 )
+from segments.drives.errors import DriveError
+from segments.reading import SECONDS, current_reading
 from segments.types import Float64
 
 
@@ -39,6 +42,7 @@ class KittiOdometry(Drive):
         if not pose_file.exists() and beside.exists():
             pose_file = beside
         camera = read_table(pose_file, 12, "a 3x4 pose a line, row by row: 12 numbers")
+        self.scan_files = with_missing(self.scan_files, len(camera))
         if len(camera) != len(self.scan_files):
             raise DriveError(
                 f"{pose_file}: {len(camera)} poses for {len(self.scan_files)} scans in "
@@ -57,10 +61,33 @@ class KittiOdometry(Drive):
             raise DriveError(
                 f"{time_file}: {len(self.times)} times for {len(self.scan_files)} scans"
             )
+        options = current_reading()
+        if options.time_unit != "s":
+            self.times = (self.times - self.times[0]) * SECONDS[options.time_unit]
+        for remark in check_motion(self.poses, self.times, pose_file, time_file):
+            options.tell(remark)
+        self.examine()
 
     @classmethod
     def recognises(cls, folder: Path) -> bool:
         return (folder / "velodyne").is_dir()
+
+
+def with_missing(files: list[Path], poses: int) -> list[Path]:
+    """Scan files by their numbers from 0, with those in between that are not there.
+
+    So that a lost scan costs that scan alone, where there is a pose for it.
+    """
+    numbers = [int(file.stem) for file in files]
+    if len(files) < poses and numbers[0] == 0 and numbers[-1] == poses - 1:
+        there = dict(zip(numbers, files, strict=True))
+        if len(there) == len(files):
+            first = files[0]
+            return [
+                there.get(number, first.with_name(f"{number:0{len(first.stem)}d}.bin"))
+                for number in range(poses)
+            ]
+    return files
 
 
 def as_transforms(rows: Float64) -> Float64:
@@ -81,13 +108,9 @@ def read_calibration(file: Path) -> Float64:
         "the poses' frame (KITTI's is in the calibration archive of the odometry benchmark; "
         "'Tr: 1 0 0 0 0 1 0 0 0 0 1 0' if the poses are the sensor's own)"
     )
-    try:
-        lines = file.read_text().splitlines()
-    except FileNotFoundError as error:
-        raise DriveError(f"{file}: missing; {how}") from error
-    except (OSError, UnicodeDecodeError) as error:
-        raise DriveError(f"{file}: cannot be read ({error})") from error
-    for line in lines:
+    if not file.exists():
+        raise DriveError(f"{file}: missing; {how}")
+    for line in read_lines(file, "the sensor's calibration"):
         key, _, values = line.partition(":")
         if key.strip() != "Tr":
             continue

@@ -6,7 +6,16 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from segments.drives.drive import Drive, DriveError, check_rotations, find_scans, read_table
+from segments.drives.drive import (
+    Drive,
+    check_motion,
+    check_rotations,
+    find_scans,
+    read_lines,
+    read_table,
+)
+from segments.drives.errors import DriveError
+from segments.reading import current_reading
 from segments.types import Float64
 
 EARTH_RADIUS = 6_378_137.0
@@ -39,7 +48,9 @@ class KittiRaw(Drive):
             if len(table) != 1:
                 raise DriveError(f"{file}: {len(table)} records; there must be one")
             rows.append(table[0])
-        inertial = oxts_to_poses(np.stack(rows))
+        records = np.stack(rows)
+        check_oxts(records, oxts_files)
+        inertial = oxts_to_poses(records)
         inertial_to_sensor = read_rigid_calibration(find_calibration(folder))
         poses = inertial @ np.linalg.inv(inertial_to_sensor)
         self.origin = np.zeros(3)
@@ -48,10 +59,42 @@ class KittiRaw(Drive):
             folder / "velodyne_points" / "timestamps.txt",
             [int(file.stem) for file in self.scan_files],
         )
+        remarks = check_motion(
+            self.poses,
+            self.times,
+            folder / "oxts" / "data",
+            folder / "velodyne_points" / "timestamps.txt",
+        )
+        for remark in remarks:
+            current_reading().tell(remark)
+        self.examine()
 
     @classmethod
     def recognises(cls, folder: Path) -> bool:
         return (folder / "velodyne_points" / "data").is_dir()
+
+
+def check_oxts(records: Float64, files: list[Path]) -> None:
+    """Refuse records that are not in degrees (position) and radians (orientation).
+
+    Raises:
+        DriveError: a latitude, longitude or angle is out of its range.
+    """
+    ranges = (
+        ("latitude", 90.0, "degrees, at most 90"),
+        ("longitude", 180.0, "degrees, at most 180"),
+        ("altitude", 1e5, "meters"),
+        ("roll", 2 * np.pi, "radians; this looks like degrees"),
+        ("pitch", 2 * np.pi, "radians; this looks like degrees"),
+        ("yaw", 2 * np.pi + 0.1, "radians; this looks like degrees"),
+    )
+    for column, (name, most, expected) in enumerate(ranges):
+        bad = np.abs(records[:, column]) > most
+        if bad.any():
+            at = int(bad.argmax())
+            raise DriveError(
+                f"{files[at]}: its {name} is {records[at, column]:g}; expected {expected}"
+            )
 
 
 def oxts_to_poses(records: Float64) -> Float64:
@@ -92,13 +135,15 @@ def read_rigid_calibration(file: Path) -> Float64:
         entries = {
             key.strip(): values.split()
             for key, colon, values in (
-                line.partition(":") for line in file.read_text().splitlines()
+                line.partition(":") for line in read_lines(file, "'R:' and 'T:'")
             )
             if colon
         }
         rotation = np.array(entries["R"], dtype=np.float64).reshape(3, 3)
         translation = np.array(entries["T"], dtype=np.float64).reshape(3)
-    except (OSError, KeyError, ValueError) as error:
+    except DriveError:
+        raise
+    except (KeyError, ValueError) as error:
         raise DriveError(f"{file}: needs 'R:' with 9 numbers and 'T:' with 3 ({error})") from error
     transform = np.eye(4)
     transform[:3, :3] = rotation
@@ -115,12 +160,10 @@ def read_timestamps(file: Path, numbers: list[int]) -> Float64:
     Raises:
         DriveError: missing, malformed, or fewer lines than the last scan's number.
     """
+    lines = read_lines(file, "the time of each scan")
     try:
-        lines = file.read_text().split("\n")
         # Nanoseconds are cut to microseconds, the most that datetime takes.
         stamps = [datetime.fromisoformat(lines[number].strip()[:26]) for number in numbers]
-    except FileNotFoundError as error:
-        raise DriveError(f"{file}: missing; it holds the time of each scan") from error
     except (ValueError, IndexError) as error:
         raise DriveError(
             f"{file}: needs a time a scan, such as 2011-09-30 12:40:59.5 ({error})"

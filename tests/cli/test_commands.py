@@ -183,6 +183,42 @@ def test_no_segments_within_the_scans_is_said(workshop: Path) -> None:
     assert "no group" in run("evaluate", recording, "--scans", "900:901", status=1).output
 
 
+def test_B4_a_drive_without_segments_is_no_success(tmp_path: Path) -> None:
+    points = np.random.default_rng(0).normal(size=(40, 3)) + [8, 0, 0]
+    drive = write_odometry(tmp_path / "bare", [points] * 3, [pose(x) for x in range(3)])
+    said = run("prepare", drive, "--output", tmp_path / "data", status=1).output
+    assert "no segments were found in 3 scans of 40 points" in said
+    assert "--columns" in said
+    assert not (tmp_path / "data").exists()
+
+
+def test_B10_skipped_scans_are_counted_in_the_figures(workshop: Path, tmp_path: Path) -> None:
+    drive = tmp_path / "robot_b"
+    shutil.copytree(workshop / "drives" / "robot_b", drive)
+    for number in range(16, 40):
+        (drive / "velodyne" / f"{number:06d}.bin").unlink()
+    for name in ("poses.txt", "times.txt"):
+        lines = (drive / name).read_text().splitlines()[:16]
+        (drive / name).write_text("\n".join(lines))
+    (drive / "velodyne" / "000003.bin").write_bytes(b"")
+    values = np.fromfile(drive / "velodyne" / "000005.bin", "<f4")
+    values[:8] = np.nan
+    values.tofile(drive / "velodyne" / "000005.bin")
+    file = tmp_path / "prepared.json"
+    done = run("prepare", drive, "--output", tmp_path / "data", "--json", file)
+    assert "1 of 16 scans skipped (000003.bin: no points (0 bytes))" in done.output
+    (row,) = json.loads(file.read_text())["recordings"]
+    assert (row["skipped_scans"], row["dropped_points"]) == (1, 2)
+    prepared = tmp_path / "data" / "robot_b.safetensors"
+    assert Recording.load(prepared).skipped_scans == (3,)
+    run("evaluate", prepared, "--model", "eigenvalue", "--json", file)
+    report = json.loads(file.read_text())
+    assert (report["skipped_scans"], report["dropped_points"]) == (1, 2)
+    refused = run("prepare", drive, "--strict", "--output", tmp_path / "data", status=1).output
+    assert "000003.bin" in refused
+    assert "--strict" in refused
+
+
 def test_an_altered_model_is_refused(workshop: Path, tmp_path: Path) -> None:
     for file in (workshop / "tiny").iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())

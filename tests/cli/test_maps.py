@@ -1,5 +1,6 @@
 """`placecell maps` against a running service, as a person uses it."""
 
+import json
 import socket
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -160,3 +161,24 @@ def test_a_stopped_services_folder_is_verified(tmp_path: Path, yard: CompactMap)
         listed = good("list", "--url", address)
     assert "other" in listed
     assert "yard is damaged" in listed
+
+
+def test_B12_what_was_done_is_told_as_json(
+    address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PLACECELL_URL", address)
+    file = tmp_path / "told.map"
+    file.write_bytes(encode(yard))
+    assert json.loads(good("push", file, "--json"))["segments"] == 300
+    assert json.loads(good("pull", "told", file, "--json"))["version"] == 1
+    file.write_bytes(encode(take(yard, np.arange(10))))
+    assert json.loads(good("push", file, "--json"))["version"] == 2
+    counts = json.loads(good("diff", "told@1", "told", "--json"))
+    assert counts == {"added": 0, "changed": 0, "removed": 290, "same": 10}
+    shown = json.loads(good("show", "told", "--json"))
+    assert [one["sequence"] for one in shown["versions"]] == [2, 1]
+    assert json.loads(good("restore", "told", 1, "--json"))["version"] == 3
+    aged = json.loads(good("age", "told", "--unseen-since", "1990-01-01", "--json"))
+    assert aged == {"map": "told", "removed": 0, "dry_run": False}
+    assert json.loads(good("compact", "told", "--json"))["oldest"] == 3
+    assert json.loads(good("delete", "told", "--yes", "--json"))["deleted"] is True

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.drives import DriveError, KittiOdometry, open_drive
+from segments.drives import DriveError, KittiOdometry, Reading, open_drive, reading
 from tests.segments.segment_builders import KITTI_TR, pose, write_odometry, write_scan
 
 # Straight ahead, then a bend to the left, uphill.
@@ -154,21 +154,30 @@ def test_poses_of_its_own_come_first(folder: Path) -> None:
     assert len(open_drive(folder)) == 4
 
 
-@pytest.mark.parametrize(("content", "what"), [(b"", "no points"), (b"x" * 40, "cut short")])
-def test_broken_scan_is_named_when_it_is_read(folder: Path, content: bytes, what: str) -> None:
+@pytest.mark.parametrize(("content", "what"), [(b"", "no points"), (b"x" * 40, "no whole number")])
+def test_broken_scan_is_skipped_and_refused_if_strict(
+    folder: Path, content: bytes, what: str
+) -> None:
     file = folder / "velodyne" / "000001.bin"
     file.write_bytes(content)
-    drive = open_drive(folder)
-    with pytest.raises(DriveError, match=what) as caught:
-        drive.scan(1)
+    with pytest.raises(DriveError, match=what) as caught, reading(Reading(strict=True)):
+        open_drive(folder)
     assert str(file) in str(caught.value)
+    drive = open_drive(folder)
+    assert len(drive.scan(1)) == 0
+    assert list(drive.dropouts.skipped) == [1]
     assert len(drive.scan(2)) == 2
 
 
-def test_scan_with_nan_is_named(folder: Path) -> None:
+def test_scan_of_nan_is_skipped_and_refused_if_strict(folder: Path) -> None:
     write_scan(folder / "velodyne" / "000003.bin", [[np.nan, 0, 0]])
-    with pytest.raises(DriveError, match=r"000003\.bin: 1 of 1 points are not finite"):
-        open_drive(folder).scan(3)
+    drive = open_drive(folder)
+    assert len(drive.scan(3)) == 0
+    assert "not finite" in drive.dropouts.skipped[3]
+    with reading(Reading(strict=True)):
+        strict = open_drive(folder)
+    with pytest.raises(DriveError, match=r"000003\.bin: .*not finite"):
+        strict.scan(3)
 
 
 def test_no_scans(folder: Path) -> None:

@@ -1,0 +1,104 @@
+"""Options of every command that reads recorded drives: how their files are laid out."""
+
+import functools
+import inspect
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+
+from cli.errors import clear_errors
+from segments.reading import DType, Order, Reading, TimeUnit, Unit, parse_columns, reading
+
+PANEL = "Recorded drives"
+
+OPTIONS: dict[str, tuple[Any, Any]] = {
+    "columns": (
+        Annotated[
+            str | None,
+            typer.Option(
+                metavar="NAMES",
+                help="Columns of a .bin scan: their number, or names such as "
+                "x,y,z,intensity,ring. (default: found from the values; KITTI has 4)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "dtype": (
+        Annotated[
+            DType | None,
+            typer.Option(
+                help="Type of a scan's values. (default: found from the values)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "order": (
+        Annotated[
+            Order,
+            typer.Option(
+                help="rows: a point's values follow each other; columns: all x come first.",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        "rows",
+    ),
+    "unit": (
+        Annotated[
+            Unit,
+            typer.Option(help="Unit of the scans' coordinates.", rich_help_panel=PANEL),
+        ],
+        "m",
+    ),
+    "time_unit": (
+        Annotated[TimeUnit, typer.Option(help="Unit of times.txt.", rich_help_panel=PANEL)],
+        "s",
+    ),
+    "strict": (
+        Annotated[
+            bool,
+            typer.Option(
+                "--strict",
+                help="Refuse a drive with scans that cannot be used or points that are NaN. "
+                "(default: skip and count them)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        False,
+    ),
+}
+
+
+def tell(message: str) -> None:
+    """Tell on standard error what was found in a drive's files."""
+    typer.echo(f"placecell: {message}", err=True)
+
+
+def takes_drives(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the options of recorded drives, in force while it runs."""
+
+    @functools.wraps(command)
+    def with_options(**words: Any) -> None:
+        given = {name: words.pop(name) for name in OPTIONS}
+        with clear_errors():
+            names = given.pop("columns")
+            options = Reading(
+                columns=None if names is None else parse_columns(names), tell=tell, **given
+            )
+        with reading(options):
+            command(**words)
+
+    signature = inspect.signature(command, eval_str=True)
+    extra = [
+        inspect.Parameter(
+            name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=kind
+        )
+        for name, (kind, default) in OPTIONS.items()
+    ]
+    parameters = [*signature.parameters.values(), *extra]
+    with_options.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    with_options.__annotations__ = {each.name: each.annotation for each in parameters}
+    del with_options.__wrapped__
+    return with_options

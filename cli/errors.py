@@ -1,0 +1,207 @@
+"""Errors as lines: the one place where an exception becomes a message and an exit status."""
+
+import codecs
+import errno
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, NoReturn
+
+import typer
+from typer.core import TyperGroup
+
+DEBUG_VARIABLE = "PLACECELL_DEBUG"
+"""Set to anything, an unexpected error is shown with its stack trace."""
+
+FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
+"""Exit statuses; the last two are 128 and the signal's number, as shells have it."""
+
+
+def fail(message: object, status: int = FAILED) -> NoReturn:
+    """End the command with a message on standard error."""
+    line = "; ".join(part.strip() for part in str(message).splitlines() if part.strip())
+    typer.secho(f"placecell: {line}", err=True, fg=typer.colors.RED)
+    raise typer.Exit(status)
+
+
+@contextmanager
+def clear_errors() -> Iterator[None]:
+    """Show errors that tell the user what to do as a line, not as a stack trace."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise  # Whoever reads our output has gone: nothing to say, and nobody to say it to.
+    except ModuleNotFoundError as error:
+        if os.environ.get(DEBUG_VARIABLE):
+            raise
+        fail(f"needs {error.name}, which is not installed: make install")
+    except (ValueError, OSError) as error:
+        if os.environ.get(DEBUG_VARIABLE):
+            raise
+        fail(plain(error))
+
+
+def plain(error: BaseException) -> str:
+    """Say in a line what went wrong: the file or setting first, then what, then what to do."""
+    if isinstance(error, OSError):
+        return _plain_os_error(error)
+    if isinstance(error, UnicodeError):
+        return f"text that cannot be read or written in its encoding ({error})"
+    if isinstance(error, json.JSONDecodeError):
+        return f"not valid JSON ({error})"
+    if isinstance(error, MemoryError):
+        return "out of memory"
+    errors = getattr(error, "errors", None)
+    if callable(errors) and isinstance(error, ValueError):  # pydantic's, without its address
+        return "; ".join(
+            ": ".join(part for part in (".".join(map(str, one["loc"])), one["msg"]) if part)
+            for one in errors()
+        )
+    return str(error) or type(error).__name__
+
+
+def _plain_os_error(error: OSError) -> str:
+    words = {
+        errno.EACCES: "permission denied",
+        errno.EPERM: "permission denied",
+        errno.ENOENT: "no such file or folder",
+        errno.EISDIR: "is a folder, expected a file",
+        errno.ENOTDIR: "a part of the path is a file, expected a folder",
+        errno.EEXIST: "is there already",
+        errno.ENOSPC: "no space left on the disk",
+        errno.EDQUOT: "no space left in the quota of the disk",
+        errno.EROFS: "the file system is read-only",
+        errno.ENAMETOOLONG: "the name is too long",
+        errno.EMFILE: "too many open files (ulimit -n)",
+    }
+    what = words.get(error.errno or 0) or error.strerror
+    if what is None:
+        return str(error)
+    name = error.filename2 or error.filename
+    return f"{os.fsdecode(name) if isinstance(name, bytes) else name}: {what}" if name else what
+
+
+ASCII = "placecell_ascii"
+"""ASCII under another name: Typer takes a stream of that encoding for misconfigured, and sends it
+UTF-8 all the same."""
+
+
+def _find_codec(name: str) -> codecs.CodecInfo | None:
+    if name != ASCII:
+        return None
+    ascii_codec = codecs.lookup("ascii")
+    return codecs.CodecInfo(
+        ascii_codec.encode,
+        ascii_codec.decode,
+        incrementalencoder=ascii_codec.incrementalencoder,
+        incrementaldecoder=ascii_codec.incrementaldecoder,
+        name=ASCII,
+    )
+
+
+codecs.register(_find_codec)
+
+
+def _prepare_streams() -> None:
+    """Let no character of a name end a command: what the terminal cannot show is escaped."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the shell: `>&-`
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+            if codecs.lookup(stream.encoding).name == "ascii":
+                stream.reconfigure(encoding=ASCII)
+
+
+def _silence(stream: Any) -> None:
+    """Let what is left in a stream's buffer go nowhere, so that nothing fails at the exit."""
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)
+    except (OSError, ValueError):
+        return  # No file behind it.
+
+
+class Commands(TyperGroup):
+    """The root of all commands; whatever one raises ends as a line and an exit status."""
+
+    def main(
+        self,
+        args: Sequence[str] | None = None,
+        prog_name: str | None = None,
+        complete_var: str | None = None,
+        standalone_mode: bool = True,
+        windows_expand_args: bool = True,
+        **extra: Any,
+    ) -> Any:
+        words = (args, prog_name, complete_var)
+        if not standalone_mode:
+            return super().main(*words, False, windows_expand_args, **extra)
+        _prepare_streams()
+        try:
+            status = super().main(*words, False, windows_expand_args, **extra)
+        except typer.Abort:
+            typer.echo("placecell: nothing was done", err=True)
+            status = FAILED
+        except Exception as error:
+            # Words that cannot be understood: a wrong option, a missing argument.
+            if not hasattr(error, "format_message"):
+                raise
+            status = _show_usage(error)
+        sys.exit(status if isinstance(status, int) else 0)
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            with clear_errors():
+                done = super().invoke(ctx)
+            _flush()
+            return done
+        except BrokenPipeError:
+            _silence(sys.stdout)
+            raise typer.Exit(PIPE_CLOSED) from None
+        except KeyboardInterrupt:
+            fail("interrupted", INTERRUPTED)
+        except (typer.Exit, typer.Abort):
+            _flush()
+            raise
+        except Exception as error:
+            if hasattr(error, "format_message") or os.environ.get(DEBUG_VARIABLE):
+                raise
+            fail(
+                f"{type(error).__name__}: {plain(error)} (unexpected; "
+                f"{DEBUG_VARIABLE}=1 shows where)"
+            )
+
+
+def _flush() -> None:
+    """Write what was printed, for a full disk or a closed pipe to be told now.
+
+    Raises:
+        Exit: the output cannot be written.
+        BrokenPipeError: nobody reads it.
+    """
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        _silence(sys.stdout)
+        fail(f"standard output: {plain(error)}")
+
+
+def _show_usage(error: Any) -> int:
+    """Two lines: what is wrong with the words, and where help is."""
+    status = int(error.exit_code)
+    context = getattr(error, "ctx", None)
+    if type(error).__name__ == "NoArgsIsHelpError":
+        error.show()
+        return status
+    message = " ".join(error.format_message().split())
+    typer.secho(f"placecell: {message}", err=True, fg=typer.colors.RED)
+    if context is not None:
+        typer.echo(f"Try '{context.command_path} --help'.", err=True)
+    return status

@@ -1,0 +1,88 @@
+"""Tables and JSON on standard output: for people on a terminal, whole and plain in a pipe."""
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+JsonFlag = Annotated[bool, typer.Option("--json", help="Print JSON in place of text.")]
+JsonFile = Annotated[
+    Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here as JSON.")
+]
+
+UNBOUNDED = 1_000_000
+"""Columns of a pipe: nothing in a table is cut or wrapped."""
+
+
+def console() -> "Console":
+    """A console that shows names as they are: no markup, no emoji; in a pipe no color, no width."""
+    from rich.console import Console
+
+    if sys.stdout.isatty():
+        return Console(markup=False, emoji=False, highlight=False)
+    return Console(
+        markup=False,
+        emoji=False,
+        highlight=False,
+        width=UNBOUNDED,
+        no_color=True,
+        force_terminal=False,
+    )
+
+
+def progress_console() -> "Console":
+    """Where progress bars go: standard error, so that a pipe holds results alone."""
+    from rich.console import Console
+
+    return Console(stderr=True)
+
+
+def new_table(*headers: str, title: str | None = None) -> "Table":
+    """A table whose cells are wrapped where a terminal is narrow, never cut."""
+    from rich.table import Table
+
+    table = Table(title=title)
+    for header in headers:
+        table.add_column(header, overflow="fold")
+    return table
+
+
+def print_tables(*tables: "Table") -> None:
+    """Print tables, one under the other.
+
+    Raises:
+        BrokenPipeError: nobody reads them.
+    """
+    to = console()
+    with to.capture() as captured:
+        to.print(*tables)
+    typer.echo(captured.get(), nl=False)
+
+
+def print_json(content: Any) -> None:
+    """Print JSON, arrays as lists."""
+    typer.echo(json.dumps(content, indent=2, default=_plain))
+
+
+def write_json(content: Any, file: Path | None) -> None:
+    """Write figures as JSON, if a file is named."""
+    if file:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(content, indent=2, default=_plain) + "\n", encoding="utf-8")
+
+
+def _plain(value: Any) -> Any:
+    """An array, a number of NumPy's, a path or a set as JSON has it."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, set | frozenset | tuple):
+        return list(value)
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"{type(value).__name__} cannot be written as JSON")

@@ -1,0 +1,199 @@
+"""Errors of the command line: a line or two and an exit status, never a stack trace."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+from placecell_client import Client, encode
+from typer.testing import CliRunner
+
+from bench.server import running_service
+from cli import app
+from cli.errors import plain
+
+
+def leaves(
+    command: Any = None, path: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Every subcommand and the words that lead to it."""
+    command = typer.main.get_command(app) if command is None else command
+    if hasattr(command, "commands"):
+        for name, each in command.commands.items():
+            yield from leaves(each, (*path, name))
+    else:
+        yield path, command
+
+
+LEAVES = dict(leaves())
+NO_JSON: dict[Words, str] = {
+    ("serve",): "runs until it is stopped",
+    ("train",): "writes a model's folder",
+    ("experiments",): "writes a report's folder",
+    ("ablations",): "writes a report's folder with ablations.json",
+}
+"""Commands that print no figures."""
+
+
+def run(*words: object, env: dict[str, str] | None = None) -> tuple[int, str]:
+    result = CliRunner().invoke(app, [str(word) for word in words], env=env)
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, result.output
+
+
+@pytest.mark.parametrize("path", LEAVES, ids=" ".join)
+def test_B12_every_command_that_prints_figures_has_json(path: tuple[str, ...]) -> None:
+    options = {option for each in LEAVES[path].params for option in each.opts}
+    assert ("--json" in options) == (path not in NO_JSON), NO_JSON.get(path)
+
+
+@pytest.mark.parametrize("path", LEAVES, ids=" ".join)
+def test_B16_wrong_words_are_told_in_two_lines(path: tuple[str, ...]) -> None:
+    """A wrong option, a path that is not there, a value that is no number: each with a status."""
+    command = LEAVES[path]
+    status, said = run(*path, "--no-such-option")
+    assert status == 2
+    assert len(said.strip().splitlines()) <= 2
+    assert "--help" in said
+    needed = [each for each in command.params if each.param_type_name == "argument"]
+    arguments = [
+        "group" if each.name == "method" else "/nowhere/at/all" for each in needed if each.required
+    ]
+    url = (
+        ["--url", "http://127.0.0.1:9"]
+        if any(each.name == "url" for each in command.params)
+        else []
+    )
+    for option in command.params:
+        kind = str(option.type_descriptor.annotation)
+        if option.param_type_name == "option" and ("int" in kind or "float" in kind):
+            status, said = run(*path, *arguments, *url, option.opts[0], "seven")
+            assert status == 2, option.opts
+            assert option.opts[0] in said
+            assert len(said.strip().splitlines()) <= 2
+    reads = {"prepare", "evaluate", "evaluate-poses", "train", "study", "verify", "ladder", "views"}
+    if path[-1] in reads | {"peers", "align", "localisation", "list", "show"}:
+        more = ["--scans", "0:9"] if path[-1] in {"ladder", "views"} else []
+        status, said = run(*path, *arguments, *url, *more)
+        assert status == 1
+        assert len(said.strip().splitlines()) <= 2, said
+        assert "Traceback" not in said
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (PermissionError(13, "Permission denied", "/a/b"), "/a/b: permission denied"),
+        (FileNotFoundError(2, "No such file", "x"), "x: no such file or folder"),
+        (IsADirectoryError(21, "Is a directory", "x"), "x: is a folder, expected a file"),
+        (NotADirectoryError(20, "Not a directory", "x/y"), "x/y: a part of the path is a file"),
+        (OSError(28, "No space left on device", "out.json"), "out.json: no space left"),
+        (OSError(28, "No space left on device"), "no space left on the disk"),
+        (MemoryError(), "out of memory"),
+        (ValueError("a\nb"), "a\nb"),
+    ],
+)
+def test_B16_errors_of_the_system_name_the_file_first(error: Exception, words: str) -> None:
+    assert words in plain(error)
+
+
+def test_B16_an_unexpected_error_is_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise KeyError("column")
+
+    monkeypatch.setattr(sys.modules["cli.prepare"], "load", broken)
+    status, said = run("prepare", "x")
+    assert status == 1
+    assert "KeyError" in said
+    assert len(said.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("where", ["file/below", "file"])
+def test_B16_output_below_a_file_is_told(where: str, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("x")
+    status, said = run("town", tmp_path / where, "--scans", "1", "--columns", "16")
+    assert status == 1
+    assert "file" in said
+    assert len(said.strip().splitlines()) <= 2
+
+
+def shell(words: str, **env: str) -> subprocess.CompletedProcess[bytes]:
+    placecell = f"{sys.executable} -m cli"
+    return subprocess.run(
+        ["bash", "-o", "pipefail", "-c", words.replace("placecell", placecell)],
+        capture_output=True,
+        env=os.environ | env,
+        timeout=60,
+        check=False,
+    )
+
+
+def test_B16_a_closed_pipe_is_quiet() -> None:
+    done = shell("placecell config | true")
+    assert done.returncode == 141
+    assert done.stderr == b""
+
+
+def test_B16_a_full_output_is_told() -> None:
+    done = shell("placecell config > /dev/full")
+    assert done.returncode == 1
+    assert b"no space left" in done.stderr
+    assert done.stderr.count(b"\n") == 1
+
+
+def test_B16_ctrl_c_is_a_line() -> None:
+    code = (
+        "import cli, sys, time\n"
+        "def wait(*_):\n    print('waits', flush=True)\n    time.sleep(60)\n"
+        "sys.modules['cli.prepare'].load = wait\ncli.app()\n"
+    )
+    words = [sys.executable, "-c", code, "prepare", "x"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"waits\n"
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert said == b"placecell: interrupted\n"
+
+
+def test_B12_B16_names_are_whole_in_a_pipe_and_escaped_on_an_ascii_terminal(
+    tmp_path: Path, yard: Any
+) -> None:
+    name = "a-rather-long-name-of-a-map." + "x" * 36
+    robot = "j\N{LATIN SMALL LETTER U WITH DIAERESIS}rgen [bold]:smile:"
+    with running_service(tmp_path) as address:
+        with Client(address) as client:
+            client.put_map(name, replace(yard, robots=(robot,)))
+        listed = shell("placecell maps list", PLACECELL_URL=address, COLUMNS="40")
+        ascii_only = shell(
+            "placecell maps list", PLACECELL_URL=address, PYTHONIOENCODING="ascii", LC_ALL="C"
+        )
+        as_json = shell("placecell maps list --json", PLACECELL_URL=address)
+        (tmp_path / "copy.map").write_bytes(encode(yard))
+        verified = shell(f"placecell maps verify {tmp_path / 'copy.map'} --json")
+    assert listed.returncode == 0, listed.stderr
+    text = listed.stdout.decode()
+    assert name in text
+    assert f"{robot} 300" in text
+    assert "\x1b" not in text
+    assert ascii_only.returncode == 0, ascii_only.stderr
+    assert name in ascii_only.stdout.decode("ascii")
+    assert r"j\xfcrgen [bold]:smile:" in ascii_only.stdout.decode("ascii")
+    (one,) = json.loads(as_json.stdout)["maps"]
+    assert one["name"] == name
+    assert one["robots"] == {robot: 300}
+    assert json.loads(verified.stdout)["files"][0]["whole"] is True
+
+
+def test_the_version_is_told() -> None:
+    status, said = run("--version")
+    assert status == 0
+    assert said.startswith("placecell ")
