@@ -113,7 +113,7 @@ def _prepare_streams() -> None:
         elif hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
             if codecs.lookup(stream.encoding).name == "ascii":
-                stream.reconfigure(encoding=ASCII)
+                stream.reconfigure(encoding=ASCII, errors="backslashreplace")
 
 
 def _silence(stream: Any) -> None:

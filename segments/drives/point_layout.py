@@ -25,7 +25,9 @@ STRETCH = 7_560
 COLUMN_COUNTS = (3, 4, 5, 6, 7, 8, 9, 10)
 BINS = 64
 FEWEST_POINTS = 100
-"""Of all sampled scans together; with fewer, the content says too little."""
+"""Of a scan; with fewer, the content says too little, for a standing sensor repeats itself."""
+CONTRADICTED = 1.0
+"""Bits a value by which small scans must be worse as KITTI's to be refused."""
 MARGIN = 0.2
 """Bits a value by which a layout must be better than the others; measured: 0.5 or more."""
 TINY, HUGE = 1e-5, 1e6
@@ -153,7 +155,7 @@ def sample(files: Sequence[Path], sizes: Sequence[int]) -> list[bytes]:
             contents.append(usable[index].read_bytes())
         except OSError:
             continue
-    return contents
+    return list(dict.fromkeys(contents))  # A scan that is repeated says nothing new.
 
 
 def divisible(sizes: NDArray[np.int_], point_bytes: int) -> float:
@@ -188,17 +190,17 @@ def told_by_content(
         for count in COLUMN_COUNTS
         if divisible(sizes, count * ITEM_SIZES[dtype]) > 0.5
     }
-    points = sum(map(len, values)) // len(NAMES)
-    if points < FEWEST_POINTS:
-        if dtype == "float32" and len(NAMES) in fits:
-            return PointLayout(scale=scale)
-        raise DriveError(
-            f"{found}: {sizes_told(sizes, fits, dtype)}, and {points} points are too few to tell "
-            f"by their values. {STATE_IT}"
-        )
     bits, pooled = bits_by_columns(values)
     best = fewest_bits(bits, values, fits)
     fits_kitti = dtype == "float32" and len(NAMES) in fits
+    points = int(np.median([len(each) for each in values])) // len(NAMES)
+    if points < FEWEST_POINTS:
+        if fits_kitti and (best is None or bits[len(NAMES)] - bits[best] < CONTRADICTED):
+            return PointLayout(scale=scale)
+        raise DriveError(
+            f"{found}: {sizes_told(sizes, fits, dtype)}, and {points} points a scan are too few "
+            f"to tell by their values. {STATE_IT}"
+        )
     if best is None or pooled - bits[best] < MARGIN:
         if is_column_major(values, pooled):
             raise DriveError(

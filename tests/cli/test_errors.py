@@ -33,7 +33,7 @@ def leaves(
 
 
 LEAVES = dict(leaves())
-NO_JSON: dict[Words, str] = {
+NO_JSON: dict[tuple[str, ...], str] = {
     ("serve",): "runs until it is stopped",
     ("train",): "writes a model's folder",
     ("experiments",): "writes a report's folder",
@@ -55,8 +55,11 @@ def test_B12_every_command_that_prints_figures_has_json(path: tuple[str, ...]) -
 
 
 @pytest.mark.parametrize("path", LEAVES, ids=" ".join)
-def test_B16_wrong_words_are_told_in_two_lines(path: tuple[str, ...]) -> None:
+def test_B16_wrong_words_are_told_in_two_lines(
+    path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A wrong option, a path that is not there, a value that is no number: each with a status."""
+    monkeypatch.chdir(tmp_path)
     command = LEAVES[path]
     status, said = run(*path, "--no-such-option")
     assert status == 2
