@@ -7,6 +7,7 @@ import typer
 
 from cli.benches.options import JsonFile, Kept, Seed, Source, recording_from, write_json
 from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
 
 
 def floors(
@@ -47,14 +48,11 @@ OTHER_MODEL = "group"
 
 def print_rows(report: dict[str, Any]) -> None:
     """Print the figures."""
-    from rich.console import Console
-    from rich.table import Table
-
     columns = ("trials", "right", "ambiguous", "wrong", "wrong_but_sure")
     titles = ("trials", "right", "ambiguous", "wrong", "wrong but sure")
-    table = Table("floors", *titles, title="similar floors in several maps")
+    table = new_table("floors", *titles, title="similar floors in several maps")
     shares = {f"{name} changed": row for name, row in report["by_share"].items()}
     decided = {"the difference decides": report["where_the_difference_decides"]}
     for name, row in {**report["by_case"], **shares, **decided, "all": report}.items():
         table.add_row(name, *(str(row[column]) for column in columns))
-    Console().print(table)
+    print_tables(table)
