@@ -70,6 +70,7 @@ class Housekeeper:
         self._cache = cache
         self._bounds = bounds
         self._released = 0
+        self._good: dict[str, Head] = {}
         self._stopped = Event()
 
     @contextmanager
@@ -86,11 +87,20 @@ class Housekeeper:
     def look(self) -> None:
         """Do what is due, map by map; what fails is told in the log, and tried again."""
         # By name: who holds all maps holds the memory of what is folded meanwhile.
-        for name in [stored.name for stored in self._maps.all()]:
+        due = {
+            stored.name: stored.head
+            for stored in self._maps.all()
+            if self._good.get(stored.name) is not stored.head
+        }
+        for name, head in due.items():
             if self._stopped.is_set():
                 return
             with _told(f"map {name!r}"):
                 self._care(name)
+                # Until it is written to again: of many maps few change between two looks.
+                self._good[name] = head
+        if len(self._good) > 2 * len(self._maps) + 1_000:
+            self._good.clear()
         with _told("histories"):
             self._make_room()
         if self._maps.handled - self._released > self._bounds.handled:
@@ -128,8 +138,9 @@ class Housekeeper:
             if stored is not None and stored.head.commits:
                 self._shorten(stored, stored.head.log_bytes)
         enough = ALL_SHARE * self._bounds.all_bytes
-        longest = sorted(self._maps.all(), key=lambda stored: -stored.head.log_bytes)
-        for stored in longest if self._maps.stored_bytes > enough else ():
+        if self._maps.stored_bytes <= enough:
+            return
+        for stored in sorted(self._maps.all(), key=lambda stored: -stored.head.log_bytes):
             head = stored.head
             # To shorten a history the oldest version is written anew: not for a few bytes.
             if self._maps.stored_bytes <= enough or head.log_bytes <= WORTH * head.base_bytes:

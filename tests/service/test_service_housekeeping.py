@@ -234,3 +234,33 @@ def test_it_works_by_itself_and_ends(
             assert looked.wait(60)
         assert threading.active_count() == before
         assert state.maps.get("site").folded == 6
+
+
+def test_A2_only_maps_that_were_written_are_looked_at_again(
+    start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    with start() as service:
+        file = encode(map_of(random_codes(3), manifest.model_id))
+        for number in range(5):
+            assert service.put(f"/maps/m{number}", content=file).status_code == 201
+        keeper = keeper_of(service.app.state.placecell, data_dir, Bounds())
+        cared: list[str] = []
+        care = keeper._care
+
+        def noted(name: str) -> None:
+            cared.append(name)
+            if name == "m3" and cared.count(name) == 1:
+                raise RuntimeError("fails once")
+            care(name)
+
+        monkeypatch.setattr(keeper, "_care", noted)
+        for _ in range(3):
+            keeper.look()
+        # What failed is tried again.
+        assert cared == ["m0", "m1", "m2", "m3", "m4", "m3"]
+        edit = edit_of(random_codes(1), manifest.model_id, 900)
+        assert service.post("/maps/m1/segments", content=edit).status_code == 200
+        for _ in range(2):
+            keeper.look()
+        assert cared[6:] == ["m1"]
