@@ -7,6 +7,7 @@ import numpy as np
 from segments.extractor import Extractor, Inputs
 from segments.types import Float32, Float64, Int8, Int64
 from service.batcher import Batcher
+from service.cost import NOTHING, Cost, check_cost, cost_of_describing
 from service.metrics import Metrics
 from service.problems import Problem, ProblemError, title_of, type_of
 from service.scan import Scan
@@ -24,12 +25,14 @@ class Prepared:
         usable: int64 (rows,), their places in the request.
         centroids: float64 (rows, 3), metres, in the request's frame.
         failures: of the others, by place, why they cannot be used.
+        cost: of describing them.
     """
 
     inputs: Inputs
     usable: Int64
     centroids: Float64
     failures: "dict[int, Failed]"
+    cost: Cost
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,11 +86,16 @@ class Describer:
             centroids=prepared.centroids[finite],
         )
 
-    def prepare(self, scan: Scan, timing: Timing) -> Prepared:
+    def prepare(self, scan: Scan, timing: Timing, besides: Cost = NOTHING) -> Prepared:
         """A scan's segments as the model wants them.
 
+        Args:
+            scan: of a request.
+            timing: of the request.
+            besides: what else the request costs.
+
         Raises:
-            Problem: 413 if there are too many, 422 if none can be used.
+            Problem: 413 if there are too many, or they are too much work, 422 if none can be used.
         """
         self._check_amount(scan)
         failures = self._failures(scan)
@@ -102,6 +110,8 @@ class Describer:
             raise _none_usable(failures)
         near = scan.near(origin, np.array(usable))
         timing.lap("decode")
+        cost = cost_of_describing(near.points, near.counts, self.manifest.surroundings)
+        check_cost(besides + cost, self._limits.cost_seconds)
         inputs = self._extractor.prepare(near, lap=timing.lap)
         timing.lap("voxelise")  # what is left of the steps before the network
         return Prepared(
@@ -109,6 +119,7 @@ class Describer:
             usable=np.array(usable),
             centroids=near.centroids() + origin,
             failures=failures,
+            cost=cost,
         )
 
     def _check_amount(self, scan: Scan) -> None:

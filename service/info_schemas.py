@@ -34,6 +34,26 @@ class MapFileOut(BaseModel):
     media_type: str
 
 
+class CostsOut(BaseModel):
+    """What requests cost: seconds of one core for each unit of work, to be held against limits.
+
+    A request for recognition costs the sum of what it does; one that costs more than
+    `limits.cost_seconds` gets a 413, as does an alignment that costs more than
+    `limits.alignment_seconds`.
+    """
+
+    machine: str = Field(description="That the rates were measured on.")
+    point: float = Field(description="Of each point of a segment.")
+    segment: float = Field(description="Of each segment that is described.")
+    near_voxel: float = Field(
+        description="Of each pair of a segment and a voxel of another one within 40 m, where the "
+        "model takes in the other segments."
+    )
+    compared: float = Field(description="Of each pair of a query and a segment of a map.")
+    compared_k: float = Field(description="The same, once more for each candidate wanted (k).")
+    candidate: float = Field(description="Of each candidate of a query.")
+
+
 class InfoResponse(BaseModel):
     """What the service is, and how much it takes at once."""
 
@@ -41,6 +61,7 @@ class InfoResponse(BaseModel):
     model: ModelOut = Field(description="The default one.")
     models: list[ModelOut] = Field(description="All that are loaded, the default one first.")
     limits: Limits
+    costs: CostsOut
     map_file: MapFileOut
     up: Literal["z"] = "z"
 

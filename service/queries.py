@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from segments.types import Float64, Int8
+from service.cost import Cost, check_cost, cost_of_search
 from service.describer import Prepared
 from service.keys import Holder
 from service.matching import Scope, scope_of
@@ -94,6 +95,7 @@ def read_query(
         if centroids is not None and len(centroids) != len(codes):
             raise invalid("/centroids", f"{len(centroids)} of them for {len(codes)} codes.")
         timing.lap("decode")
+        check_cost(_search_cost(len(codes), scope, query.k), state.settings.limits.cost_seconds)
         rows = tuple(range(len(codes)))
         return Asked(own.id, scope, query.k, Queries(codes, rows, centroids), [])
     assert query.segments is not None
@@ -101,8 +103,19 @@ def read_query(
     if not scope.searched:
         # Nobody will look; but what is wrong with the segments is told all the same.
         scope = Scope(((default, ()),), scope.skipped)
-    prepared = [model.describer.prepare(scan, timing) for model, _ in scope.searched]
+    cost = _search_cost(len(scan), scope, query.k)
+    prepared = []
+    for model, _ in scope.searched:
+        one = model.describer.prepare(scan, timing, cost)
+        prepared.append(one)
+        cost += one.cost
     return Asked(default.id, scope, query.k, None, prepared)
+
+
+def _search_cost(queries: int, scope: Scope, k: int) -> Cost:
+    return cost_of_search(
+        queries, sum(len(stored) for stored in scope.maps), k, len(scope.searched)
+    )
 
 
 def invalid(pointer: str, detail: str) -> Problem:

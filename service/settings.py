@@ -93,6 +93,13 @@ class Limits(BaseModel):
         allow_inf_nan=False,
         description="Seconds that a request may take; it may ask for fewer (Placecell-Timeout).",
     )
+    cost_seconds: float = Field(
+        default=8.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds of one core that a request for recognition may cost by estimate; the "
+        "others get a 413. /info tells the rates.",
+    )
     body_seconds: float = Field(
         default=8.0,
         gt=0,

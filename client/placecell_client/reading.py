@@ -42,6 +42,7 @@ def info(answer: Answer) -> Info:
         model=content["model"],
         limits=content["limits"],
         map_file_version=content["map_file"]["version"],
+        costs=content.get("costs", {}),
     )
 
 

@@ -222,6 +222,8 @@ class Info:
         model_id: of the model that it has loaded.
         model: the model's manifest in short.
         limits: by name; see the service's `/info`.
+        costs: seconds of one core for each unit of work, by name; see the service's `/info`. Empty
+            of a service that does not tell them.
         map_file_version: of the map files that it reads.
     """
 
@@ -230,3 +232,4 @@ class Info:
     model: dict[str, Any]
     limits: dict[str, float]
     map_file_version: int
+    costs: dict[str, Any] = field(default_factory=dict)

@@ -9,10 +9,11 @@ from pydantic import ValidationError
 from segments.cancellation import current
 from segments.localisation import LocalisationParameters
 from segments.map_alignment import AlignmentParameters
-from service.aligning import MapSide, align_maps, check_same_model
+from service.aligning import K, MapSide, align_maps, check_same_model
 from service.alignment_schemas import AlignmentOut, MergedOut, MergeRequest
 from service.audit import tell_written
 from service.bodies import JSON
+from service.cost import check_cost, cost_of_aligning
 from service.keys import Holder
 from service.map_name import Name, OtherName
 from service.merger import Merger
@@ -29,6 +30,10 @@ router = APIRouter(tags=["sharing"])
 _NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
     201: {"model": MergedOut, "description": "There was no such site, and now there is."}
 }
+
+PARAMETERS = AlignmentParameters()
+
+SMALLER = "Align smaller maps, such as parts of these."
 
 Motion = Annotated[
     Literal["yaw", "se3"],
@@ -67,6 +72,11 @@ async def align(
         one, another = state.maps.get(name), state.maps.get(other)
         check_same_model(one, another)
         model = state.models.named(one.model_id)
+        check_cost(
+            cost_of_aligning([len(one), len(another)], K, PARAMETERS),
+            state.settings.limits.alignment_seconds,
+            SMALLER,
+        )
         answer = await state.store(_aligned, one, another, model, motion, pairs)
     timing.lap("verify")
     return answer
@@ -110,6 +120,11 @@ async def merge(
         asked = await state.store(_read, body.content, name, state, holder)
         parameters = AlignmentParameters(local=LocalisationParameters(model=asked.motion))
         check = current().check
+        check_cost(
+            cost_of_aligning(_sizes(name, asked, state), K, PARAMETERS),
+            state.settings.limits.alignment_seconds,
+            "Merge fewer or smaller maps at once.",
+        )
         merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check)
         merged = await state.store(merger.merge, name, asked.maps)
     timing.lap("commit")
@@ -121,6 +136,12 @@ async def merge(
         status_code=201 if merged.written is not None and merged.written.is_new else 200,
         headers={"ETag": f'"{answer.etag}"'} if answer.etag is not None else None,
     )
+
+
+def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
+    """Return how many segments the maps of a merge have, in the order in which they are aligned."""
+    stored = [state.maps.find(name), *map(state.maps.get, asked.maps)]
+    return [len(each) for each in stored if each is not None]
 
 
 def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeRequest:

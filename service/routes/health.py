@@ -1,12 +1,15 @@
 """`/livez`, `/readyz`, `/info`: for those who run the service, and for clients' limits."""
 
+from dataclasses import asdict
+
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import PlainTextResponse
 from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from segments.manifest import Manifest
-from service.info_schemas import HealthResponse, InfoResponse, MapFileOut, ModelOut
+from service.cost import MACHINE, RATES
+from service.info_schemas import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.problems import Problem, documented
 from service.state import HolderOf, StateOf
 
@@ -62,6 +65,7 @@ async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoRespon
         model=models[0],
         models=models,
         limits=state.settings.limits,
+        costs=CostsOut(machine=MACHINE, **asdict(RATES)),
         map_file=MapFileOut(format=FORMAT, version=VERSION, media_type=MEDIA_TYPE),
     )
 
