@@ -113,9 +113,8 @@ def read_query(
 
 
 def _search_cost(queries: int, scope: Scope, k: int) -> Cost:
-    return cost_of_search(
-        queries, sum(len(stored) for stored in scope.maps), k, len(scope.searched)
-    )
+    rows = sum(len(stored) for _, group in scope.searched for stored in group)
+    return cost_of_search(queries, rows, k, len(scope.searched))
 
 
 def invalid(pointer: str, detail: str) -> Problem:
