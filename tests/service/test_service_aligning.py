@@ -1,0 +1,68 @@
+"""A13: what an alignment asks of maps is asked in parts, so that it can be stopped between them."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from segments.cancellation import Cancelled
+from segments.types import Float64, Int8, Int64
+from service import aligning
+from service.aligning import MapLooks
+
+
+class Index:
+    """The nearest row of each query is the one that its code names."""
+
+    def __init__(self) -> None:
+        self.searched: list[int] = []
+
+    def search(self, codes: Int8, k: int) -> tuple[Float64, Int64]:
+        del k
+        self.searched.append(len(codes))
+        return np.zeros((len(codes), 1)), codes[:, :1].astype(np.int64)
+
+
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Looks of two maps, the index, and what is left of the client's patience."""
+    monkeypatch.setattr(aligning, "SEARCHED", 10)
+    monkeypatch.setattr(aligning, "BLOCK", 10)
+    monkeypatch.setattr(aligning, "likely", lambda model, one, other: (one == other).mean(axis=1))
+    patience = SimpleNamespace(left=100)
+
+    def check() -> None:
+        patience.left -= 1
+        if patience.left < 0:
+            raise Cancelled
+
+    codes = np.arange(60, dtype=np.int8)[:, None]
+    maps: Any = SimpleNamespace(codes=codes)
+    index: Any = Index()
+    model: Any = None
+    return MapLooks(model, maps, maps, index, check), index, patience
+
+
+def test_A13_search_in_parts_finds_the_same(looks: Any) -> None:
+    looks, index, _ = looks
+    rows = np.array([3, 3, 59, 0, *range(20, 45)])
+    found, likely = looks.nearest(rows)
+    assert found.ravel().tolist() == rows.tolist()
+    assert (likely == 1.0).all()
+    assert index.searched == [10, 10, 8]
+    found, likely = looks.nearest(rows[:0])
+    assert found.shape == (0, 1)
+    assert likely.shape == (0, 1)
+
+
+def test_A13_search_and_comparison_stop_between_parts(looks: Any) -> None:
+    looks, index, patience = looks
+    patience.left = 2
+    with pytest.raises(Cancelled):
+        looks.nearest(np.arange(60))
+    assert index.searched == [10, 10]
+    patience.left = 3
+    with pytest.raises(Cancelled):
+        looks.likely(np.arange(60), np.arange(60))
+    assert patience.left == -1
