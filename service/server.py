@@ -166,6 +166,12 @@ class Protocol(H11Protocol):
         return self.cycle is not None and self.cycle.more_body
 
     @property
+    def is_stuck(self) -> bool:
+        """Whether nothing of its answer has left for a while, though something should."""
+        quiet = time.monotonic() - self._progress
+        return quiet > self.stall_seconds / 4 and self._pending() > 0
+
+    @property
     def last_used(self) -> float:
         """When the client last sent something, or was last answered; of `time.monotonic`."""
         return self._used
@@ -244,10 +250,13 @@ class Protocol(H11Protocol):
 
 
 def _least_useful(connections: list[Protocol]) -> Protocol | None:
-    """The connection that is idle longest; if none is, the one whose body has paused longest."""
-    idle = [each for each in connections if each.is_idle]
-    waiting = idle or [each for each in connections if each.is_receiving]
-    return min(waiting, key=lambda each: each.last_used, default=None)
+    """The connection that is idle longest; else one whose body has paused, or whose reader has."""
+    candidates = (
+        [each for each in connections if each.is_idle]
+        or [each for each in connections if each.is_receiving]
+        or [each for each in connections if each.is_stuck]
+    )
+    return min(candidates, key=lambda each: each.last_used, default=None)
 
 
 class Server(uvicorn.Server):

@@ -37,8 +37,9 @@ async def listening(app: Any, **facts: Any) -> AsyncIterator[Served]:
         for each in list(shared.connections):
             assert isinstance(each, Protocol)
             each.transport.abort()
-        while CLIENTS:
-            CLIENTS.pop().transport.abort()
+        for client in CLIENTS:
+            client.transport.abort()
+        CLIENTS.clear()
         await made.wait_closed()
         await asyncio.sleep(0.01)
 
@@ -308,5 +309,25 @@ def test_A11_body_that_pauses_longest_makes_room() -> None:
                 await trickles[0][0].readexactly(1)
             trickles[1][1].write(b"23456789")
             assert (await trickles[1][0].readline()).startswith(b"HTTP/1.1 200")
+
+    asyncio.run(main())
+
+
+def test_A11_reader_that_does_not_read_makes_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "RESERVE", 0)
+
+    async def app(scope: Any, receive: Any, send: Any) -> None:
+        await whole(bytes(12 << 20) if scope["path"] == "/large" else b"ok")(scope, receive, send)
+
+    async def main() -> None:
+        async with listening(app, address_most=2, stall_seconds=20.0) as address:
+            monkeypatch.setattr(Protocol, "is_stuck", property(lambda self: self._pending() > 0))
+            for _ in range(2):
+                _, writer = await connected(address, 64 << 10)
+                writer.transport.pause_reading()
+                writer.write(b"GET /large HTTP/1.1\r\nHost: x\r\n\r\n")
+                await asyncio.sleep(0.05)
+            for _ in range(3):
+                assert await answered(address)
 
     asyncio.run(main())

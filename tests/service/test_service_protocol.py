@@ -40,7 +40,7 @@ class App:
         await send({"type": "http.response.body", "body": b"ok"})
 
     async def _listen(self, receive: Any) -> None:
-        # As the desk does, from before the next request comes.
+        # As admission control does, from before the next request comes.
         while (await receive())["type"] != "http.disconnect":
             pass
         self.gone.set()
