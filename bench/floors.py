@@ -41,6 +41,9 @@ SCATTER = 0.3
 
 SURE = 0.9
 
+NEAR = 3.0, 10.0
+"""Meters and degrees within which a pose is the right place; how exact it is, others measure."""
+
 K = 25
 
 
@@ -289,7 +292,7 @@ def _outcome(
 def _near(pose: Pose | None, truth: Pose, here: Float64) -> bool:
     assert pose is not None
     metres, angle = pose.difference(truth, here.mean(axis=0))
-    return metres <= 1.0 and bool(np.degrees(angle) <= 3.0)
+    return metres <= NEAR[0] and bool(np.degrees(angle) <= NEAR[1])
 
 
 def _extended(floor: Floor, count: int, first: int, random: np.random.Generator) -> Floor:

@@ -9,7 +9,7 @@ both maps show the same, what is left is noise of centroids and descriptors, and
 for the wrong map as for the right one. So the sum has to exceed its own deviation by far.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -107,17 +107,31 @@ def localise_jointly(
         link: tells which maps hold the same segments.
     """
     common = _common_beliefs(queries)
-    found = []
-    for query in queries:
+    found, only_rivals = [], set()
+    loose = replace(
+        parameters,
+        distance_tolerance=LOOSER * parameters.distance_tolerance,
+        height_tolerance=LOOSER * parameters.height_tolerance,
+    )
+    for number, query in enumerate(queries):
         current().check()
         places = find_places(query.candidates, parameters, query.evidence)
         beliefs = common.get(query.model)
+        if len(queries) > 1 and not places.hypotheses and places.usable <= FEW:
+            places = find_places(query.candidates, loose)
+            only_rivals.add(number)
         hypotheses = tuple(
             look_again(each, query.candidates, query.there, parameters, beliefs)
             for each in places.hypotheses
         )
         found.append(Places(hypotheses, places.usable))
-    return judge_jointly(queries, found, parameters, link)
+    return judge_jointly(queries, found, parameters, link, only_rivals)
+
+
+FEW, LOOSER = 20, 2.0
+"""Of so few segments noise of the centroids may leave none to agree in the right map, while by
+chance enough agree in a look-alike. So where a map has no hypothesis, it is looked at again with
+tolerances so many times as wide. What is found then is no place to tell, but a reason to doubt."""
 
 
 def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
@@ -139,6 +153,7 @@ def judge_jointly(
     found: Sequence[Places],
     parameters: LocalisationParameters,
     link: Link = lambda *_: None,
+    only_rivals: Collection[int] = (),
 ) -> list[Judged]:
     """Judge the hypotheses of all maps together.
 
@@ -146,6 +161,7 @@ def judge_jointly(
         queries: one a map.
         found: of each map, with comparable scores.
         link: as of `localise_jointly`.
+        only_rivals: indices of maps whose hypotheses speak against others, but are not told.
     """
     totals = [
         totals_of(places.hypotheses, query.evidence) if places.hypotheses else np.zeros(0)
@@ -153,9 +169,9 @@ def judge_jointly(
     ]
     alone = [
         judge(places.hypotheses, places.usable, parameters, query.confidence, query.evidence)
-        if places.hypotheses
+        if places.hypotheses and number not in only_rivals
         else unknown(places.usable, parameters)
-        for query, places in zip(queries, found, strict=True)
+        for number, (query, places) in enumerate(zip(queries, found, strict=True))
     ]
     groups = _same_places(found, parameters, link)
     judged = []
