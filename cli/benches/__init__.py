@@ -3,6 +3,7 @@
 import typer
 
 from cli.benches.align import align
+from cli.benches.attack import attack
 from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
@@ -35,3 +36,4 @@ bench.command()(takes_drives(peers))
 bench.command()(crash)
 bench.command()(powerloss)
 bench.command()(fleet)
+bench.command()(attack)

@@ -1,0 +1,135 @@
+"""Runs the cases, and reports which of them the service holds."""
+
+import resource
+import tempfile
+import time
+import traceback
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bench.attack.cases import CASES
+from bench.attack.stage import Case, Stage
+from bench.attack.target import CORES
+from training.evaluation import machine
+
+DESCRIPTORS = 8_192
+"""Of files, that this process and the services that it starts may open."""
+
+
+@dataclass(frozen=True, slots=True)
+class AttackPlan:
+    """What is run.
+
+    Attributes:
+        cases: ids of the cases; empty: all.
+        short: whether in the short form.
+        limit_mb: of a service's resident memory.
+        victim_seconds: that another key's small request may wait.
+        seed: of everything that is drawn.
+    """
+
+    cases: tuple[str, ...] = ()
+    short: bool = False
+    limit_mb: float = 1_000.0
+    victim_seconds: float = 1.0
+    seed: int = 0
+
+
+def chosen(plan: AttackPlan) -> list[Case]:
+    """The cases that a plan names.
+
+    Raises:
+        ValueError: it names one that does not exist.
+    """
+    known = {case.id: case for case in CASES}
+    unknown = [name for name in plan.cases if name not in known]
+    if unknown:
+        raise ValueError(f"there is no case {unknown[0]!r}; the cases are {', '.join(known)}")
+    if plan.cases:
+        return [case for case in CASES if case.id in plan.cases]
+    return [case for case in CASES if case.in_short or not plan.short]
+
+
+def attack(
+    plan: AttackPlan,
+    progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,
+    told: Callable[[str, dict[str, Any]], None] = lambda *_: None,
+) -> dict[str, Any]:
+    """Run the cases; the report as `placecell bench attack` writes it.
+
+    Args:
+        plan: what is run.
+        progress: wraps the loop.
+        told: is given each case's id and result as soon as it is there.
+
+    Raises:
+        ValueError: the plan names a case that does not exist.
+    """
+    cases = chosen(plan)
+    _allow_descriptors()
+    begun = time.perf_counter()
+    results: dict[str, dict[str, Any]] = {}
+    for number in progress(range(len(cases)), len(cases), "cases"):
+        case = cases[number]
+        results[case.id] = run_case(case, plan)
+        told(case.id, results[case.id])
+    held = sum(each["held"] for each in results.values())
+    return {
+        "cases": results,
+        "held": held,
+        "failed": len(results) - held,
+        "short": plan.short,
+        "machine": machine(),
+        "cores": min(CORES, machine()["cores"]),
+        "memory_limit_mb": plan.limit_mb,
+        "memory_limit_by": "a watcher that kills the service, and the kernel's peak (VmHWM)",
+        "victim_limit_s": plan.victim_seconds,
+        "seeds": [plan.seed],
+        "seconds": round(time.perf_counter() - begun, 1),
+    }
+
+
+def run_case(case: Case, plan: AttackPlan) -> dict[str, Any]:
+    """Run one case on services of its own; its part of the report."""
+    begun = time.perf_counter()
+    random = np.random.default_rng([plan.seed, int(case.id[1:])])
+    with tempfile.TemporaryDirectory(prefix="placecell-attack-") as folder:
+        stage = Stage(Path(folder), plan.limit_mb, plan.short, plan.victim_seconds, random)
+        try:
+            case.attack(stage)
+        except Exception as error:  # a service that dies breaks whatever asks it next
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            where = f"{Path(last.filename).name}:{last.lineno}"
+            stage.expect(
+                False,
+                f"The case could not go on: {type(error).__name__}: {error!s:.300} ({where}).",
+            )
+    found = stage.found
+    return {
+        "held": not found.why,
+        "peak_mb": found.peak_mb,
+        "victim_max_s": found.victim_max_s,
+        "victim_idle_max_s": found.victim_idle_max_s,
+        "statuses": dict(sorted(found.statuses.items())),
+        "lost": found.lost,
+        "why": " ".join(found.why),
+        "expected": case.expected,
+        "notes": found.notes,
+        "seconds": round(time.perf_counter() - begun, 1),
+    }
+
+
+def failures(report: dict[str, Any]) -> Sequence[str]:
+    """A line for each case that failed."""
+    return [f"{id_}: {case['why']}" for id_, case in report["cases"].items() if not case["held"]]
+
+
+def _allow_descriptors() -> None:
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = DESCRIPTORS if hard == resource.RLIM_INFINITY else min(DESCRIPTORS, hard)
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
