@@ -33,6 +33,9 @@ IDLE_SECONDS = 1.0
 EDITS = 400
 """Writes of the victim during one attack, at most."""
 
+ALL_EDITS = 8_000
+"""Writes of the victim to one service, at most."""
+
 NONE: UInt32 = np.zeros(0, np.uint32)
 
 
@@ -69,6 +72,7 @@ class Stage:
         short: whether sizes and times are those of the short form.
         victim_seconds: that a victim's request may wait.
         random: draws everything.
+        shared: a service that runs, for all cases that do not need their own; None: there is none.
         found: what the case found so far.
     """
 
@@ -77,6 +81,7 @@ class Stage:
     short: bool
     victim_seconds: float
     random: np.random.Generator
+    shared: Target | None = None
     found: Findings = field(default_factory=Findings)
     _services: int = 0
     _written: dict[Target, set[int]] = field(default_factory=dict)
@@ -102,9 +107,21 @@ class Stage:
 
     @contextmanager
     def service(
-        self, environment: Mapping[str, str] | None = None, with_keys: bool = True
+        self,
+        environment: Mapping[str, str] | None = None,
+        with_keys: bool = True,
+        own: bool = True,
     ) -> Iterator[Target]:
-        """Run a service; at the end it must live, and hold all that it acknowledged."""
+        """Run a service; at the end it must live, and hold all that it acknowledged.
+
+        Args:
+            environment: further variables.
+            with_keys: whether it asks for a key.
+            own: whether the case needs a service of its own, not the shared one.
+        """
+        if self.shared is not None and not own:
+            yield from self._sharing(self.shared)
+            return
         self._services += 1
         target = Target(
             self.folder / f"service-{self._services}", self.limit_mb, environment, with_keys
@@ -115,13 +132,7 @@ class Stage:
             self.settle(target)
         finally:
             target.stop()
-            self.found.peak_mb = max(self.found.peak_mb, round(target.memory.peak_mb, 1))
-            self.expect(not target.died, f"The service did not survive: {target.died}.")
-            self.expect(
-                target.memory.peak_mb <= self.limit_mb,
-                f"The service took {target.memory.peak_mb:.0f} MB; the limit is "
-                f"{self.limit_mb:.0f} MB.",
-            )
+            self._judge(target)
 
     def ask(self, target: Target, request: Request, seconds: float = 120.0) -> Answer:
         """Send a request, and count its status."""
@@ -209,6 +220,32 @@ class Stage:
         self.found.lost = len(self._lost)
         self.expect(not lost, f"{len(lost)} acknowledged writes of {name} are gone {when}.")
 
+    def _sharing(self, target: Target) -> Iterator[Target]:
+        """Lend the shared service; it is started again if the case before was its end."""
+        if not target.is_running():
+            target.start()
+        target.forget_peak()
+        target.memory.peak_mb, target.memory.killed, target.died = 0.0, False, ""
+        self._written[target] = set()
+        try:
+            yield target
+            if target.is_running() and self._written[target]:
+                self.expect_there(target, VICTIM_MAP, self._written[target], "after the attack")
+        finally:
+            target.peak_mb()
+            if not target.is_running():
+                target.stop()
+            self._judge(target)
+
+    def _judge(self, target: Target) -> None:
+        self.found.peak_mb = max(self.found.peak_mb, round(target.memory.peak_mb, 1))
+        self.expect(not target.died, f"The service did not survive: {target.died}.")
+        self.expect(
+            target.memory.peak_mb <= self.limit_mb,
+            f"The service took {target.memory.peak_mb:.0f} MB; the limit is "
+            f"{self.limit_mb:.0f} MB.",
+        )
+
     def _take(self, target: Target, waits: dict[str, Any], most: float) -> None:
         for name, each in waits.items():
             self.found.statuses.update({k: v for k, v in each["statuses"].items() if k != "0"})
@@ -223,8 +260,9 @@ class Stage:
                 "allowed.",
             )
             if name == "edit":
-                first = self._first_edit(target)
-                self._written[target] |= {*range(first, first + each["done"])}
+                done = target.reserved[target.edited :][: each["done"]]
+                self._written[target] |= {*done.tolist()}
+                target.edited += each["done"]
 
     def _describe_probe(self, target: Target) -> Probe:
         body = describe_body(clouds(VICTIM_SEGMENTS, 100, self.random))
@@ -234,12 +272,11 @@ class Stage:
     def _edit_probe(self, target: Target) -> Probe:
         client = target.client(VICTIM)
         kind = Kind.of(client.info())
-        if target not in self._written:
+        if not len(target.reserved):
             client.edit_map(VICTIM_MAP, Delta(kind.none(), NONE), create=True)
-            self._written[target] = set()
-            ids = client.reserve_ids(VICTIM_MAP, 4 * EDITS)
-            target.reserved = ids
-        ids = target.reserved[len(self._written[target]) :][:EDITS]
+            target.reserved = client.reserve_ids(VICTIM_MAP, ALL_EDITS)
+        self._written.setdefault(target, set())
+        ids = target.reserved[target.edited :][:EDITS]
         made = kind.made(VICTIM, ids, self.random)
         bodies = tuple(
             encode_delta(Delta(take(made, np.arange(len(ids)) == row), NONE))
@@ -248,9 +285,6 @@ class Stage:
         headers = _victim(target) | {"Content-Type": DELTA}
         path = f"/maps/{VICTIM_MAP}/segments"
         return Probe("edit", "POST", path, bodies, headers, interval=0.2, once=True)
-
-    def _first_edit(self, target: Target) -> int:
-        return int(target.reserved[0]) + len(self._written[target])
 
 
 Attack = Callable[[Stage], None]

@@ -4,7 +4,8 @@ import resource
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 
 from bench.attack.cases import CASES
 from bench.attack.stage import Case, Stage
-from bench.attack.target import CORES
+from bench.attack.target import CORES, Target
 from training.evaluation import machine
 
 DESCRIPTORS = 8_192
@@ -73,10 +74,11 @@ def attack(
     _allow_descriptors()
     begun = time.perf_counter()
     results: dict[str, dict[str, Any]] = {}
-    for number in progress(range(len(cases)), len(cases), "cases"):
-        case = cases[number]
-        results[case.id] = run_case(case, plan)
-        told(case.id, results[case.id])
+    with _shared(plan) as shared:
+        for number in progress(range(len(cases)), len(cases), "cases"):
+            case = cases[number]
+            results[case.id] = run_case(case, plan, shared)
+            told(case.id, results[case.id])
     held = sum(each["held"] for each in results.values())
     return {
         "cases": results,
@@ -93,12 +95,30 @@ def attack(
     }
 
 
-def run_case(case: Case, plan: AttackPlan) -> dict[str, Any]:
-    """Run one case on services of its own; its part of the report."""
+@contextmanager
+def _shared(plan: AttackPlan) -> Iterator[Target | None]:
+    """Prepare the service that the cases of the short form share; the first one starts it."""
+    with tempfile.TemporaryDirectory(prefix="placecell-attack-") as folder:
+        shared = Target(Path(folder) / "shared", plan.limit_mb) if plan.short else None
+        try:
+            yield shared
+        finally:
+            if shared is not None:
+                shared.stop()
+
+
+def run_case(case: Case, plan: AttackPlan, shared: Target | None = None) -> dict[str, Any]:
+    """Run one case; its part of the report.
+
+    Args:
+        case: to run.
+        plan: of the run.
+        shared: a service for what needs none of its own.
+    """
     begun = time.perf_counter()
     random = np.random.default_rng([plan.seed, int(case.id[1:])])
     with tempfile.TemporaryDirectory(prefix="placecell-attack-") as folder:
-        stage = Stage(Path(folder), plan.limit_mb, plan.short, plan.victim_seconds, random)
+        stage = Stage(Path(folder), plan.limit_mb, plan.short, plan.victim_seconds, random, shared)
         try:
             case.attack(stage)
         except Exception as error:  # a service that dies breaks whatever asks it next

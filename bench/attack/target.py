@@ -89,6 +89,7 @@ class Target:
         self.address = ""
         self.died = ""
         self.reserved: UInt32 = np.zeros(0, np.uint32)
+        self.edited = 0
         self.environment = dict(environment or {})
         self._service: Service | None = None
         self._watcher: threading.Thread | None = None

@@ -39,7 +39,7 @@ CELLS = 1 << 13
 def coincident(stage: Stage) -> None:
     """A1: segments that all lie in one place, with `deduplicate=true`."""
     count = stage.size(100_000, 20_000)
-    with stage.service() as target:
+    with stage.service(own=False) as target:
         kind = kind_of(target)
         bodies = {
             "same place": _parked(stage, kind, 1, count, noise=0.0),
@@ -84,7 +84,7 @@ def crafted_points(stage: Stage) -> None:
             for path in ("/describe", "/localize", "/match", "/describe")
         ],
     }
-    with stage.service() as target:
+    with stage.service(own=False) as target:
         for name, each in requests.items():
             before = _begin(target)
             with stage.victim(target):
@@ -159,7 +159,7 @@ def bombs(stage: Stage) -> None:
         "nested lists": (b'{"segments": ' + b"[" * (room // 2), {"Content-Type": JSON}),
         "digits": (b'{"k": ' + b"9" * room + b"}", {"Content-Type": JSON}),
     }
-    with stage.service() as target:
+    with stage.service(own=False) as target:
         for name, (body, headers) in many.items():
             paths = ("/match", "/localize", "/match", "/localize")
             requests = [Request("POST", path, body, READER, headers) for path in paths]
@@ -190,7 +190,7 @@ def far_origin(stage: Stage) -> None:
         ([1e308, 0, 0], [1e8, 0, 0], [0, 0, 0]),
     ]
     base = clouds(1, 200, stage.random, 1.0)[0].astype(np.float64)
-    with stage.service() as target:
+    with stage.service(own=False) as target:
         for origin, shift, sensor in cases:
             points = base + np.array(shift)
             packed = {

@@ -1,9 +1,6 @@
 """The standing attack in its short form, and that it sees what is wrong."""
 
 import json
-import subprocess
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +13,6 @@ from bench.attack.cases import CASES
 from bench.attack.stage import VICTIM_MAP, Case, Stage
 from bench.attack.suite import AttackPlan, run_case
 from bench.attack.target import OWNER
-from bench.attack.wire import Request
 from cli import app
 
 PLAN = AttackPlan(short=True)
