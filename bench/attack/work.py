@@ -38,12 +38,12 @@ CELLS = 1 << 13
 
 def coincident(stage: Stage) -> None:
     """A1: segments that all lie in one place, with `deduplicate=true`."""
-    count = stage.size(100_000, 20_000)
+    count = stage.size(100_000, 8_000)
     with stage.service(own=False) as target:
         kind = kind_of(target)
         bodies = {
             "same place": _parked(stage, kind, 1, count, noise=0.0),
-            "parked robot": _parked(stage, kind, 40, stage.size(40_000, 8_000), noise=0.05),
+            "parked robot": _parked(stage, kind, 40, stage.size(40_000, 4_000), noise=0.05),
         }
         for name, body in bodies.items():
             repeated = edit(name.replace(" ", "-"), body, ROBOT, "create=true&deduplicate=true")
@@ -60,7 +60,7 @@ def coincident(stage: Stage) -> None:
                     )
                 for _ in range(3):
                     abandon(target, repeated)
-                time.sleep(stage.size(3, 1))
+                time.sleep(stage.size(3, 0))
             _expect_growth(stage, target, before, DEDUPLICATION_MB, name)
 
 
@@ -91,7 +91,7 @@ def crafted_points(stage: Stage) -> None:
                 answers = stage.ask_all(target, each, len(each), 60)
                 for request in each * stage.size(3, 1):
                     abandon(target, request)
-                time.sleep(stage.size(3, 1))
+                time.sleep(stage.size(3, 0))
             stage.expect_no_failure(answers, name)
             slowest = max(answer.seconds for answer in answers)
             stage.note(f"{name}, seconds", round(slowest, 2))
@@ -103,7 +103,7 @@ def crafted_points(stage: Stage) -> None:
 
 def long_line(stage: Stage) -> None:
     """A13: two maps whose sensor positions lie on a line along y are aligned and merged."""
-    count, limit = stage.size(160_000, 40_000), 5.0
+    count, limit = stage.size(160_000, 20_000), 5.0
     environment = {"PLACECELL_LIMITS__ALIGNMENT_SECONDS": str(limit)}
     with stage.service(environment) as target:
         kind = kind_of(target)
@@ -129,7 +129,7 @@ def long_line(stage: Stage) -> None:
 
 def bombs(stage: Stage) -> None:
     """A14: bodies of empty gzip members and zstd frames, of names of maps, of nothing much."""
-    megabytes = stage.size(16, 4)
+    megabytes = stage.size(16, 2)
     room = (megabytes << 20) - 1_000
     member, frame = gzip.compress(b"", mtime=0), zstandard.ZstdCompressor().compress(b"")
     names = ",".join(['"aa"'] * (room // 5))

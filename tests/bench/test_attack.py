@@ -28,6 +28,17 @@ def test_every_row_has_a_case() -> None:
     assert all(case.expected.endswith(".") for case in CASES)
 
 
+def test_the_short_form_holds(tmp_path: Path) -> None:
+    file = tmp_path / "attack.json"
+    # Other work on the machine makes a victim wait longer; a fault makes it wait far longer still.
+    command = ["bench", "attack", "--short", "--victim-seconds", "5", "--json", str(file)]
+    result = CliRunner().invoke(app, command)
+    assert result.exit_code == 0, result.output
+    report = json.loads(file.read_text())
+    assert report["failed"] == 0
+    assert report["held"] == sum(case.in_short for case in CASES)
+
+
 def test_an_unknown_case_is_refused() -> None:
     result = CliRunner().invoke(app, ["bench", "attack", "--case", "A99"])
     assert result.exit_code == 1
