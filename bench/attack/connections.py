@@ -109,6 +109,10 @@ def trickled_bodies(stage: Stage) -> None:
     }
     with stage.service(own=False) as target:
         small = encode(kind_of(target).made(VICTIM, np.arange(1, 9, dtype=np.uint32), stage.random))
+        align = Request("POST", f"/maps/{VICTIM_MAP}/align/{VICTIM_MAP}", key=VICTIM)
+        with stage.victim(target):
+            pass
+        stage.ask(target, align)  # the first one compiles
         for name, requests in doors.items():
             with stage.victim(target), _trickling(target, requests):
                 time.sleep(seconds)
@@ -120,8 +124,7 @@ def trickled_bodies(stage: Stage) -> None:
                         "An upload of 8 segments beside trickled uploads",
                     )
                 if name == "merge":
-                    call = Request("POST", f"/maps/{VICTIM_MAP}/align/{VICTIM_MAP}", key=VICTIM)
-                    _expect_at_once(stage, target, call, "An alignment beside trickled merges")
+                    _expect_at_once(stage, target, align, "An alignment beside trickled merges")
 
 
 def unread_answers(stage: Stage) -> None:
