@@ -68,6 +68,7 @@ class Local:
             np.concatenate(segments, dtype=np.float64),
             np.array([len(np.asarray(cloud)) for cloud in segments]),
             np.asarray(sensors, dtype=np.float64),
+            np.zeros(len(segments), dtype=np.int64),
         )
         describer, timing = self.model.describer, Timing()
         described = self._runner.run(describer.describe(describer.prepare(scan, timing), timing))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from placecell_client.compact_map import COORDINATE_LIMIT
 
 from segments.extractor import Extractor, Inputs
 from segments.types import Float32, Float64, Int8, Int64
@@ -26,6 +27,7 @@ class Prepared:
         centroids: float64 (rows, 3), metres, in the request's frame.
         failures: of the others, by place, why they cannot be used.
         cost: of describing them.
+        dropped_points: of the request, that were not finite.
     """
 
     inputs: Inputs
@@ -33,6 +35,7 @@ class Prepared:
     centroids: Float64
     failures: "dict[int, Failed]"
     cost: Cost
+    dropped_points: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,13 +120,15 @@ class Describer:
         return Prepared(
             inputs=inputs,
             usable=np.array(usable),
-            centroids=near.centroids() + origin,
+            # Rounding must not take a mean beyond the points' own limit.
+            centroids=np.clip(near.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT),
             failures=failures,
             cost=cost,
+            dropped_points=int(scan.dropped.sum()),
         )
 
     def _check_amount(self, scan: Scan) -> None:
-        points = len(scan.points)
+        points = len(scan.points) + int(scan.dropped.sum())
         for kind, amount, limit in (
             ("segments", len(scan), self._limits.segments),
             ("points", points, self._limits.points),
@@ -137,11 +142,15 @@ class Describer:
         """By index, why a segment cannot be used."""
         limits = self._limits
         failures = {}
-        measured = zip(scan.counts.tolist(), scan.reaches().tolist(), strict=True)
-        for index, (count, reach) in enumerate(measured):
+        measured = zip(
+            scan.counts.tolist(), scan.dropped.tolist(), scan.reaches().tolist(), strict=True
+        )
+        for index, (count, dropped, reach) in enumerate(measured):
             if count < limits.min_points:
+                left_out = f", besides {dropped} that are not finite" if dropped else ""
                 failures[index] = _failed(
-                    "too-few-points", f"{count} points; a segment has {limits.min_points} or more."
+                    "too-few-points",
+                    f"{count} points{left_out}; a segment has {limits.min_points} or more.",
                 )
             elif count > limits.max_points:
                 failures[index] = _failed(

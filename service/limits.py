@@ -11,6 +11,9 @@ PATIENCE = (256 << 20, 5.0)
 """Bytes and seconds of a body that is too large, until the client may be cut off."""
 
 
+RECOGNITION = frozenset({"/describe", "/match", "/localize"})
+
+
 class BodyLimit:
     """ASGI middleware: 413 for a body that is, or turns out to be, too large."""
 
@@ -51,7 +54,14 @@ class BodyLimit:
     def _limit(self, scope: Scope) -> int:
         if scope["method"] == "PUT" and get_route_path(scope).startswith("/maps/"):
             return self._limits.map_bytes
+        if get_route_path(scope) in RECOGNITION and not _is_msgpack(scope):
+            return self._limits.json_bytes
         return self._limits.body_bytes
+
+
+def _is_msgpack(scope: Scope) -> bool:
+    types = (value for name, value in scope["headers"] if name == b"content-type")
+    return next(types, b"").lower().startswith(b"application/msgpack")
 
 
 def _too_large(limit: int) -> Problem:

@@ -133,4 +133,7 @@ class LocalizeResponse(BaseModel):
     model_id: str
     localisations: list[LocalisationOut]
     unusable: list[UnusableOut]
+    dropped_points: int = Field(
+        default=0, description="Points that were not finite, in msgpack, and were left out."
+    )
     skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")

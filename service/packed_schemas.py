@@ -39,8 +39,8 @@ class Pairs:
 
 
 def _points(blob: object) -> Float32:
-    """The points of a blob, float32 (n, 3)."""
-    return np.asarray(_coordinates(blob, np.dtype("<f4")), np.float32)
+    """The points of a blob, float32 (n, 3); some may not be finite, as sensors give them."""
+    return np.asarray(_coordinates(blob, np.dtype("<f4"), infinite=True), np.float32)
 
 
 def _centroids(blob: object) -> Float64:
@@ -48,8 +48,15 @@ def _centroids(blob: object) -> Float64:
     return np.asarray(_coordinates(blob, np.dtype("<f8")), np.float64)
 
 
-def _coordinates(blob: object, kind: "np.dtype[np.floating[Any]]") -> "NDArray[np.floating[Any]]":
+def _coordinates(
+    blob: object, kind: "np.dtype[np.floating[Any]]", *, infinite: bool = False
+) -> "NDArray[np.floating[Any]]":
     """The points of a blob, (n, 3): one look at all, none at each.
+
+    Args:
+        blob: the bytes.
+        kind: type of a coordinate.
+        infinite: whether NaN and infinity may stand there.
 
     Raises:
         ValueError: it holds no such points; the place and the words are those of JSON.
@@ -63,8 +70,12 @@ def _coordinates(blob: object, kind: "np.dtype[np.floating[Any]]") -> "NDArray[n
     if not (
         points.max(initial=0) <= COORDINATE_LIMIT and points.min(initial=0) >= -COORDINATE_LIMIT
     ):
-        row, axis = (int(place) for place in np.argwhere(~(np.abs(points) <= COORDINATE_LIMIT))[0])
-        raise _out_of_range((row, axis), float(points[row, axis]))
+        wrong = ~(np.abs(points) <= COORDINATE_LIMIT)
+        if infinite:
+            wrong &= np.isfinite(points)
+        if wrong.any():
+            row, axis = (int(place) for place in np.argwhere(wrong)[0])
+            raise _out_of_range((row, axis), float(points[row, axis]))
     return points
 
 
@@ -123,7 +134,8 @@ class PackedSegment(PackedRequest):
     """A segment: the points of one object, and where it was seen from."""
 
     points: PointsBlob = Field(
-        description="float32, little-endian: x, y, z of the first point in metres, of the next, ..."
+        description="float32, little-endian: x, y, z of the first point in metres, of the next, "
+        "...; points with NaN or infinity are left out, and counted in the answer."
     )
     sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
 

@@ -3,7 +3,6 @@
 from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
-from pydantic import BaseModel
 
 from service.packed_schemas import Pairs
 from service.problems import Problem
@@ -30,7 +29,7 @@ def unpack(body: bytes, limits: Limits) -> object:
         nonlocal values
         values += more + 1
         if values > limit:
-            raise _too_many(limit)
+            raise _too_many(limit, limits)
 
     def listed(items: list[Any]) -> list[Any]:
         count(len(items))
@@ -52,21 +51,44 @@ def unpack(body: bytes, limits: Limits) -> object:
         raise
     # Most of msgpack's own exceptions are ValueErrors, but not all.
     except (ValueError, msgpack.UnpackException) as error:
-        if "max_array_len" in str(error):
-            raise _too_many(limit) from error
+        if isinstance(error, ValueError) and "max_array_len" in str(error):
+            raise _too_long(error, limits) from error
         reason = str(error) or type(error).__name__
         raise Problem(
             400, "not-msgpack", f"The body cannot be read as msgpack: {reason:.200}."
         ) from error
 
 
-def pack(response: BaseModel | dict[str, Any]) -> bytes:
+def pack(content: dict[str, Any]) -> bytes:
     """A response as msgpack; `bytes` become blobs."""
-    content = response.model_dump() if isinstance(response, BaseModel) else response
-    return bytes(msgpack.packb(content))
+    packer = msgpack.Packer(autoreset=False)
+    packer.pack_map_header(len(content))
+    for key, value in content.items():
+        packer.pack(key)
+        if isinstance(value, list):
+            packer.pack_array_header(len(value))
+            # One after the other, so that other threads get their turn.
+            for item in value:
+                packer.pack(item)
+        else:
+            packer.pack(value)
+    return bytes(packer.bytes())
 
 
-def _too_many(limit: int) -> Problem:
+def _too_many(limit: int, limits: Limits) -> Problem:
     return Problem(
-        413, "too-many-values", f"The body holds more than {limit} values, blobs counted as one."
+        413,
+        "too-many-values",
+        f"The body holds more than {limit} values, each blob counted as one. "
+        f"{limits.segments} segments, the limit of a request, have fewer.",
+    )
+
+
+def _too_long(error: ValueError, limits: Limits) -> Problem:
+    length = str(error).partition(" ")[0]
+    return Problem(
+        413,
+        "too-many-values",
+        f"The body holds a list of {length} items; the limit is {limits.segments} segments or "
+        "descriptors in a request.",
     )

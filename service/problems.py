@@ -100,13 +100,24 @@ def title_of(kind: str) -> str:
     return kind.replace("-", " ").capitalize()
 
 
-def invalid(error: ValidationError | RequestValidationError) -> Problem:
-    """The problem of a request that does not fit its schema; 400 if it is not even JSON."""
-    found = (
-        error.errors(include_url=False, include_context=False, include_input=False)
-        if isinstance(error, ValidationError)
-        else error.errors()
-    )
+def errors_of(error: ValidationError | RequestValidationError) -> list[dict[str, Any]]:
+    """What is wrong with a request, each with its place."""
+    if isinstance(error, RequestValidationError):
+        return list(error.errors())
+    found = error.errors(include_url=False, include_context=False, include_input=False)
+    return [dict(each) for each in found]
+
+
+def invalid(
+    error: ValidationError | RequestValidationError, found: list[dict[str, Any]] | None = None
+) -> Problem:
+    """The problem of a request that does not fit its schema; 400 if it is not even JSON.
+
+    Args:
+        error: what the schema says.
+        found: its errors, if they were changed since.
+    """
+    found = errors_of(error) if found is None else found
     errors = [
         ProblemError(pointer=_pointer(item["loc"]), detail=_plain(str(item["msg"])))
         for item in found[:SHOWN_ERRORS]

@@ -55,6 +55,11 @@ class Asked:
     own: Queries | None
     prepared: list[Prepared]
 
+    @property
+    def dropped_points(self) -> int:
+        """How many points of the request were not finite and were left out."""
+        return self.prepared[0].dropped_points if self.prepared else 0
+
     async def queries(self, timing: Timing) -> list[Queries]:
         """The queries for each model of the scope, in its order."""
         if self.own is not None:
@@ -140,8 +145,8 @@ def _codes(state: State, given: Int8 | list[list[int]] | None, model: Model) -> 
 
 
 def _rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:
-    """The codes by query, int8 (q, code bytes): of a blob, or of a list for each."""
-    if isinstance(given, np.ndarray):
+    """The codes by query, int8 (q, code bytes): of a blob, or of a row for each."""
+    if isinstance(given, np.ndarray) and given.ndim == 1:
         if len(given) % code_bytes:
             detail = f"{len(given)} bytes; the model's codes have {code_bytes} each."
             raise invalid("/codes", detail)
@@ -150,4 +155,4 @@ def _rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:
         if len(row) != code_bytes:
             detail = f"{len(row)} bytes; the model's codes have {code_bytes}."
             raise invalid(f"/codes/{index}", detail)
-    return np.array(given, dtype=np.int8)
+    return np.asarray(given, dtype=np.int8)

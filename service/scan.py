@@ -2,14 +2,28 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
+from placecell_client.compact_map import COORDINATE_LIMIT
 
 from segments.segments import Segments
 from segments.types import Float64, Int64
-from service.packed_schemas import PackedSegment
-from service.schemas import Point, SegmentIn
+from service.problems import Problem, ProblemError
+from service.schemas import Point
+
+
+class HasPoints(Protocol):
+    """A segment of a request, in any encoding."""
+
+    @property
+    def points(self) -> ArrayLike:
+        """Points, (n, 3)."""
+
+    @property
+    def sensor(self) -> Point:
+        """Where the sensor was."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,27 +37,40 @@ class Scan:
             frame.
         counts: int64 (segments,), points of each; a segment may have none.
         sensors: float64 (segments, 3), metres, the same frame: where the sensor was at capture.
+        dropped: int64 (segments,), points of each that were not finite and were left out.
     """
 
     points: Float64
     counts: Int64
     sensors: Float64
+    dropped: Int64
 
     def __len__(self) -> int:
         return len(self.counts)
 
     @classmethod
-    def of(
-        cls, segments: Sequence[SegmentIn] | Sequence[PackedSegment], origin: Point | None
-    ) -> Self:
-        """From a request's segments, relative to its origin if it has one."""
+    def of(cls, segments: Sequence[HasPoints], origin: Point | None) -> Self:
+        """From a request's segments, relative to its origin if it has one.
+
+        Raises:
+            Problem: 422 if a point or sensor is too far from the frame's origin.
+        """
         shift = np.array(origin or (0.0, 0.0, 0.0))
         clouds = [np.asarray(each.points).reshape(-1, 3) for each in segments]
-        return cls(
-            np.concatenate(clouds, dtype=np.float64) + shift,
-            np.array([len(cloud) for cloud in clouds]),
-            np.array([each.sensor for each in segments], np.float64) + shift,
-        )
+        counts = np.array([len(cloud) for cloud in clouds])
+        points = np.concatenate(clouds, dtype=np.float64)
+        sensors = np.array([each.sensor for each in segments], np.float64)
+        dropped = np.zeros(len(clouds), dtype=np.int64)
+        good = np.isfinite(points).all(axis=1)
+        if origin is not None:
+            points += shift
+            sensors += shift
+            _check_sums(points, sensors, counts)
+        if not good.all():
+            owners = np.repeat(np.arange(len(clouds)), counts)
+            dropped = np.bincount(owners[~good], minlength=len(clouds))
+            points, counts = points[good], counts - dropped
+        return cls(points, counts, sensors, dropped)
 
     def reaches(self) -> Float64:
         """Of each segment, metres from its sensor to its farthest point, float64 (segments,)."""
@@ -63,3 +90,34 @@ class Scan:
             (self.sensors - origin).astype(np.float32),
         )
         return every if len(chosen) == len(self) else every.take(chosen)
+
+
+def _check_sums(points: Float64, sensors: Float64, counts: Int64) -> None:
+    """Refuse coordinates that only the origin takes too far.
+
+    Raises:
+        Problem: 422 with the first place.
+    """
+    far = np.abs(points) > COORDINATE_LIMIT  # not where a point is NaN
+    if far.any():
+        row, axis = np.argwhere(far)[0].tolist()
+        segment = int(np.searchsorted(np.cumsum(counts), row, side="right"))
+        point = row - int(counts[:segment].sum())
+        raise _too_far(f"/segments/{segment}/points/{point}/{axis}", float(points[row, axis]))
+    far = np.abs(sensors) > COORDINATE_LIMIT
+    if far.any():
+        segment, axis = np.argwhere(far)[0].tolist()
+        raise _too_far(f"/segments/{segment}/sensor/{axis}", float(sensors[segment, axis]))
+
+
+def _too_far(pointer: str, value: float) -> Problem:
+    detail = (
+        f"With the origin added it is {value:g}. The limit is {COORDINATE_LIMIT:g} m: "
+        "does the origin belong to these coordinates?"
+    )
+    return Problem(
+        422,
+        "invalid-request",
+        f"{pointer}: {detail}",
+        [ProblemError(pointer=pointer, detail=detail)],
+    )

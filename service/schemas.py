@@ -122,6 +122,9 @@ class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
     model_id: str
     dimension: int
     descriptors: list[DescriptorT | Failed]
+    dropped_points: int = Field(
+        default=0, description="Points that were not finite, in msgpack, and were left out."
+    )
 
 
 class DescribeResponse(DescriptorsResponse[DescriptorOut]):
@@ -162,5 +165,8 @@ class MatchResponse(BaseModel):
 
     model_id: str
     queries: list[CandidatesOut | Failed]
+    dropped_points: int = Field(
+        default=0, description="Points that were not finite, in msgpack, and were left out."
+    )
     searched: list[str]
     skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")

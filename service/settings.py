@@ -53,6 +53,12 @@ class Limits(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     body_bytes: int = Field(default=16 * MEBIBYTE, ge=1, description="Bytes of a request's body.")
+    json_bytes: int = Field(
+        default=40 * MEBIBYTE,
+        ge=1,
+        description="Bytes of a request's body for recognition as JSON: as many points as in "
+        "msgpack, each number with all its digits.",
+    )
     map_bytes: int = Field(
         default=64 * MEBIBYTE, ge=1, description="Bytes of an uploaded map file."
     )

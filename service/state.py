@@ -9,6 +9,7 @@ from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from segments.manifest import ModelError
+from service import json_arrays
 from service.admission import Lane, admitted
 from service.changes import Changes
 from service.housekeeping import Bounds, Housekeeper
@@ -122,6 +123,7 @@ def open_state(settings: Settings) -> Iterator[State]:
     try:
         keys = Keys(settings.keys_file)
         models = Models(settings, metrics)
+        json_arrays.warm()
     except ModelError as error:
         raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
     except ValueError as error:
@@ -162,7 +164,7 @@ def open_state(settings: Settings) -> Iterator[State]:
 
 def _lanes(settings: Settings, metrics: Metrics) -> dict[str, Lane]:
     limits = settings.limits
-    share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes)
+    share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes, limits.json_bytes)
     receiver = Receiver(limits.bodies, ByteBudget(max(limits.held_bytes, share), share, "bodies"))
     small = BodyRules(limits.body_seconds, limits.stall_seconds)
     large = BodyRules(limits.transfer_seconds, limits.stall_seconds)
@@ -175,7 +177,10 @@ def _lanes(settings: Settings, metrics: Metrics) -> dict[str, Lane]:
 
     most_bytes, stored = limits.body_bytes, limits.upload_seconds
     kinds = {
-        "recognition": (limits.requests, settings.workers, limits.deadline, small, most_bytes),
+        "recognition": (
+            *(limits.requests, settings.workers),
+            *(limits.deadline, small, max(most_bytes, limits.json_bytes)),
+        ),
         "reads": (limits.reads, READ_THREADS, limits.read_seconds, small, most_bytes),
         "uploads": (limits.uploads, limits.uploads, stored, large, limits.map_bytes),
         "edits": (limits.edits, WRITE_THREADS, stored, large, most_bytes),

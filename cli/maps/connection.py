@@ -40,8 +40,8 @@ def service(url: str) -> Iterator["Client"]:
             fail(error)
         except httpx.TransportError as error:
             if may_be_done(error):
-                fail(f"{url} did not answer ({error}): what you asked for may be done all the same")
-            fail(f"{url} cannot be reached ({error}): is it running (placecell serve)?")
+                fail(f"{url} did not answer: {error} What you asked for may be done all the same.")
+            fail(f"{url} cannot be reached: {error}")
 
 
 def is_delta(data: bytes) -> bool:

@@ -2,6 +2,7 @@
 
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
+from placecell_client.clouds import PrecisionWarning
 from placecell_client.errors import ServiceError
 from placecell_client.localisation import (
     Hypothesis,
@@ -60,6 +61,7 @@ __all__ = [
     "MergedPart",
     "Overlap",
     "Pose",
+    "PrecisionWarning",
     "Retries",
     "Rival",
     "ServiceError",

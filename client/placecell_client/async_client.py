@@ -5,8 +5,9 @@ import random
 import time
 from collections.abc import Awaitable, Callable, Sequence
 from types import TracebackType
-from typing import Self, TypeVar
+from typing import TypeVar
 
+import anyio
 import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +36,7 @@ from placecell_client.retries import USUAL, Retries
 from placecell_client.wire import Encoding
 
 T = TypeVar("T")
+AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
 
 
 class AsyncClient(Caller):
@@ -61,9 +63,9 @@ class AsyncClient(Caller):
     ) -> None:
         super().__init__(base_url, encoding, compress, timeout, retries, jitter, clock)
         self._sleep = sleep
-        self._http = httpx.AsyncClient(transport=transport, **http_options(base_url, key))
+        self._http = httpx.AsyncClient(transport=transport, **http_options(self._base_url, key))
 
-    async def __aenter__(self) -> Self:
+    async def __aenter__(self: AsyncClientT) -> AsyncClientT:
         return self
 
     async def __aexit__(
@@ -241,12 +243,14 @@ class AsyncClient(Caller):
             except (httpx.TransportError, ServiceError) as error:
                 wait = attempts.wait_after(error)
                 if wait is None:
+                    self._explain(error)
                     raise
             await self._sleep(wait)
 
     async def _exchange(self, attempt: Attempt) -> Answer:
         try:
-            async with asyncio.timeout(attempt.deadline.remaining()):
+            # Not asyncio's own, which Python 3.10 has not.
+            with anyio.fail_after(attempt.deadline.remaining()):
                 return await self._receive(attempt)
         except TimeoutError as error:
             raise httpx.ReadTimeout("The call's time was over.") from error

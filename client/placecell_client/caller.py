@@ -8,6 +8,7 @@ import httpx
 
 from placecell_client.attempts import Attempts, Policy
 from placecell_client.calls import Call, Calls
+from placecell_client.explaining import checked_url, explained, is_loopback
 from placecell_client.retries import Retries
 from placecell_client.wire import MEDIA_TYPES, Encoding
 
@@ -29,7 +30,7 @@ class Caller:
     ) -> None:
         if encoding not in MEDIA_TYPES:
             raise ValueError(f"encoding {encoding!r} is none of {', '.join(MEDIA_TYPES)}")
-        self._base_url = httpx.URL(base_url)
+        self._base_url = checked_url(base_url)
         self._calls = Calls(encoding, compress)
         self._policy = Policy(timeout, retries, jitter, clock)
 
@@ -37,20 +38,30 @@ class Caller:
         # httpx hides a password in the URL.
         return f"{type(self).__name__}({self._base_url!r})"
 
+    def _explain(self, error: Exception) -> None:
+        """Let the last error of a call say what to do."""
+        if isinstance(error, httpx.TransportError):
+            error.args = (explained(error, self._base_url),)
+
     def _attempts(self, call: Call[T]) -> Attempts[T]:
         return Attempts(call, self._policy)
 
 
-def http_options(base_url: str, key: str | None) -> dict[str, Any]:
+def http_options(base_url: httpx.URL, key: str | None) -> dict[str, Any]:
     """Arguments of httpx's clients; the key is kept in their headers alone, whose repr hides it.
 
     Raises:
         ValueError: the key cannot stand in a header. It is not told: it may be right but for a
             line's end.
     """
+    options: dict[str, Any] = {"base_url": base_url}
+    if is_loopback(base_url.host):
+        host = f"[{base_url.host}]" if ":" in base_url.host else base_url.host
+        # No proxy can reach this machine's loopback.
+        options["mounts"] = {f"all://{host}": None}
     if key is None:
-        return {"base_url": base_url}
+        return options
     # No quotes and backslashes: escaped, they would hide the key in an error page from us.
     if not re.fullmatch(r"[!#-\[\]-~]+", key):
         raise ValueError('key: not one or more visible ASCII characters other than " and \\')
-    return {"base_url": base_url, "headers": {"Authorization": f"Bearer {key}"}}
+    return options | {"headers": {"Authorization": f"Bearer {key}"}}

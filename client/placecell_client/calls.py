@@ -90,9 +90,11 @@ class Calls:
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
         """`POST /describe`."""
-        body = segments_of(segments, sensors, self.encoding)
+        body, dropped = segments_of(segments, sensors, self.encoding)
         count = len(segments)
-        return self._post("/describe", body, lambda answer: reading.description(answer, count))
+        return self._post(
+            "/describe", body, lambda answer: reading.description(answer, count, dropped)
+        )
 
     def match(
         self,
@@ -111,9 +113,11 @@ class Calls:
                 "/match", body, lambda answer: reading.matches_of(answer, description, rows)
             )
         if description is None and segments is not None and sensors is not None:
-            body |= segments_of(segments, sensors, self.encoding)
+            own, dropped = segments_of(segments, sensors, self.encoding)
             count = len(segments)
-            return self._post("/match", body, lambda answer: reading.matches(answer, count))
+            return self._post(
+                "/match", body | own, lambda answer: reading.matches(answer, count, dropped)
+            )
         raise ValueError("give either a description, or segments and sensors")
 
     def localize(
@@ -140,8 +144,10 @@ class Calls:
                 lambda answer: reading.localisations_of(answer, description, rows),
             )
         if description is None and segments is not None and sensors is not None:
-            body |= segments_of(segments, sensors, self.encoding)
-            return self._post("/localize", body, reading.localisations)
+            own, dropped = segments_of(segments, sensors, self.encoding)
+            return self._post(
+                "/localize", body | own, lambda answer: reading.localisations(answer, dropped)
+            )
         raise ValueError("give either a description, or segments and sensors")
 
     def maps(self) -> Call[Maps]:

@@ -4,7 +4,7 @@ import random
 import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
-from typing import Self, TypeVar
+from typing import TypeVar
 
 import httpx
 import numpy as np
@@ -34,6 +34,7 @@ from placecell_client.retries import USUAL, Retries
 from placecell_client.wire import Encoding
 
 T = TypeVar("T")
+ClientT = TypeVar("ClientT", bound="Client")
 
 
 class Client(Caller):
@@ -76,9 +77,9 @@ class Client(Caller):
     ) -> None:
         super().__init__(base_url, encoding, compress, timeout, retries, jitter, clock)
         self._sleep = sleep
-        self._http = httpx.Client(transport=transport, **http_options(base_url, key))
+        self._http = httpx.Client(transport=transport, **http_options(self._base_url, key))
 
-    def __enter__(self) -> Self:
+    def __enter__(self: ClientT) -> ClientT:
         return self
 
     def __exit__(
@@ -101,11 +102,12 @@ class Client(Caller):
         """Descriptors of the segments of one scan.
 
         Args:
-            segments: points of each, (points, 3), metres, all in one z-up frame.
+            segments: points of each, (points, 3), or structured with fields x, y and z; metres,
+                all in one z-up frame. Points that are not finite are left out and counted.
             sensors: where the sensor was at capture, (segments, 3) or (3,) for all, same frame.
 
         Raises:
-            ValueError: the arrays do not fit each other or hold a value that is not finite.
+            ValueError: an array has another shape or type, or a sensor is not finite.
         """
         return self._send(self._calls.describe(segments, sensors))
 
@@ -376,6 +378,7 @@ class Client(Caller):
             except (httpx.TransportError, ServiceError) as error:
                 wait = attempts.wait_after(error)
                 if wait is None:
+                    self._explain(error)
                     raise
             self._sleep(wait)
 

@@ -146,12 +146,14 @@ class Localisations:
         maps: one each.
         errors: by index, the segments that could not be used.
         skipped: maps of other models.
+        dropped_points: points that were not finite and were left out.
     """
 
     model_id: str
     maps: tuple[Localisation, ...]
     errors: dict[int, ItemError]
     skipped: tuple[Skipped, ...]
+    dropped_points: int = 0
 
     @property
     def best(self) -> Localisation | None:

@@ -46,8 +46,8 @@ def info(answer: Answer) -> Info:
     )
 
 
-def description(answer: Answer, count: int) -> Description:
-    """Of `POST /describe` with this many segments."""
+def description(answer: Answer, count: int, dropped: int = 0) -> Description:
+    """Of `POST /describe` with this many segments, of which these points were left out."""
     content = _content(answer)
     items = _items(content["descriptors"], count)
     good = [index for index, item in enumerate(items) if "error" not in item]
@@ -65,11 +65,18 @@ def description(answer: Answer, count: int) -> Description:
     for index in good:
         x, y, z = items[index]["centroid"]
         centroids[index] = x, y, z
-    return Description(content["model_id"], codes, descriptors, centroids, _errors(items))
+    return Description(
+        content["model_id"],
+        codes,
+        descriptors,
+        centroids,
+        _errors(items),
+        dropped + _dropped(content),
+    )
 
 
-def matches(answer: Answer, count: int) -> Matches:
-    """Of `POST /match` with this many queries."""
+def matches(answer: Answer, count: int, dropped: int = 0) -> Matches:
+    """Of `POST /match` with this many queries, of which these points were left out."""
     content = _content(answer)
     items = _items(content["queries"], count)
     return Matches(
@@ -83,6 +90,7 @@ def matches(answer: Answer, count: int) -> Matches:
         errors=_errors(items),
         searched=tuple(content["searched"]),
         skipped=_skipped(content),
+        dropped_points=dropped + _dropped(content),
     )
 
 
@@ -96,8 +104,8 @@ def matches_of(answer: Answer, description: Description, rows: list[int]) -> Mat
     return Matches(found.model_id, tuple(queries), errors, found.searched, found.skipped)
 
 
-def localisations(answer: Answer) -> Localisations:
-    """Of `POST /localize` with segments."""
+def localisations(answer: Answer, dropped: int = 0) -> Localisations:
+    """Of `POST /localize` with segments, of which these points were left out."""
     content = _content(answer)
     return Localisations(
         model_id=content["model_id"],
@@ -109,6 +117,7 @@ def localisations(answer: Answer) -> Localisations:
             for item in content["unusable"]
         },
         skipped=_skipped(content),
+        dropped_points=dropped + _dropped(content),
     )
 
 
@@ -206,6 +215,10 @@ def _items(items: list[dict[str, Any]], count: int) -> list[dict[str, Any]]:
 
 def _skipped(content: dict[str, Any]) -> tuple[Skipped, ...]:
     return tuple(Skipped(item["map"], item["model_id"]) for item in content["skipped"])
+
+
+def _dropped(content: dict[str, Any]) -> int:
+    return int(content.get("dropped_points", 0))  # an earlier service tells none
 
 
 def _errors(items: list[dict[str, Any]]) -> dict[int, ItemError]:

@@ -27,6 +27,7 @@ class Description:
         descriptors: float32 (n, d), before they were rounded to codes.
         centroids: float64 (n, 3), metres, in the frame of the request.
         errors: by index, the segments that could not be used; their codes are 0, the rest is NaN.
+        dropped_points: points that were not finite and were left out.
     """
 
     model_id: str
@@ -34,6 +35,7 @@ class Description:
     descriptors: NDArray[np.float32]
     centroids: NDArray[np.float64]
     errors: dict[int, ItemError]
+    dropped_points: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +82,7 @@ class Matches:
         errors: by index, the queries that could not be used.
         searched: names of the maps.
         skipped: maps of other models.
+        dropped_points: points that were not finite and were left out.
     """
 
     model_id: str
@@ -87,6 +90,7 @@ class Matches:
     errors: dict[int, ItemError]
     searched: tuple[str, ...]
     skipped: tuple[Skipped, ...]
+    dropped_points: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 from email.utils import parsedate_to_datetime
 
 
@@ -15,7 +15,7 @@ def retry_after(headers: Mapping[str, str]) -> float | None:
     if then is None:
         return None
     # By the service's own clock where it tells it: a robot's may be hours off.
-    now = _date(headers.get("Date", "")) or datetime.now(UTC)
+    now = _date(headers.get("Date", "")) or datetime.now(timezone.utc)
     return max(0.0, (then - now).total_seconds())
 
 
@@ -24,4 +24,4 @@ def _date(text: str) -> datetime | None:
         date = parsedate_to_datetime(text)
     except (ValueError, OverflowError):
         return None
-    return date if date.tzinfo is not None else date.replace(tzinfo=UTC)
+    return date if date.tzinfo is not None else date.replace(tzinfo=timezone.utc)

@@ -8,6 +8,8 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client.clouds import Clouds, rows_of
+
 Encoding = Literal["msgpack", "json"]
 MEDIA_TYPES: dict[Encoding, str] = {"msgpack": "application/msgpack", "json": "application/json"}
 
@@ -38,65 +40,70 @@ def loads(media_type: str, content: bytes) -> dict[str, Any]:
 
 def segments_of(
     segments: Sequence[ArrayLike], sensors: ArrayLike, encoding: Encoding
-) -> dict[str, Any]:
-    """The part of a body that holds segments.
+) -> tuple[dict[str, Any], int]:
+    """The part of a body that holds segments, and how many points were not finite.
 
     Nothing is rounded that need not be: float32 arrays travel as they are. Others, as msgpack,
     travel as float32 relative to the median sensor, where that resolves micrometres.
 
     Args:
-        segments: points of each, (points, 3), metres, all in one z-up frame.
+        segments: points of each, (points, 3), or structured with fields x, y and z; metres, all in
+            one z-up frame.
         sensors: where the sensor was at capture, (segments, 3) or (3,) for all, same frame.
         encoding: of the body.
 
     Raises:
-        ValueError: the arrays do not fit each other or hold a value that is not finite.
+        ValueError: an array has another shape or type, or a sensor is not finite.
     """
-    positions = np.asarray(sensors, dtype=np.float64)
-    if positions.shape not in {(3,), (len(segments), 3)}:
-        raise ValueError(f"sensors: shape {positions.shape}, not (3,) or ({len(segments)}, 3)")
-    positions = np.broadcast_to(positions, (len(segments), 3))
-    clouds = [_cloud(points) for points in segments]
-    for index, (cloud, position) in enumerate(zip(clouds, positions, strict=True)):
-        if not (np.isfinite(cloud).all() and np.isfinite(position).all()):
-            raise ValueError(f"segment {index}: a value is not finite")
+    clouds = Clouds.of(segments, sensors)
     if encoding == "json":
         return {
             "segments": [
                 {"points": cloud.astype(np.float64).tolist(), "sensor": position.tolist()}
-                for cloud, position in zip(clouds, positions, strict=True)
+                for cloud, position in zip(clouds.points, clouds.sensors, strict=True)
             ]
-        }
-    origin = _origin(clouds, positions)
+        }, clouds.dropped
+    origin = _origin(clouds.points, clouds.sensors)
     shift = np.zeros(3) if origin is None else origin
     body: dict[str, Any] = {
         "segments": [
-            {"points": _blob(cloud, origin), "sensor": (position - shift).tolist()}
-            for cloud, position in zip(clouds, positions, strict=True)
+            {"points": _blob(cloud, origin, index), "sensor": (position - shift).tolist()}
+            for index, (cloud, position) in enumerate(
+                zip(clouds.points, clouds.sensors, strict=True)
+            )
         ]
     }
-    return body if origin is None else body | {"origin": origin.tolist()}
+    return (body if origin is None else body | {"origin": origin.tolist()}), clouds.dropped
 
 
-def codes_of(codes: NDArray[np.int8], encoding: Encoding) -> list[list[int]] | bytes:
-    """Codes (q, d) as they stand in a body."""
+def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:
+    """Codes (q, d) as they stand in a body.
+
+    Raises:
+        ValueError: the array has another shape, or values that are no int8.
+    """
+    array = rows_of(codes, "codes", None, integers=True)
+    if array.size and (array.min() < -128 or array.max() > 127):
+        raise ValueError("codes has values beyond -128 to 127")
     if encoding == "msgpack":
-        return np.ascontiguousarray(codes, dtype=np.int8).tobytes()
-    rows: list[list[int]] = codes.tolist()
+        return np.ascontiguousarray(array, dtype=np.int8).tobytes()
+    rows: list[list[int]] = array.tolist()
     return rows
 
 
-def centroids_of(centroids: NDArray[np.float64], encoding: Encoding) -> list[list[float]] | bytes:
+def centroids_of(centroids: ArrayLike, encoding: Encoding) -> list[list[float]] | bytes:
     """Centroids (q, 3) as they stand in a body.
 
     Raises:
-        ValueError: one is not finite.
+        ValueError: the array has another shape, or a value that is not finite.
     """
-    if not np.isfinite(centroids).all():
-        raise ValueError("a centroid is not finite")
+    array = rows_of(centroids, "centroids", 3, integers=False)
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(wrong):
+        raise ValueError(f"a centroid is not finite: row {wrong[0]}")
     if encoding == "msgpack":
-        return np.ascontiguousarray(centroids, dtype="<f8").tobytes()
-    rows: list[list[float]] = centroids.tolist()
+        return np.ascontiguousarray(array, dtype="<f8").tobytes()
+    rows: list[list[float]] = array.tolist()
     return rows
 
 
@@ -105,14 +112,6 @@ def row_of(values: list[float] | bytes, dtype: str) -> NDArray[Any]:
     if isinstance(values, bytes):
         return np.frombuffer(values, dtype)
     return np.array(values, dtype)
-
-
-def _cloud(points: ArrayLike) -> NDArray[Any]:
-    """As (n, 3), float32 if it is already, otherwise float64."""
-    array = np.asarray(points)
-    if array.dtype != np.float32:
-        array = array.astype(np.float64)
-    return array.reshape(-1, 3)
 
 
 def _origin(
@@ -128,9 +127,14 @@ def _origin(
     return origin
 
 
-def _blob(cloud: NDArray[Any], origin: NDArray[np.float64] | None) -> bytes:
+def _blob(cloud: NDArray[Any], origin: NDArray[np.float64] | None, index: int) -> bytes:
     if origin is None:
         return cloud.astype("<f4", copy=False).tobytes()
-    # What float32 cannot hold becomes infinite, and the service says where it stands.
     with np.errstate(over="ignore"):
-        return (cloud - origin).astype("<f4").tobytes()
+        near = (cloud - origin).astype("<f4")
+    # The service would take it for a point that the sensor did not measure.
+    wrong = np.flatnonzero(~np.isfinite(near).all(axis=1))
+    if len(wrong):
+        row = cloud[wrong[0]].tolist()
+        raise ValueError(f"segment {index}: point {wrong[0]} is too far for float32: {row}")
+    return near.tobytes()

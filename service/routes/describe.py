@@ -1,5 +1,7 @@
 """`/describe`: segments in, descriptors out."""
 
+from typing import Any
+
 from fastapi import APIRouter, Request, Response
 
 from service.admission import client_of
@@ -7,10 +9,10 @@ from service.bodies import ENCODINGS, MSGPACK, Body, answer_type, parse, render
 from service.describer import Described, Prepared
 from service.models import Model
 from service.openapi import body_of, packed_response
-from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
+from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse
 from service.problems import documented
 from service.scan import Scan
-from service.schemas import DescribeRequest, DescribeResponse, DescriptorOut
+from service.schemas import DescribeRequest, DescribeResponse
 from service.state import HolderOf, State, StateOf, TimingOf
 from service.timing import Timing
 
@@ -38,7 +40,7 @@ async def describe(
         model, prepared = await state.compute(_read, state, body, timing)
         request.state.model_id = model.id
         described = await model.describer.describe(prepared, timing)
-        content = await state.compute(_written, model, described, answer, timing)
+        content = await state.compute(_written, model, described, prepared, answer, timing)
     return await state.answers.respond(content, client_of(request), answer)
 
 
@@ -49,44 +51,37 @@ def _read(state: State, body: Body, timing: Timing) -> tuple[Model, Prepared]:
     return model, model.describer.prepare(Scan.of(request.segments, request.origin), timing)
 
 
-def _written(model: Model, described: Described, answer: str, timing: Timing) -> bytes:
+def _written(
+    model: Model, described: Described, prepared: Prepared, answer: str, timing: Timing
+) -> bytes:
     timing.lap("queue")
-    response = _packed if answer == MSGPACK else _listed
-    content = render(response(model, described), answer)
+    item = _packed if answer == MSGPACK else _listed
+    # What `DescribeResponse` says, without its checks: the values are our own.
+    response = {
+        "model_id": model.id,
+        "dimension": model.manifest.dimension,
+        "descriptors": [
+            item(described, row) if isinstance(row, int) else row.model_dump()
+            for row in described.rows
+        ],
+        "dropped_points": prepared.dropped_points,
+    }
+    content = render(response, answer)
     timing.lap("encode")
     return content
 
 
-def _listed(model: Model, described: Described) -> DescribeResponse:
-    codes = described.codes.tolist()
-    descriptors = described.descriptors.tolist()
-    centroids = described.centroids.tolist()
-    return DescribeResponse(
-        model_id=model.id,
-        dimension=model.manifest.dimension,
-        descriptors=[
-            DescriptorOut(codes=codes[row], descriptor=descriptors[row], centroid=centroids[row])
-            if isinstance(row, int)
-            else row
-            for row in described.rows
-        ],
-    )
+def _listed(described: Described, row: int) -> dict[str, Any]:
+    return {
+        "codes": described.codes[row].tolist(),
+        "descriptor": described.descriptors[row].tolist(),
+        "centroid": described.centroids[row].tolist(),
+    }
 
 
-def _packed(model: Model, described: Described) -> PackedDescribeResponse:
-    descriptors = described.descriptors.astype("<f4")
-    centroids = described.centroids.tolist()
-    return PackedDescribeResponse(
-        model_id=model.id,
-        dimension=model.manifest.dimension,
-        descriptors=[
-            PackedDescriptor(
-                codes=described.codes[row].tobytes(),
-                descriptor=descriptors[row].tobytes(),
-                centroid=centroids[row],
-            )
-            if isinstance(row, int)
-            else row
-            for row in described.rows
-        ],
-    )
+def _packed(described: Described, row: int) -> dict[str, Any]:
+    return {
+        "codes": described.codes[row].tobytes(),
+        "descriptor": described.descriptors[row].astype("<f4").tobytes(),
+        "centroid": described.centroids[row].tolist(),
+    }

@@ -164,6 +164,7 @@ def _written(
         "model_id": asked.model_id,
         "localisations": told,
         "unusable": [{"query": query, **failed.model_dump()} for query, failed in _failed(queries)],
+        "dropped_points": asked.dropped_points,
         "skipped": [
             {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped
         ],

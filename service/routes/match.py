@@ -69,6 +69,7 @@ def _search(
     response = {
         "model_id": asked.model_id,
         "queries": [_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
+        "dropped_points": asked.dropped_points,
         "searched": [stored.name for stored in asked.scope.maps],
         "skipped": [
             {"map": stored.name, "model_id": stored.model_id} for stored in asked.scope.skipped

@@ -39,7 +39,7 @@ def test_the_request_is_the_clients() -> None:
         "origin": ORIGIN,
         "segments": [{"points": CLOUD.astype("<f4").tobytes(), "sensor": [0.0, 0.0, 1.5]}],
     }
-    sent = segments_of([CLOUD.astype(np.float32)], [0.0, 0.0, 1.5], "msgpack")
+    sent, _ = segments_of([CLOUD.astype(np.float32)], [0.0, 0.0, 1.5], "msgpack")
     assert msgpack.packb({"origin": ORIGIN} | sent) == example("request")
 
 

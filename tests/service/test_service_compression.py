@@ -29,7 +29,9 @@ def test_a_compressed_body_means_the_same(service: Any, coding: str, manifest: M
 @pytest.mark.parametrize("coding", CODERS)
 def test_bombs_are_refused(start: Any, coding: str) -> None:
     headers = {"Content-Encoding": coding}
-    with start(limits={"body_bytes": 100_000, "map_bytes": 200_000}) as service:
+    with start(
+        limits={"body_bytes": 100_000, "json_bytes": 100_000, "map_bytes": 200_000}
+    ) as service:
         bomb = CODERS[coding](bytes(300_000_000))
         refused = service.post("/describe", content=bomb[:99_000], headers=headers)
         assert_problem(refused, 413, "body-too-large")

@@ -138,7 +138,9 @@ def test_a_request_is_limited(start: Any) -> None:
         response = service.post("/describe", json=request_of([cloud(0, 501)]))
         assert_problem(response, 413, "too-many-points", "the limit is 500")
         response = service.post("/describe", json=request_of([cloud(0, 2_000)]))
-        assert_problem(response, 413, "too-many-values")
+        assert_problem(
+            response, 413, "too-many-points", "2000 points in a request; the limit is 500"
+        )
 
 
 def test_a_descriptor_that_is_not_finite_is_an_error(

@@ -85,7 +85,7 @@ def test_only_json_is_taken_for_json(service: Any) -> None:
 
 
 def test_a_large_body_is_refused_stated_or_streamed(start: Any) -> None:
-    with start(limits={"body_bytes": 1000}) as service:
+    with start(limits={"body_bytes": 1000, "json_bytes": 1000}) as service:
         response = service.post("/describe", content=b" " * 1001)
         assert_problem(response, 413, "body-too-large", "1000 bytes")
         taken = []

@@ -1,0 +1,802 @@
+"""The arrays of a JSON request, read by compiled code while other threads run.
+
+A request is nearly all numbers: the points of its segments, or codes and centroids. A parser that
+makes a Python object of each holds the interpreter for the whole body, 140 ms for 11 MB, and no
+other request is answered meanwhile. So the arrays are cut out first, straight into NumPy arrays and
+without the interpreter's lock. What is left is small, and pydantic reads it as ever.
+
+Numbers are read as the field does it: Clinger's fast path, otherwise the method of Eisel and Lemire
+("Number parsing at a gigabyte per second", 2021). Both round correctly. The few numbers that
+neither settles are left to `float`.
+"""
+
+import re
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar, cast
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from placecell_client.compact_map import COORDINATE_LIMIT
+
+from segments.jit import compiled
+from segments.types import Float64, Int8, Int64
+
+POINTS, CENTROIDS, CODES = 0, 1, 2
+NAMES = ("points", "centroids", "codes")
+STAND_INS = (b"[]", b"[[0,0,0]]", b"[[]]")
+"""Arrays that hold no error, in the place of each kind, where only an error is looked for."""
+LONGEST_ROW = 1 << 16
+"""Bytes of a point or code that is looked at again to name its error."""
+
+# Columns of `spans`, one row for each array.
+BEGIN, END, KIND, FIRST, ROWS, BAD = range(6)
+# Elements of `tally`.
+SPANS, FLOAT_ROWS, POINT_ROWS, INTS, CODE_ROWS, HARD, VALUES, SYNTAX_AT, SYNTAX, DEPTH = range(10)
+# Columns of `bad`, one row for each kind: the first array of that kind with an error.
+BAD_ROW, BAD_BEGIN, BAD_END = range(3)
+
+DEEPEST = 200
+"""Lists and objects in each other, at most; pydantic's parser has the same limit."""
+
+SYNTAX_ERRORS = {
+    1: "EOF while parsing a list",
+    2: "trailing comma",
+    3: "expected `,` or `]`",
+    4: "recursion limit exceeded",
+}
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+_part = cast(Callable[[Function], Function], numba.njit(nogil=True))
+"""A function that the compiled one calls."""
+
+Bytes = NDArray[np.uint8]
+Words = NDArray[np.uint64]
+
+SMALLEST_POWER, LARGEST_POWER = -342, 308
+
+
+def _powers_of_five() -> Words:
+    """128 bits of 5^q for each q, the most significant first, as the method asks for them."""
+    powers = []
+    for q in range(SMALLEST_POWER, LARGEST_POWER + 1):
+        power = 5 ** abs(q)
+        if q < 0:
+            bits = (power - 1).bit_length()
+            power = (1 << (bits + 127 if q >= -27 else 2 * bits + 128)) // power + 1
+        surplus = power.bit_length() - 128
+        power = power >> surplus if surplus > 0 else power << -surplus
+        powers.append((power >> 64, power & ((1 << 64) - 1)))
+    return np.array(powers, dtype=np.uint64)
+
+
+_POWERS = _powers_of_five()
+_TENS = np.array([10.0**q for q in range(23)])
+_WHOLE_TENS = np.array([10**q for q in range(9)], dtype=np.uint64)
+_DE_BRUIJN = 0x03F79D71B4CB0A89
+_PLACES = np.zeros(64, dtype=np.uint8)
+for _place in range(8):
+    _PLACES[(_DE_BRUIJN << 8 * _place + 7) % (1 << 64) >> 58] = _place
+
+
+@dataclass(slots=True)
+class Arrays:
+    """The arrays that were cut out of a body.
+
+    Attributes:
+        body: whole.
+        token: stands before the number of an array, where it was cut out.
+        spans: int64 (arrays, 6): place in the body, kind, first row and rows among the values, and
+            whether it has an error.
+        floats: float64 (rows, 3), of points and centroids.
+        codes: int8 (values,), of codes.
+        lengths: int64 (rows,), values of each code.
+        bad: int64 (kinds, 3): the row with an error, and its place in the body; -1: none.
+        amounts: arrays of points, rows of points and rows of codes: all there are, not only those
+            that were kept.
+        complete: whether all values were kept.
+        values: lists, objects and commas outside of the arrays.
+        syntax: what is wrong with the body's JSON, and where; empty if nothing is.
+        text: the body with the arrays cut out.
+    """
+
+    body: bytes
+    token: str
+    spans: Int64
+    floats: Float64
+    codes: Int8
+    lengths: Int64
+    bad: Int64
+    amounts: tuple[int, int, int]
+    complete: bool
+    values: int
+    syntax: tuple[str, int] | None
+    text: bytes = b""
+    _pieces: list[tuple[int, int]] = field(default_factory=list)
+
+    def rows(self, value: object, kind: int) -> Float64 | None:
+        """The points or centroids of an array that was cut out, float64 (rows, 3).
+
+        None if this is none, or has an error.
+        """
+        span = self._span(value, kind)
+        return None if span is None else self.floats[span[0] : sum(span)]
+
+    def code_rows(self, value: object) -> Int8 | list[list[int]] | None:
+        """The codes of an array that was cut out; None if this is none.
+
+        Returns:
+            int8 (rows, bytes); a list for each row if they differ in length.
+        """
+        span = self._span(value, CODES)
+        if span is None:
+            return None
+        first, rows = span
+        ends = np.cumsum(self.lengths)
+        begin = int(ends[first - 1]) if first else 0
+        lengths = self.lengths[first : first + rows]
+        own = self.codes[begin : int(ends[first + rows - 1])]
+        if (lengths == lengths[0]).all():
+            return own.reshape(rows, -1) if lengths[0] else np.empty((rows, 0), dtype=np.int8)
+        return [each.tolist() for each in np.split(own, np.cumsum(lengths)[:-1])]
+
+    def _span(self, value: object, kind: int) -> tuple[int, int] | None:
+        """First row and rows of an array of this kind that has no error."""
+        if not isinstance(value, str) or not value.startswith(self.token):
+            return None
+        _, _, found, first, rows, bad = self.spans[int(value[len(self.token) :])].tolist()
+        return None if found != kind or bad else (first, rows)
+
+    def named(self) -> bytes:
+        """The body without arrays that have no error, and so short; `place` leads back.
+
+        Raises:
+            ValueError: a row with an error is too long to be looked at.
+        """
+        shown = set[int]()
+        stand_ins = []
+        for begin, end, kind, _, _, bad in self.spans.tolist():
+            stand_in, source = STAND_INS[kind], begin
+            if bad and kind not in shown:
+                shown.add(kind)
+                row, start, stop = self.bad[kind].tolist()
+                if stop - start > LONGEST_ROW:
+                    raise ValueError(f"row {row} of {NAMES[kind]!r} is {stop - start} bytes long")
+                close = b"]" if stop < len(self.body) else b""
+                stand_in, source = b"[" + self.body[start:stop] + close, start - 1
+            stand_ins.append((begin, end, stand_in, source))
+        return self._joined(stand_ins)
+
+    def row_of(self, kind: int) -> int:
+        """The row that `named` shows in the place of row 0; 0 if it shows none."""
+        return max(int(self.bad[kind, BAD_ROW]), 0)
+
+    def place(self, line: int, column: int, named: bytes) -> tuple[int, int]:
+        """Line and column in the body of a place in `named`."""
+        start = 0
+        for _ in range(line - 1):
+            start = named.find(b"\n", start) + 1
+        shown = start + column
+        here, there = max((piece for piece in self._pieces if piece[0] <= shown), default=(0, 0))
+        offset = min(there + shown - here, len(self.body))
+        before = self.body.rfind(b"\n", 0, offset) + 1
+        return self.body.count(b"\n", 0, offset) + 1, offset - before
+
+    def cut(self) -> None:
+        """Make `text`."""
+        self.text = self._joined(
+            [
+                (begin, end, f'"{self.token}{number}"'.encode(), begin)
+                for number, (begin, end) in enumerate(self.spans[:, :2].tolist())
+            ]
+        )
+
+    def _joined(self, stand_ins: list[tuple[int, int, bytes, int]]) -> bytes:
+        """The body with others in the place of arrays; each has the place that it comes from."""
+        view, parts, past, length = memoryview(self.body), list[bytes | memoryview](), 0, 0
+        self._pieces = [(0, 0)]
+        for begin, end, stand_in, source in stand_ins:
+            parts += [view[past:begin], stand_in]
+            length += begin - past
+            self._pieces += [(length, source), (length + len(stand_in), end)]
+            length += len(stand_in)
+            past = end
+        parts.append(view[past:])
+        return b"".join(parts)
+
+
+def cut_arrays(body: bytes, *, points: int, segments: int, values: int) -> Arrays:
+    """Cut the arrays out of a JSON body; other threads run meanwhile.
+
+    Args:
+        body: any bytes.
+        points: rows of points to keep, at most; the others are only counted.
+        segments: arrays of points, centroids and codes to keep, at most.
+        values: of codes to keep, at most.
+    """
+    data = np.frombuffer(body, np.uint8)
+    # Eight bytes from every place on.
+    words = np.ndarray((max(len(body) - 7, 0),), "<u8", body, strides=(1,))
+    rows = min(points + segments, len(body) // 8 + 1)  # [0,0,0], is the shortest
+    floats = np.empty((rows, 3))
+    codes = np.empty(min(values, len(body) // 2 + 1), dtype=np.int8)
+    lengths = np.empty(min(segments, len(body) // 3 + 1), dtype=np.int64)
+    spans = np.empty((min(segments, len(body) // 12 + 1) + 8, 6), dtype=np.int64)
+    hard = np.empty((3 * rows + 3, 3), dtype=np.int64)
+    bad = np.full((3, 3), -1, dtype=np.int64)
+    tally = np.zeros(10, dtype=np.int64)
+    amount = np.zeros(1, dtype=np.int64)
+    flat = floats.reshape(-1)
+    _scan(data, words, flat, flat.view(np.uint64), codes, lengths, spans, hard, bad, tally, amount)
+    found = tally.tolist()
+    arrays = Arrays(
+        body=body,
+        token=secrets.token_hex(8) + ":",
+        spans=spans[: min(found[SPANS], len(spans))],
+        floats=floats,
+        codes=codes[: found[INTS]],
+        lengths=lengths[: found[CODE_ROWS]],
+        bad=bad,
+        amounts=(int(amount[0]), found[POINT_ROWS], found[CODE_ROWS]),
+        complete=found[SPANS] <= len(spans)
+        and found[FLOAT_ROWS] <= len(floats)
+        and found[CODE_ROWS] <= len(lengths)
+        and found[INTS] <= len(codes),
+        values=found[VALUES],
+        syntax=(SYNTAX_ERRORS[found[SYNTAX]], found[SYNTAX_AT]) if found[SYNTAX] else None,
+    )
+    for index, begin, end in hard[: found[HARD]].tolist():
+        flat[index] = float(body[begin:end])
+        if not abs(flat[index]) <= COORDINATE_LIMIT:
+            _mark(arrays, index // 3, begin)
+    return arrays
+
+
+def warm() -> None:
+    """Compile, so that the first request need not wait for it."""
+    cut_arrays(b'{"points":[[0.5,0,0]],"codes":[[1]]}', points=1, segments=1, values=1)
+
+
+def _mark(arrays: Arrays, row: int, place: int) -> None:
+    """Note that a row of points or centroids has an error after all."""
+    for span in arrays.spans:
+        if span[KIND] != CODES and span[FIRST] <= row < span[FIRST] + span[ROWS]:
+            span[BAD] = 1
+            entry = arrays.bad[span[KIND]]
+            begin = arrays.body.rfind(b"[", 0, place)
+            if entry[BAD_BEGIN] < 0 or begin < entry[BAD_BEGIN]:
+                end = arrays.body.find(b"]", place) + 1
+                entry[:] = row - int(span[FIRST]), begin, end
+
+
+def moved(message: str, arrays: Arrays, named: bytes) -> str:
+    """A parser's message about `named`, with the place in the body."""
+
+    def of_body(match: "re.Match[str]") -> str:
+        line, column = arrays.place(int(match[1]), int(match[2]), named)
+        return f" at line {line} column {column}"
+
+    return re.sub(r" at line (\d+) column (\d+)", of_body, message)
+
+
+@_part
+def _past_space(data: Bytes, i: int) -> int:
+    while i < len(data) and (data[i] == 32 or data[i] == 10 or data[i] == 13 or data[i] == 9):
+        i += 1
+    return i
+
+
+@_part
+def _past_string(data: Bytes, i: int) -> int:
+    """The place after the string that begins at i."""
+    i += 1
+    while i < len(data) and data[i] != 34:
+        i += 2 if data[i] == 92 else 1
+    return min(i + 1, len(data))
+
+
+@_part
+def _past_value(data: Bytes, i: int, comma: bool) -> int:
+    """The place of the bracket that closes what i stands in, or of a comma before it."""
+    depth = 0
+    while i < len(data):
+        c = data[i]
+        if c == 34:
+            i = _past_string(data, i)
+            continue
+        if depth == 0 and (c in (93, 125) or (comma and c == 44)):
+            return i
+        if c in (91, 123):
+            depth += 1
+        elif c in (93, 125):
+            depth -= 1
+        i += 1
+    return len(data)
+
+
+@_part
+def _hexadecimal(c: int) -> int:
+    if 48 <= c <= 57:
+        return c - 48
+    c |= 32
+    return c - 87 if 97 <= c <= 102 else -1
+
+
+@_part
+def _kind_of(data: Bytes, begin: int, end: int) -> int:
+    """Which array a key names; -1: none. Letters may be written as escapes."""
+    kinds = 7  # a bit for each that it may be
+    names = (b"points", b"centroids", b"codes")
+    at = 0
+    i = begin
+    while i < end:
+        c = int(data[i])
+        i += 1
+        if c == 92:
+            if i + 5 > end or data[i] != 117:
+                return -1
+            c = 0
+            for digit in range(4):
+                value = _hexadecimal(int(data[i + 1 + digit]))
+                if value < 0:
+                    return -1
+                c = 16 * c + value
+            i += 5
+        for kind in range(3):
+            name = names[kind]
+            if at >= len(name) or int(name[at]) != c:
+                kinds &= ~(1 << kind)
+        if kinds == 0:
+            return -1
+        at += 1
+    for kind in range(3):
+        if kinds >> kind & 1 and len(names[kind]) == at:
+            return kind
+    return -1
+
+
+@_part
+def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bool]:
+    """The first 19 digits of a number, how many were left out, and whether one of these is not 0.
+
+    Zeros before the first digit do not count.
+    """
+    digits, count, left, more = np.uint64(0), 0, 0, False
+    for i in range(begin, end):
+        if data[i] == 46:
+            continue
+        if count < 19:
+            digits = digits * np.uint64(10) + np.uint64(data[i] - 48)
+            count += digits != np.uint64(0)
+        else:
+            left += 1
+            more |= data[i] != 48
+    return digits, left, more
+
+
+@_part
+def _number(  # noqa: PLR0912 -- one look at each byte
+    data: Bytes, i: int
+) -> tuple[int, np.uint64, int, bool, bool, bool]:
+    """A number of JSON's grammar that begins at i.
+
+    Returns:
+        the place after it, -1 if there is none; its first 19 digits; the power of ten that they
+        are multiplied by; whether it is negative, whether it is an integer, and whether digits that
+        are not zero were left out.
+    """
+    n = len(data)
+    ten, nine, zero = np.uint64(10), np.uint64(9), np.uint64(48)
+    digits = np.uint64(0)
+    negative = i < n and data[i] == 45
+    if negative:
+        i += 1
+    begin = i
+    while i < n:
+        digit = np.uint64(data[i]) - zero
+        if digit > nine:
+            break
+        digits = digits * ten + digit
+        i += 1
+    count = i - begin
+    if count == 0 or (count > 1 and data[begin] == 48):
+        return -1, digits, 0, False, False, False
+    whole = True
+    power = 0
+    if i < n and data[i] == 46:
+        whole = False
+        i += 1
+        point = i
+        while i < n:
+            digit = np.uint64(data[i]) - zero
+            if digit > nine:
+                break
+            digits = digits * ten + digit
+            i += 1
+        power = point - i
+        if power == 0:
+            return -1, digits, 0, False, False, False
+    more = False
+    if count - power > 19:
+        digits, left, more = _first_digits(data, begin, i)
+        power += left
+    if i < n and (data[i] == 101 or data[i] == 69):
+        whole = False
+        i += 1
+        below = False
+        if i < n and (data[i] == 43 or data[i] == 45):
+            below = data[i] == 45
+            i += 1
+        point = i
+        exponent = 0
+        while i < n and 48 <= data[i] <= 57:
+            exponent = min(10 * exponent + int(data[i] - 48), 1 << 40)
+            i += 1
+        if i == point:
+            return -1, digits, 0, False, False, False
+        power += -exponent if below else exponent
+    return i, digits, power, negative, whole, more
+
+
+@_part
+def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
+    """128 bits, the most significant first."""
+    half = np.uint64(32)
+    mask = np.uint64(0xFFFFFFFF)
+    a0, a1, b0, b1 = a & mask, a >> half, b & mask, b >> half
+    low = a0 * b0
+    mid = a1 * b0 + (low >> half)
+    other = a0 * b1 + (mid & mask)
+    return a1 * b1 + (mid >> half) + (other >> half), (other << half) | (low & mask)
+
+
+@_part
+def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
+    """The bits of the float64 nearest to w * 10^q; and whether that is settled.
+
+    w is not 0. Names as in the paper; what is below the normal range is left unsettled.
+    """
+    none = np.uint64(0)
+    if q < SMALLEST_POWER or q > LARGEST_POWER:
+        return none, False
+    one = np.uint64(1)
+    zeros = 0
+    for bits in (32, 16, 8, 4, 2, 1):
+        shift = bits * int(w < one << np.uint64(64 - bits))  # no branch: it would be a surprise
+        w = w << np.uint64(shift)
+        zeros += shift
+    row = q - SMALLEST_POWER
+    high, low = _product(w, _POWERS[row, 0])
+    mask = np.uint64(0xFFFFFFFFFFFFFFFF) >> np.uint64(55)
+    if high & mask == mask:
+        more, _ = _product(w, _POWERS[row, 1])
+        low = low + more
+        if more > low:
+            high = high + one
+    if low == np.uint64(0xFFFFFFFFFFFFFFFF) and (q < -27 or q > 55):
+        return none, False
+    upper = int(high >> np.uint64(63))
+    drop = np.uint64(upper + 64 - 52 - 3)
+    mantissa = high >> drop
+    exponent = ((217706 * q) >> 16) + 63 + upper - zeros + 1023
+    if exponent <= 0 or exponent >= 0x7FE:
+        return none, False
+    if low <= one and -4 <= q <= 23 and mantissa & np.uint64(3) == one and mantissa << drop == high:
+        mantissa = mantissa & ~one  # halfway between two: to the even one
+    mantissa = (mantissa + (mantissa & one)) >> one
+    if mantissa >= np.uint64(1) << np.uint64(53):
+        mantissa = one << np.uint64(52)
+        exponent += 1
+    mantissa = mantissa & ~(one << np.uint64(52))
+    return mantissa | (np.uint64(exponent) << np.uint64(52)), True
+
+
+@_part
+def _digits(word: np.uint64) -> tuple[np.uint64, int]:
+    """The digits that eight bytes begin with: their value, and how many they are.
+
+    All eight are looked at together, with no branch.
+    """
+    word = word ^ np.uint64(0x3030303030303030)
+    other = (word | (word + np.uint64(0x7676767676767676))) & np.uint64(0x8080808080808080)
+    # A byte above 0x8F could carry into the next; what comes first is told right all the same.
+    lowest = other & (~other + np.uint64(1))
+    count = int(_PLACES[(lowest * np.uint64(_DE_BRUIJN)) >> np.uint64(58)]) if other else 8
+    if count == 0:
+        return np.uint64(0), 0
+    word = word << np.uint64(64 - 8 * count)
+    word = word * np.uint64(10) + (word >> np.uint64(8))
+    low = (word & np.uint64(0x000000FF000000FF)) * np.uint64(0x000F424000000064)
+    high = ((word >> np.uint64(16)) & np.uint64(0x000000FF000000FF)) * np.uint64(0x0000271000000001)
+    return (low + high) >> np.uint64(32), count
+
+
+@_part
+def _coordinate(
+    data: Bytes,
+    i: int,
+    place: int,
+    floats: Float64,
+    bits: Words,
+    hard: Int64,
+    tally: Int64,
+) -> int:
+    """Read a coordinate into its place; the place after it in the body, -1 if it has an error."""
+    end, w, q, negative, _, more = _number(data, i)
+    if end < 0:
+        return -1
+    if w == np.uint64(0):
+        value = 0.0
+    elif not more and w <= np.uint64(1 << 53) and -22 <= q <= 22:
+        value = float(w) / _TENS[-q] if q < 0 else float(w) * _TENS[q]
+    else:
+        word, settled = _double(w, q)
+        if more or not settled:
+            if q > LARGEST_POWER:
+                return -1
+            if place < len(floats):
+                hard[tally[HARD], 0] = place
+                hard[tally[HARD], 1] = i
+                hard[tally[HARD], 2] = end
+                tally[HARD] += 1
+            return end
+        if place >= len(floats):
+            return end
+        bits[place] = word
+        value = floats[place]
+    if value > COORDINATE_LIMIT:
+        return -1
+    if place < len(floats):
+        floats[place] = -value if negative else value
+    return end
+
+
+@_part
+def _code(data: Bytes, i: int, place: int, codes: Int8) -> int:
+    """Read a code's value into its place; the place after it in the body, -1 if it is none."""
+    end, w, _, negative, whole, _ = _number(data, i)
+    if end < 0 or not whole or w > np.uint64(128) or (w == np.uint64(128) and not negative):
+        return -1
+    # Digits that were not kept would be beyond 128.
+    if place < len(codes):
+        codes[place] = np.int8(-int(w) if negative else int(w))
+    return end
+
+
+@_part
+def _row(  # noqa: PLR0911
+    data: Bytes,
+    i: int,
+    kind: int,
+    first: int,
+    floats: Float64,
+    bits: Words,
+    codes: Int8,
+    hard: Int64,
+    tally: Int64,
+) -> tuple[int, int]:
+    """Read a row; the place after it, -1 if it has an error, and how many values it has."""
+    n = len(data)
+    if i >= n or data[i] != 91:
+        return -1, 0
+    i = _past_space(data, i + 1)
+    count = 0
+    if kind == CODES and i < n and data[i] == 93:
+        return i + 1, 0
+    while True:
+        if kind == CODES:
+            i = _code(data, i, first + count, codes)
+        elif count == 3:
+            return -1, count
+        else:
+            i = _coordinate(data, i, first + count, floats, bits, hard, tally)
+        if i < 0:
+            return -1, count
+        count += 1
+        i = _past_space(data, i)
+        if i >= n:
+            return -1, count
+        if data[i] == 93:
+            return i + 1 if kind == CODES or count == 3 else -1, count
+        if data[i] != 44:
+            return -1, count
+        i = _past_space(data, i + 1)
+
+
+@_part
+def _usual_rows(  # noqa: PLR0911, PLR0912, PLR0915 -- calls take longer than its work
+    data: Bytes, words: Words, i: int, place: int, floats: Float64, bits: Words
+) -> tuple[int, int]:
+    """Read rows of points in which nothing is unusual, such as [1.5,-0.25,12].
+
+    Nothing here is called for each number but what the compiler puts in place: to hand arrays over
+    takes longer than to read a number.
+
+    Args:
+        i: where a row begins.
+        place: of its first value.
+
+    Returns:
+        the place after the last row that was read, and how many were.
+    """
+    n, most = len(data), len(floats)
+    one, ten, zero = np.uint64(1), np.uint64(10), np.uint64(48)
+    rows = 0
+    after = i
+    while True:
+        if i >= n or data[i] != 91 or place + 3 > most:
+            return after, rows
+        i += 1
+        for column in range(3):
+            while i < n and (data[i] == 32 or data[i] == 10 or data[i] == 13 or data[i] == 9):
+                i += 1
+            if i + 48 > n:
+                return after, rows
+            negative = data[i] == 45
+            i += int(negative)
+            first = data[i]
+            w, count = _digits(words[i])
+            i += count
+            if count in (0, 8) or (count > 1 and first == 48):
+                return after, rows
+            q = 0
+            if data[i] == 46:
+                i += 1
+                more, q = _digits(words[i])
+                w = w * _WHOLE_TENS[q] + more
+                i += q
+                if q == 0:
+                    return after, rows
+                if q == 8:
+                    more, places = _digits(words[i])
+                    w = w * _WHOLE_TENS[places] + more
+                    i += places
+                    q += places
+                    if q == 16:
+                        digit = np.uint64(data[i]) - zero
+                        while digit < ten and count + q < 19:
+                            w = w * ten + digit
+                            i += 1
+                            q += 1
+                            digit = np.uint64(data[i]) - zero
+                if count + q > 19:
+                    return after, rows
+            while i < n and (data[i] == 32 or data[i] == 10 or data[i] == 13 or data[i] == 9):
+                i += 1
+            if i >= n or data[i] != (93 if column == 2 else 44):
+                return after, rows
+            i += 1
+            if w <= np.uint64(1 << 53) and q <= 22:
+                floats[place] = float(w) / _TENS[q]
+            else:
+                word, settled = _double(w, -q)
+                if not settled:
+                    return after, rows
+                bits[place] = word
+            if floats[place] > COORDINATE_LIMIT:
+                return after, rows
+            if negative:
+                bits[place] ^= one << np.uint64(63)
+            place += 1
+        rows += 1
+        after = i
+        i = _past_space(data, i)
+        if i >= n or data[i] != 44:
+            return after, rows
+        i = _past_space(data, i + 1)
+
+
+@compiled
+def _scan(  # noqa: PLR0912, PLR0915 -- one look at each byte
+    data: Bytes,
+    words: Words,
+    floats: Float64,
+    bits: Words,
+    codes: Int8,
+    lengths: Int64,
+    spans: Int64,
+    hard: Int64,
+    bad: Int64,
+    tally: Int64,
+    point_arrays: Int64,
+) -> None:
+    """Fill the arrays of `cut_arrays`, with one look at each byte."""
+    n = len(data)
+    i = 0
+    while i < n:
+        c = data[i]
+        if c == 91 or c == 123 or c == 44:  # noqa: PLR1714 -- compiled
+            tally[VALUES] += 1
+        if c == 91 or c == 123:  # noqa: PLR1714 -- compiled
+            tally[DEPTH] += 1
+            if tally[DEPTH] > DEEPEST:
+                tally[SYNTAX] = 4
+                tally[SYNTAX_AT] = i
+                return
+        elif c == 93 or c == 125:  # noqa: PLR1714 -- compiled
+            tally[DEPTH] -= 1
+        if c != 34:
+            i += 1
+            continue
+        begin = i + 1
+        i = _past_string(data, i)
+        end = i - 1
+        after = _past_space(data, i)
+        if after >= n or data[after] != 58:
+            continue
+        after = _past_space(data, after + 1)
+        i = after
+        if after >= n or data[after] != 91:
+            continue
+        kind = _kind_of(data, begin, end)
+        if kind < 0:
+            continue
+        begin = after
+        i = _past_space(data, begin + 1)
+        if i < n and data[i] == 93:
+            i += 1  # an empty array is left where it is
+            tally[VALUES] += 1
+            point_arrays[0] += kind == POINTS
+            continue
+        rows, wrong = 0, 0
+        first = tally[CODE_ROWS] if kind == CODES else tally[FLOAT_ROWS]
+        hard_before = tally[HARD]
+        while True:
+            start = i
+            count, place = 0, tally[INTS]
+            if kind != CODES:
+                place = 3 * tally[FLOAT_ROWS]
+                i, usual = _usual_rows(data, words, i, place, floats, bits)
+                if usual:
+                    rows += usual - 1
+                    tally[FLOAT_ROWS] += usual - 1
+                    tally[POINT_ROWS] += (usual - 1) * (kind == POINTS)
+                    count = 3
+            if count == 0:
+                i, count = _row(data, i, kind, place, floats, bits, codes, hard, tally)
+            if i < 0:
+                wrong = 1
+                tally[HARD] = hard_before
+                stop = _past_value(data, start, True)
+                if bad[kind, BAD_ROW] < 0:
+                    bad[kind, BAD_ROW] = rows
+                    bad[kind, BAD_BEGIN] = start
+                    bad[kind, BAD_END] = stop
+                i = _past_value(data, stop, False) + 1
+                break
+            rows += 1
+            if kind == CODES:
+                if tally[CODE_ROWS] < len(lengths):
+                    lengths[tally[CODE_ROWS]] = count
+                tally[CODE_ROWS] += 1
+                tally[INTS] += count
+            else:
+                tally[FLOAT_ROWS] += 1
+                tally[POINT_ROWS] += kind == POINTS
+            i = _past_space(data, i)
+            if i < n and data[i] == 93:
+                i += 1
+                break
+            if i < n and data[i] == 44:
+                i = _past_space(data, i + 1)
+                if i < n and data[i] != 93:
+                    continue
+                tally[SYNTAX] = 2
+            else:
+                tally[SYNTAX] = 3
+            if i >= n:
+                tally[SYNTAX] = 1
+            tally[SYNTAX_AT] = min(i, n - 1)
+            return
+        point_arrays[0] += kind == POINTS
+        number = tally[SPANS]
+        if number < len(spans):
+            spans[number, BEGIN] = begin
+            spans[number, END] = min(i, n)
+            spans[number, KIND] = kind
+            spans[number, FIRST] = first
+            spans[number, ROWS] = rows
+            spans[number, BAD] = wrong
+        tally[SPANS] += 1
