@@ -1,13 +1,19 @@
 """An SQLite file that keeps what it has been given: its settings, its errors, its transactions."""
 
+import logging
 import os
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
+from typing import Literal, TypeVar
 
+from service.disk_reserve import FULL, DiskReserve
 from service.map_store import StoreError, Trouble
+
+Result = TypeVar("Result")
 
 APPLICATION = 0x506C6C63
 """In the file's header, so that a foreign database is not taken for one of ours: `Pllc`."""
@@ -18,8 +24,17 @@ WAL_BYTES = 16 << 20
 VACUUM_PAGES = 1_000
 """Given back to the disk at once, 4 kB each."""
 
+FULL_DISK_PAGES = 50
+"""Given back at once where the disk is full: each step needs as much room in the log."""
+
+MIGRATION_BYTES = 1 << 20
+MIGRATION_PAGE_BYTES = 64
+"""That must be free for a migration, and so many more for each page of the database."""
+
 BUSY_SECONDS = 5.0
 """To wait for another process, such as a backup, to let go."""
+
+logger = logging.getLogger("placecell")
 
 _KINDS: dict[str, Trouble] = {
     # The shared-memory file could not grow.
@@ -33,36 +48,73 @@ _KINDS: dict[str, Trouble] = {
 }
 
 
-class Database:
-    """One connection that writes, and one for each reader. For use from many threads."""
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The tables of a database, and how earlier ones become so.
 
-    def __init__(self, path: Path, version: int, schema: str) -> None:
+    Attributes:
+        version: of the tables.
+        schema: statements that make them in an empty database.
+        fill: puts into them what an empty database has.
+        migrations: by the version that is found, makes the next one of it.
+    """
+
+    version: int
+    schema: str
+    fill: Callable[[sqlite3.Connection], None]
+    migrations: Mapping[int, Callable[[sqlite3.Connection], None]]
+
+
+Origin = Literal["made", "migrated", "found"]
+
+
+class Database:
+    """One connection that writes, and one for each reader. For use from many threads.
+
+    Attributes:
+        path: of the file; other files beside it begin with the same name.
+        origin: whether the file was made, migrated or found as it is.
+    """
+
+    def __init__(
+        self, path: Path, layout: Layout, lock_trouble: Callable[[], str | None] = lambda: None
+    ) -> None:
         """Open the file, or make it.
 
         Args:
-            path: of the file; other files beside it begin with the same name.
-            version: of the schema.
-            schema: statements that make an empty database.
+            path: of the file.
+            layout: of its tables.
+            lock_trouble: says what is wrong with the lock on the directory, if anything.
 
         Raises:
             StoreError: it cannot be used; the message says what to do.
         """
         self.path = path
+        self.origin: Origin = "found"
+        self._log_path = path.with_name(path.name + "-wal")
+        self._lock_trouble = lock_trouble
         self._writing = Lock()
-        if not path.exists():
-            _make(path, version, schema)
-        elif not path.stat().st_size:
-            # SQLite would take it for a new one, and throw the log beside it away.
-            raise StoreError("damaged", f"{path} is empty: it was cut; {ADVICE}")
-        with _translated(path):
-            self._connection = _connect(path)
+        self._failed: StoreError | None = None
+        with _translated_os(path):
+            self._reserve = DiskReserve(path.parent)
+            if not path.exists():
+                _make(path, layout)
+                self.origin = "made"
+            elif not path.stat().st_size:
+                # SQLite would take it for a new one, and throw the log beside it away.
+                raise StoreError("damaged", f"{path} is empty: it was cut; {ADVICE}")
         try:
-            with _translated(path):
-                self._check(version)
-        except StoreError:
-            self._connection.close()
-            raise
-        self._file = path.stat().st_dev, path.stat().st_ino
+            self._connection = self._opened(layout)
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+            # Its files need a little room on a disk that has none.
+            self._reserve.release()
+            self._connection = self._opened(layout)
+        with _translated_os(path):
+            self._file = _inode_of(path)
+            self._log = _inode_of(self._log_path)
+        self._reserve.hold()
 
     def close(self) -> None:
         """Let go of the file; what the log holds goes into it."""
@@ -70,15 +122,20 @@ class Database:
             self._connection.close()
 
     @contextmanager
-    def transaction(self) -> Iterator[sqlite3.Connection]:
+    def transaction(self, frees: bool = False) -> Iterator[sqlite3.Connection]:
         """Writes that happen together, and last when the context ends; or none of them.
+
+        Args:
+            frees: whether they are to free the disk, so that they may use what is kept for that.
 
         Raises:
             StoreError: none of them happened.
         """
-        with self._writing, _translated(self.path):
-            if not self.is_there():
-                raise StoreError("failing", f"{self.path} was removed or put in place of another")
+        with self._writing, self._noted(), _translated(self.path):
+            if told := self._misplaced() or self._lock_trouble():
+                raise StoreError("moved", told)
+            if not frees and not self._reserve.hold():
+                raise StoreError("full", f"{self.path}: the disk is full")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -89,36 +146,176 @@ class Database:
                     self._connection.rollback()
                 raise
 
+    def freeing(self, work: Callable[[sqlite3.Connection], Result], share: float = 1.0) -> Result:
+        """Do writes that are to free the disk, with what is kept for that if it is full.
+
+        Args:
+            work: a transaction; it may be done twice, for the first time does not count.
+            share: of the reserve that may be used; the rest is left for others.
+        """
+        try:
+            with self.transaction(frees=True) as connection:
+                return work(connection)
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+        self._reserve.release(int(self._reserve.size * (1.0 - share)))
+        try:
+            with self.transaction(frees=True) as connection:
+                done = work(connection)
+        except StoreError:
+            self._reserve.hold()
+            raise
+        self.give_back()
+        return done
+
     @contextmanager
     def snapshot(self) -> Iterator[sqlite3.Connection]:
         """Reads of one state of the database; they neither wait for writers nor hold them up."""
+        self._check_placed()
         with _translated(self.path), closing(_connect(self.path)) as connection:
             connection.execute("PRAGMA query_only = ON")
             connection.execute("BEGIN")
+            connection.execute("PRAGMA user_version").fetchone()  # the state is that of now
+            self._check_placed()
             yield connection
 
-    def is_there(self) -> bool:
-        """Whether the file is the one that was opened: SQLite goes on writing to one removed."""
+    def trouble(self) -> str | None:
+        """Say why no write can be taken, if so; a write that failed is tried in small."""
+        if told := self._misplaced() or self._lock_trouble():
+            return told
+        if not os.access(self.path, os.W_OK) or not os.access(self.path.parent, os.W_OK):
+            return f"{self.path.name} cannot be written: the disk or the file is read-only."
+        return self._lacks_room() or (self._tried(self._failed) if self._failed else None)
+
+    def _lacks_room(self) -> str | None:
+        free, failed = self._reserve.free_bytes(), self._failed
+        is_full = failed is not None and failed.kind == "full"
+        least = self._reserve.size if is_full else self._reserve.size // 4
+        if not self._reserve.hold() or free < least:
+            return (
+                f"The disk is full: {free:,} bytes are free, and {self._reserve.size:,} are kept "
+                "for deletions. Delete or compact maps, or make room on the disk."
+            )
+        if is_full:
+            self._failed = None
+        return None
+
+    def _tried(self, failed: StoreError) -> str | None:
+        if self._writing.locked():
+            return str(failed)
         try:
-            status = self.path.stat()
-        except OSError:
-            return False
-        return (status.st_dev, status.st_ino) == self._file
+            with self.transaction() as connection:
+                (version,) = connection.execute("PRAGMA user_version").fetchone()
+                connection.execute(f"PRAGMA user_version = {version}")
+        except StoreError as error:
+            return str(error)
+        return None
 
     def give_back(self) -> None:
         """Return freed pages to the disk, if they are many; in steps, so that no writer waits long.
 
-        Fewer are left, to be written to again.
+        Fewer are left, to be written to again. Where the disk is full all are returned.
         """
+        if told := self._misplaced() or self._lock_trouble():
+            raise StoreError("moved", told)
         before, free = 0, self._free_pages()
-        while free > VACUUM_PAGES and free != before:
+        step, least = VACUUM_PAGES, VACUUM_PAGES
+        if not self._reserve.is_held():
+            self._empty_log()
+            step, least = FULL_DISK_PAGES, 0
+        while free > least and free != before:
             with self._writing, _translated(self.path):
-                self._connection.execute(f"PRAGMA incremental_vacuum({VACUUM_PAGES})").fetchall()
+                self._connection.execute(f"PRAGMA incremental_vacuum({step})").fetchall()
+            if step == FULL_DISK_PAGES:
+                self._empty_log()
             before, free = free, self._free_pages()
+        self._reserve.hold()
+
+    def _empty_log(self) -> None:
+        """Move the log into the database, and return its room to the disk."""
+        with self._writing, _translated(self.path):
+            self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchall()
 
     def _free_pages(self) -> int:
         with self._writing, _translated(self.path):
             return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
+
+    def _misplaced(self) -> str | None:
+        """Say whether the files are no longer those that were opened, if so.
+
+        SQLite goes on writing to a file that was removed, and would take a file that is put in its
+        place, or an empty one, for the database.
+        """
+        for path, inode, advice in (
+            (self.path, self._file, "Move the same file back"),
+            (
+                self._log_path,
+                self._log,
+                "Stop the service, which then moves all data into the database",
+            ),
+        ):
+            try:
+                found = _inode_of(path)
+            except OSError:
+                found = None
+            if found != inode:
+                return (
+                    f"{path.name} in the data directory was moved, removed or replaced while the "
+                    f"service ran. {advice}, or restart it to use what is there now."
+                )
+        return None
+
+    def _check_placed(self) -> None:
+        if told := self._misplaced():
+            raise StoreError("moved", told)
+
+    @contextmanager
+    def _noted(self) -> Iterator[None]:
+        """Remember a write that failed because of the disk until one succeeds."""
+        try:
+            yield
+        except StoreError as error:
+            if error.kind in {"full", "read-only", "failing"}:
+                self._failed = error
+            raise
+        self._failed = None
+
+    def _opened(self, layout: Layout) -> sqlite3.Connection:
+        """Connect, and see that the file is whole and has these tables."""
+        with _translated(self.path):
+            connection = _connect(self.path)
+        try:
+            with _translated(self.path):
+                found = self._checked(connection, layout)
+                if found != layout.version:
+                    self._migrate(connection, found, layout)
+        except BaseException:
+            connection.close()
+            raise
+        return connection
+
+    def _migrate(self, connection: sqlite3.Connection, found: int, layout: Layout) -> None:
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        needed = MIGRATION_BYTES + pages * MIGRATION_PAGE_BYTES
+        if (free := self._reserve.free_bytes()) < needed:
+            raise StoreError(
+                "full",
+                f"{self.path} is of version {found}. To make version {layout.version} of it "
+                f"{needed:,} bytes must be free on the disk; {free:,} are. It was not changed.",
+            )
+        connection.execute("BEGIN IMMEDIATE")
+        try:
+            for version in range(found, layout.version):
+                layout.migrations[version](connection)
+                connection.execute(f"PRAGMA user_version = {version + 1}")
+            connection.execute("COMMIT")
+        except BaseException:
+            if connection.in_transaction:
+                connection.rollback()
+            raise
+        self.origin = "migrated"
+        logger.info("%s was of version %d and is now of %d", self.path, found, layout.version)
 
     def integrity(self, table: str = "") -> list[str]:
         """What SQLite finds wrong with the file, or with one table and its indices, if anything."""
@@ -127,33 +324,40 @@ class Database:
             found = [str(row[0]) for row in connection.execute(f"PRAGMA integrity_check{part}")]
         return [] if found == ["ok"] else found
 
-    def _check(self, version: int) -> None:
-        (application,) = self._connection.execute("PRAGMA application_id").fetchone()
-        (found,) = self._connection.execute("PRAGMA user_version").fetchone()
+    def _checked(self, connection: sqlite3.Connection, layout: Layout) -> int:
+        """Return the version of the file's tables, after a look at whether it is whole."""
+        (application,) = connection.execute("PRAGMA application_id").fetchone()
+        (found,) = connection.execute("PRAGMA user_version").fetchone()
         if application != APPLICATION:
             raise StoreError("damaged", f"{self.path} is no database of Placecell; {ADVICE}")
-        if found != version:
+        if found != layout.version and found not in layout.migrations:
             raise StoreError(
                 "damaged",
-                f"{self.path} is of version {found}; this program reads version {version}: "
-                "use the program that wrote it, or a later one",
+                f"{self.path} is of version {found}; this program reads version {layout.version} "
+                f"and earlier ones, from {min(layout.migrations, default=layout.version)} on. Use "
+                "the program that wrote it, or a later one",
             )
-        (pages,) = self._connection.execute("PRAGMA page_count").fetchone()
-        (page_bytes,) = self._connection.execute("PRAGMA page_size").fetchone()
-        log = self.path.with_name(self.path.name + "-wal")
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()
         # What the log holds may still have to go into the file. Without one the file is all there
         # is, and SQLite itself would take a last page that is cut for one that ends in zeros.
-        has_log = log.exists() and log.stat().st_size
+        has_log = self._log_path.exists() and self._log_path.stat().st_size
         if not has_log and self.path.stat().st_size < pages * page_bytes:
             raise StoreError("damaged", f"{self.path} was cut; {ADVICE}")
+        return int(found)
 
 
 ADVICE = "bring it back from a backup, or move it and the files beside it away to begin anew"
 
 
-def _connect(path: Path) -> sqlite3.Connection:
+def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connection:
+    """Connect to a file that is there; with `rwc` it may be made."""
     connection = sqlite3.connect(
-        path, timeout=BUSY_SECONDS, isolation_level=None, check_same_thread=False
+        f"{path.absolute().as_uri()}?mode={mode}",
+        timeout=BUSY_SECONDS,
+        isolation_level=None,
+        check_same_thread=False,
+        uri=True,
     )
     # FULL: a commit is on disk when it returns, not when the log is next moved into the database.
     # On macOS only a full fsync reaches the disk. Freed pages need not be overwritten.
@@ -169,7 +373,7 @@ def _connect(path: Path) -> sqlite3.Connection:
     return connection
 
 
-def _make(path: Path, version: int, schema: str) -> None:
+def _make(path: Path, layout: Layout) -> None:
     """Make the database under another name: one that is there under its own is complete."""
     left = [path.with_name(path.name + tail) for tail in ("-wal", "-journal")]
     if found := [file for file in left if file.exists()]:
@@ -178,13 +382,15 @@ def _make(path: Path, version: int, schema: str) -> None:
     for tail in ("", "-wal", "-shm", "-journal"):
         unfinished.with_name(unfinished.name + tail).unlink(missing_ok=True)
     with _translated(path):
-        with closing(_connect(unfinished)) as connection:
+        with closing(_connect(unfinished, "rwc")) as connection:
             connection.execute("PRAGMA auto_vacuum = INCREMENTAL")
             connection.execute("PRAGMA journal_mode = WAL")
             connection.executescript(
-                f"BEGIN; {schema} PRAGMA application_id = {APPLICATION};"
-                f"PRAGMA user_version = {version}; COMMIT;"
+                f"BEGIN; {layout.schema} PRAGMA application_id = {APPLICATION};"
+                f"PRAGMA user_version = {layout.version};"
             )
+            layout.fill(connection)
+            connection.execute("COMMIT")
         unfinished.replace(path)
         sync_folder(path.parent)
 
@@ -196,6 +402,21 @@ def sync_folder(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def _inode_of(path: Path) -> tuple[int, int]:
+    status = path.stat()
+    return status.st_dev, status.st_ino
+
+
+@contextmanager
+def _translated_os(path: Path) -> Iterator[None]:
+    """Errors of the disk as the store's own."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in FULL
+        raise StoreError("full" if full else "failing", f"{path}: {error}") from error
 
 
 @contextmanager

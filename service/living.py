@@ -133,12 +133,15 @@ def sighting(
     centroids = np.concatenate([each.centroids for each in both])
     numbers, around = neighboring(centroids, radius)
     is_kept = np.arange(len(seen)) < len(known)
+    moments = np.concatenate([_moments(each) for each in both])
     token = current()
     _compare(
         centroids,
         numbers,
         around,
-        np.concatenate([_moments(each) for each in both]),
+        moments,
+        np.floor(moments).clip(0, np.iinfo(np.uint32).max).astype(np.uint32),
+        _robots(known, given),
         np.concatenate([each.frame_positions[each.frame_index] for each in both]),
         same.quantiser.levels(np.concatenate([each.codes for each in both])),
         is_compared,
@@ -198,6 +201,17 @@ def _column(content: CompactMap, name: str) -> UInt32:
     return np.asarray(getattr(content, name))
 
 
+def _robots(known: CompactMap, given: CompactMap) -> Int64:
+    """Number the robots of the segments of two maps, int64 (known + given,): equal for one name."""
+    numbers = {name: number for number, name in enumerate({*known.robots, *given.robots})}
+    return np.concatenate(
+        [
+            np.array([numbers[name] for name in each.robots], np.int64)[each.robot]
+            for each in (known, given)
+        ]
+    )
+
+
 def _moments(content: CompactMap) -> Float64:
     return content.frame_times[content.frame_index]
 
@@ -208,6 +222,8 @@ def _compare(
     numbers: Int64,
     around: Int64,
     moments: Float64,
+    captured: UInt32,
+    robots: Int64,
     stands: Float64,
     levels: Int8,
     is_compared: Bool,
@@ -229,6 +245,8 @@ def _compare(
     Args:
         numbers: the cell of each row.
         around: of each cell, see `neighboring`.
+        captured: moments in whole seconds.
+        robots: whose each row is, by number.
         limits: radius, steps of the same look, meters of the same stand, views of a thing.
         most: how many are compared and visited.
         things, count, seen, is_kept: are filled; `count` by thing.
@@ -263,7 +281,11 @@ def _compare(
                         squared += (stands[other, axis] - stands[row, axis]) ** 2
                     away = min(away, np.sqrt(squared))
             if distance <= steps or away <= same_stand or count[thing] >= views:
-                seen[nearest] = max(seen[nearest], seen[row])
+                when = seen[row]
+                if robots[nearest] != robots[row]:
+                    # For another robot's segment it speaks of its own capture alone.
+                    when = min(when, captured[row])
+                seen[nearest] = max(seen[nearest], when)
                 continue
             things[row] = thing
         is_kept[row] = True

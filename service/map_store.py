@@ -5,7 +5,8 @@ still kept, and after it the commits, each a blob (a delta) that leads from one 
 """
 
 import hashlib
-from collections.abc import Iterator
+import json
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Literal, Protocol
@@ -15,7 +16,7 @@ NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 IDS = 1 << 32
 """Of segments: 0 to this, exclusive."""
 
-Trouble = Literal["full", "read-only", "failing", "busy", "damaged"]
+Trouble = Literal["full", "read-only", "failing", "busy", "damaged", "moved"]
 
 
 class StoreError(Exception):
@@ -23,7 +24,8 @@ class StoreError(Exception):
 
     Attributes:
         kind: what is in the way: a full disk, one that takes no writes, one that fails, another
-            process that holds the database, or bytes that are not those once written.
+            process that holds the database, bytes that are not those once written, or files that
+            were moved, removed or replaced under the service.
     """
 
     def __init__(self, kind: Trouble, message: str) -> None:
@@ -37,6 +39,10 @@ class StoreLockedError(Exception):
 
 class OutOfIdsError(Exception):
     """A map has not so many ids left."""
+
+
+class TooManyIdsError(Exception):
+    """A key has reserved more ids than it may have without writing them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,12 +73,15 @@ class Commit:
         note: what it did.
         bytes: of its blob; 0 if the version was folded into the base.
         mark: names the version together with all that led to it, 64 hex digits.
+        link: hash of the previous mark and the blob, from which the mark is made together with the
+            note; empty in commits of databases of version 1, whose notes no mark covers.
     """
 
     sequence: int
     note: Note
     bytes: int
     mark: str
+    link: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +94,11 @@ class Head:
         sequence: of its newest version.
         mark: of that version.
         oldest: sequence of the oldest version that is kept: the base.
-        next_id: the least id that no segment ever had, and nobody has reserved.
+        next_id: the first of the free ids: no segment ever had them, and nobody has reserved them.
         base_bytes: of the base.
         log_bytes: of the commits after it.
         author: name of the key that wrote the oldest version that is kept.
+        end_id: the end of the free ids, exclusive. Ids from there on may be taken.
         commits: after the base.
         bytes: of base and commits.
     """
@@ -102,6 +112,7 @@ class Head:
     base_bytes: int
     log_bytes: int
     author: str
+    end_id: int = IDS
 
     @property
     def bytes(self) -> int:
@@ -112,6 +123,48 @@ class Head:
     def commits(self) -> int:
         """How many there are after the base."""
         return self.sequence - self.oldest
+
+
+@dataclass(frozen=True, slots=True)
+class Owner:
+    """Who wrote or reserved an id last.
+
+    Attributes:
+        author: name of the key; empty if it is not known.
+        is_reserved: the id was reserved, and not written since.
+    """
+
+    author: str
+    is_reserved: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Ids:
+    """What a commit does to the ids of a map, in runs of first id and end, exclusive, ascending.
+
+    Attributes:
+        taken: by segments that are added or replaced.
+        written: those of them that are the author's from now on.
+    """
+
+    taken: tuple[tuple[int, int], ...] = ()
+    written: tuple[tuple[int, int], ...] = ()
+
+    def leave(self, next_id: int, end_id: int) -> tuple[int, int]:
+        """Return the largest run of free ids that is left, of two as large the later one.
+
+        So one id that somebody chose far from all others takes no others with it.
+        """
+        best, at = (next_id, next_id), next_id
+        for first, until in (*self.taken, (end_id, end_id)):
+            gap = at, min(first, end_id)
+            if gap[1] > gap[0] and gap[1] - gap[0] >= best[1] - best[0]:
+                best = gap
+            at = max(at, until)
+        return best
+
+
+NO_IDS = Ids()
 
 
 class History(Protocol):
@@ -151,10 +204,18 @@ class MapStore(Protocol):
     def read(self, uid: str) -> AbstractContextManager[History]:
         """A map's log; KeyError if there is none."""
 
-    def create(self, name: str, file: bytes, note: Note, next_id: int) -> Head:
+    def create(self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS) -> Head:
         """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
 
-    def append(self, head: Head, blob: bytes, note: Note, next_id: int) -> Head:
+    def append(
+        self,
+        head: Head,
+        blob: bytes,
+        note: Note,
+        next_id: int,
+        ids: Ids = NO_IDS,
+        frees: bool = False,
+    ) -> Head:
         """Add a commit.
 
         Args:
@@ -162,10 +223,34 @@ class MapStore(Protocol):
             blob: a delta.
             note: what it does.
             next_id: raises the map's to at least this.
+            ids: that it takes.
+            frees: whether it makes the map smaller, so that it may be done on a full disk.
         """
 
-    def reserve(self, uid: str, count: int) -> int:
-        """The first of so many ids that nobody has had; OutOfIdsError, or KeyError for the map."""
+    def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
+        """Reserve ids that nobody has had, and return the first of them.
+
+        Args:
+            uid: of the map; KeyError if there is none.
+            count: how many.
+            author: name of the key.
+            most: ids that the author may have reserved lately and not written.
+
+        Raises:
+            OutOfIdsError: the map has not so many free ids.
+            TooManyIdsError: the author has reserved too many.
+        """
+
+    def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
+        """Return who wrote or reserved each of these ids last; None where nobody did."""
+
+    def free_ids(self, uid: str, used: Iterable[int]) -> Head:
+        """Forget who owned ids that are not used, and let the free ones begin after the used.
+
+        Args:
+            uid: of the map; KeyError if there is none.
+            used: ids that are used, ascending.
+        """
 
     def compact(self, uid: str, sequence: int, file: bytes) -> Head:
         """Let go of the versions before one, whose file is given; KeyError if it is not there."""
@@ -176,16 +261,23 @@ class MapStore(Protocol):
     def give_back(self) -> None:
         """Return the room of what was removed to the disk, if it is much."""
 
-    def writable(self) -> bool:
-        """Whether the store can take a write."""
+    def trouble(self) -> str | None:
+        """Say why the store cannot take a write, if so; None if it can."""
 
 
-def mark_of(before: str, sequence: int, blob: bytes) -> str:
-    """The mark of a commit: a chain of SHA-256, so that one names all that led to it.
-
-    Two maps of one name, or a database and its backup after both were written to, count the same
-    sequences, but never come to the same mark.
-    """
+def link_of(before: str, sequence: int, blob: bytes) -> str:
+    """Hash the mark of the version before, the sequence and the blob: 64 hex digits."""
     digest = hashlib.sha256(f"{before} {sequence}\n".encode())
     digest.update(blob)
     return digest.hexdigest()
+
+
+def mark_of(link: str, note: Note) -> str:
+    """Return the mark of a commit: a chain of SHA-256, so that one names all that led to it.
+
+    Two maps of one name, or a database and its backup after both were written to, count the same
+    sequences, but never come to the same mark. The mark covers the note, so an altered author or
+    time is noticed. In databases of version 1 the mark is the link itself.
+    """
+    told = [float(note.time), note.author, note.operation, note.changed, note.removed]
+    return hashlib.sha256(f"{link}\n{json.dumps(told)}".encode()).hexdigest()

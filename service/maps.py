@@ -8,19 +8,22 @@ from dataclasses import replace
 from threading import Lock
 from weakref import WeakValueDictionary
 
+import numpy as np
 from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
 
 from segments.cancellation import current
+from segments.types import UInt32
 from service.layers import Layers
 from service.map_cache import MapCache
 from service.map_index import LayeredIndex, MapIndex
-from service.map_store import Head, MapStore, Note, StoreError
+from service.map_store import Head, Ids, MapStore, Note, StoreError
 from service.models import Models
 from service.problems import Problem
 from service.quotas import NoRoomError, Quotas, Usage
 from service.replay import newest
 from service.shared_index import SharedIndexes
 from service.stored_map import KEEPS_FRAME, StoredMap
+from service.versions import ids_ever
 
 logger = logging.getLogger("placecell")
 
@@ -104,9 +107,9 @@ class Maps:
         """Of all maps in the store, with their old versions."""
         return self._usage.bytes
 
-    def writable(self) -> bool:
-        """Whether a map can be stored."""
-        return self.store.writable()
+    def trouble(self) -> str | None:
+        """Say why no map can be stored, if so."""
+        return self.store.trouble()
 
     def all(self) -> list[StoredMap]:
         """Sorted by name."""
@@ -169,10 +172,18 @@ class Maps:
         with self._committing:
             self._quotas.check_new(self._usage, author, robots, len(file))
             self.handled += len(content)
-            head = self.store.create(name, file, note, _next_id(content))
+            runs = runs_of(content.ids)
+            head = self.store.create(name, file, note, 0, Ids(runs, runs))
             return self._swap(StoredMap(head, layers, 1, 1, index))
 
-    def commit(self, stored: StoredMap, delta: Delta, author: str, operation: str) -> StoredMap:
+    def commit(
+        self,
+        stored: StoredMap,
+        delta: Delta,
+        author: str,
+        operation: str,
+        written: UInt32 | None = None,
+    ) -> StoredMap:
         """The map's next version; on return it is safely on disk. Errors as of `create`.
 
         Args:
@@ -180,6 +191,7 @@ class Maps:
             delta: as `Layers.effect_of` gives it.
             author: name of the key.
             operation: for the history.
+            written: ids of the segments that are the author's from now on.
         """
         since, until = stored.head.sequence, stored.head.sequence + 1
         blob = encode_delta(replace(delta, since=0 if delta.is_whole else since, until=until))
@@ -202,8 +214,19 @@ class Maps:
                 raise
             self.handled += len(delta.changed) + len(layers.recent)
             self.handled += len(stored) if delta.is_whole else 0
-            head = self.store.append(stored.head, blob, note, _next_id(delta.changed))
+            own = runs_of(written) if written is not None else ()
+            ids = Ids(runs_of(delta.changed.ids), own)
+            frees = not len(delta.changed) and not delta.is_whole
+            head = self.store.append(stored.head, blob, note, 0, ids, frees)
             return self._swap(StoredMap(head, layers, folded, lies_since, index))
+
+    def free_ids(self, stored: StoredMap) -> Head:
+        """Make all ids free that no kept version has; `writing` is held."""
+        used = ids_ever(self.store, stored)
+        with self._committing:
+            head = self.store.free_ids(stored.head.uid, used.tolist())
+            self._swap(replace(self._by_name[stored.name], head=head))
+            return head
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
@@ -272,8 +295,15 @@ class Maps:
         return LayeredIndex.of(layers, model.manifest.quantiser, base)
 
 
-def _next_id(content: CompactMap) -> int:
-    return int(content.ids[-1]) + 1 if len(content) else 0
+def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:
+    """Return ids, which ascend, as runs of first id and end, exclusive."""
+    if not len(ids):
+        return ()
+    wide = ids.astype(np.int64)
+    breaks = np.flatnonzero(np.diff(wide) > 1)
+    starts = wide[np.concatenate([[0], breaks + 1])]
+    ends = wide[np.concatenate([breaks, [len(wide) - 1]])] + 1
+    return tuple(zip(starts.tolist(), ends.tolist(), strict=True))
 
 
 def unknown(name: str) -> Problem:

@@ -186,6 +186,8 @@ def unexpected() -> Problem:
 def _of_store(error: StoreError) -> Problem:
     if error.kind == "full":
         return _disk_full()
+    if error.kind == "moved":
+        return Problem(503, "store-unavailable", f"{error}", headers={"Retry-After": "5"})
     if error.kind == "damaged":
         return Problem(
             500, "map-damaged", "What is stored was damaged; the service's log says where."

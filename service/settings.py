@@ -191,6 +191,11 @@ class Limits(BaseModel):
         description="Bytes of all maps in the store, with their old versions, at most. From "
         "three quarters on the service lets go of old versions.",
     )
+    reserved_ids: int = Field(
+        default=2_000_000,
+        ge=1,
+        description="Ids of a map that a key has reserved within a week and not written, at most.",
+    )
     upload_seconds: float = Field(
         default=120.0,
         gt=0,

@@ -4,8 +4,8 @@ import hashlib
 import sqlite3
 from collections.abc import Iterator
 
-from service.map_store import Commit, Head, StoreError, mark_of
-from service.sqlite_tables import COMMIT, commit_from
+from service.map_store import Commit, Head, StoreError
+from service.sqlite_tables import COMMIT, commit_from, follows, is_own_mark
 
 
 class SqliteHistory:
@@ -26,26 +26,36 @@ class SqliteHistory:
         rows = self._connection.execute(
             f"{COMMIT} FROM commits WHERE map = ? ORDER BY sequence", (self._row,)
         )
-        return [commit_from(row) for row in rows]
+        found = [commit_from(row) for row in rows]
+        head = self._head
+        for sequence, commit in enumerate(found, head.oldest):
+            if commit.sequence != sequence or not is_own_mark(commit):
+                raise self._damaged(f"version {sequence}")
+        if not found or (found[-1].sequence, found[-1].mark) != (head.sequence, head.mark):
+            raise self._damaged(f"version {head.sequence}")
+        if found[0].bytes or sum(commit.bytes for commit in found) != head.log_bytes:
+            raise self._damaged("list of versions")
+        return found
 
     def mark(self, sequence: int) -> str:
         """Of one version; KeyError if it is not kept."""
         found = self._connection.execute(
-            "SELECT mark FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
+            f"{COMMIT} FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
         ).fetchone()
-        if found is None:
-            if self._head.oldest <= sequence <= self._head.sequence:
-                raise self._damaged(f"version {sequence}")
+        if not self._head.oldest <= sequence <= self._head.sequence:
             raise KeyError(sequence)
-        return str(found[0])
+        if found is None or not is_own_mark(commit_from(found)):
+            raise self._damaged(f"version {sequence}")
+        return str(commit_from(found).mark)
 
     def base(self) -> bytes:
         """The oldest version's file; StoreError if it is damaged."""
-        parts = []
-        for sha256, data in self._connection.execute(
-            "SELECT sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
+        parts: list[bytes] = []
+        for part, sha256, data in self._connection.execute(
+            "SELECT part, sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
         ):
-            if not isinstance(data, bytes) or hashlib.sha256(data).hexdigest() != sha256:
+            is_next = part == len(parts) and isinstance(data, bytes)
+            if not is_next or hashlib.sha256(data).hexdigest() != sha256:
                 raise self._damaged("base")
             parts.append(data)
         if sum(map(len, parts)) != self._head.base_bytes:
@@ -61,7 +71,8 @@ class SqliteHistory:
             (self._row, after, until),
         ):
             commit, sequence = commit_from(columns), sequence + 1
-            if not isinstance(blob, bytes) or mark_of(before, sequence, blob) != commit.mark:
+            is_next = commit.sequence == sequence and isinstance(blob, bytes)
+            if not is_next or not follows(before, commit, blob):
                 raise self._damaged(f"version {sequence}")
             yield commit, blob
             before = commit.mark

@@ -1,58 +1,85 @@
 """Maps in one SQLite file: `DATA_DIR/maps.sqlite`."""
 
 import logging
-import os
 import secrets
-from collections.abc import Iterator
+import sqlite3
+import time
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager
+from dataclasses import replace
 from pathlib import Path
 
-import filelock
-
-from service.database import ADVICE, Database, sync_folder
+from service.data_lock import locked
+from service.database import ADVICE, Database, Layout, sync_folder
+from service.id_ledger import SKIPPED, IdLedger
 from service.map_store import (
     IDS,
-    Commit,
+    NO_IDS,
     Head,
+    Ids,
     Note,
     OutOfIdsError,
+    Owner,
     StoreError,
-    StoreLockedError,
-    mark_of,
+    TooManyIdsError,
 )
 from service.sqlite_history import SqliteHistory
+from service.sqlite_owners import Owners
 from service.sqlite_tables import (
     HEAD,
     SCHEMA,
     VERSION,
+    commit_after,
+    fill,
     head_from,
     head_of,
     insert_base,
     insert_commit,
+    migrate,
     row_of,
+    save_head,
 )
 
 FILE = "maps.sqlite"
+LEDGER = "ids"
+
+LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate})
+
+RESERVED_SECONDS = 7 * 24 * 3600.0
+"""For which ids that a key reserved, and did not write, count against what it may reserve."""
+
 logger = logging.getLogger("placecell")
 
 
 class SqliteMapStore:
     """The store of one data directory. For use from many threads."""
 
-    def __init__(self, data_dir: Path) -> None:
+    def __init__(
+        self,
+        data_dir: Path,
+        lock_trouble: Callable[[], str | None] = lambda: None,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
         """Open it; see `owned`, for one process at a time may.
+
+        Args:
+            data_dir: the directory.
+            lock_trouble: says what is wrong with the lock on it, if anything.
+            clock: seconds.
 
         Raises:
             StoreError: the database cannot be used; the message says what to do.
         """
         self._folder = data_dir
-        self._database = Database(data_dir / FILE, VERSION, SCHEMA)
+        self._clock = clock
+        self._database = Database(data_dir / FILE, LAYOUT, lock_trouble)
         try:
-            # No mark tells whether a map's name was altered; and the table is small.
+            # The name's index must agree with the table; and the table is small.
             if wrong := self._database.integrity("maps"):
                 raise StoreError("damaged", f"{data_dir / FILE}: {wrong[0]}; {ADVICE}")
+            self._ledger = self._opened_ledger()
         except StoreError:
-            self.close()
+            self._database.close()
             raise
 
     @classmethod
@@ -66,11 +93,7 @@ class SqliteMapStore:
             OSError: the directory cannot be made or written.
         """
         data_dir.mkdir(parents=True, exist_ok=True)
-        try:
-            lock = filelock.FileLock(data_dir / "lock").acquire(timeout=0)
-        except filelock.Timeout as error:
-            raise StoreLockedError(f"{data_dir} is in use by another service") from error
-        with lock:
+        with locked(data_dir) as lock:
             sync_folder(data_dir)
             sync_folder(data_dir.absolute().parent)
             if old := sorted((data_dir / "maps").glob("*.safetensors")):
@@ -80,11 +103,16 @@ class SqliteMapStore:
                     len(old),
                     data_dir / "maps",
                 )
-            with closing(cls(data_dir)) as store:
+            with closing(cls(data_dir, lock.trouble)) as store:
                 yield store
 
     def close(self) -> None:
         """Let go of the database."""
+        try:
+            # What was written ahead was not given out.
+            self._ledger.rewrite({head.uid: head.next_id for head in self.heads()})
+        except (StoreError, OSError) as error:
+            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
         self._database.close()
 
     def heads(self) -> list[Head]:
@@ -98,54 +126,124 @@ class SqliteMapStore:
         with self._database.snapshot() as connection:
             yield SqliteHistory(connection, row_of(connection, uid), head_of(connection, uid))
 
-    def create(self, name: str, file: bytes, note: Note, next_id: int) -> Head:
+    def create(self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS) -> Head:
         """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
         uid = secrets.token_hex(8)
-        mark = mark_of(uid, 1, file)
+        commit = commit_after(uid, 1, note, file, 0)
         with self._database.transaction() as connection:
             if connection.execute("SELECT 1 FROM maps WHERE name = ?", (name,)).fetchone():
                 raise ValueError(f"there is a map {name!r} already")
+            first, end = ids.leave(next_id, IDS)
+            head = Head(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
             row = connection.execute(
                 "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
                 " VALUES (?, ?, 1, ?, 1, ?, ?, 0)",
-                (name, uid, mark, next_id, len(file)),
+                (name, uid, commit.mark, next_id, len(file)),
             ).lastrowid
             assert row is not None
-            insert_commit(connection, row, Commit(1, note, 0, mark), None)
+            Owners(connection, row).write(ids.written, note.author)
+            insert_commit(connection, row, commit, None)
             insert_base(connection, row, file)
-            return head_of(connection, uid)
+            return save_head(connection, row, head)
 
-    def append(self, head: Head, blob: bytes, note: Note, next_id: int) -> Head:
-        """Add a commit that follows a head; KeyError if the map stands elsewhere."""
-        sequence = head.sequence + 1
-        commit = Commit(sequence, note, len(blob), mark_of(head.mark, sequence, blob))
-        with self._database.transaction() as connection:
-            found = connection.execute(
-                "UPDATE maps SET sequence = ?, mark = ?, next_id = max(next_id, ?), "
-                "log_bytes = log_bytes + ? WHERE uid = ? AND mark = ? RETURNING map",
-                (sequence, commit.mark, next_id, len(blob), head.uid, head.mark),
-            ).fetchone()
-            if found is None:
+    def append(
+        self,
+        head: Head,
+        blob: bytes,
+        note: Note,
+        next_id: int,
+        ids: Ids = NO_IDS,
+        frees: bool = False,
+    ) -> Head:
+        """Add a commit that follows a head; KeyError if the map stands elsewhere.
+
+        Args:
+            frees: whether it makes the map smaller, so that it may use what is kept for that.
+        """
+
+        def add(connection: sqlite3.Connection) -> Head:
+            row, found = row_of(connection, head.uid), head_of(connection, head.uid)
+            if found.mark != head.mark:
                 raise KeyError(head.name)
-            insert_commit(connection, found[0], commit, blob)
-            return head_of(connection, head.uid)
+            commit = commit_after(head.mark, head.sequence + 1, note, blob, len(blob))
+            first, end = ids.leave(max(found.next_id, next_id), found.end_id)
+            after = replace(
+                found,
+                sequence=commit.sequence,
+                mark=commit.mark,
+                next_id=first,
+                end_id=end,
+                log_bytes=found.log_bytes + len(blob),
+            )
+            if after.next_id > found.next_id:
+                self._ledger.raise_to(head.uid, after.next_id)
+            Owners(connection, row).write(ids.written, note.author)
+            insert_commit(connection, row, commit, blob)
+            return save_head(connection, row, after)
 
-    def reserve(self, uid: str, count: int) -> int:
-        """The first of so many ids that nobody has had; OutOfIdsError, or KeyError for the map."""
+        if frees:
+            return self._database.freeing(add, share=0.5)
         with self._database.transaction() as connection:
-            row = row_of(connection, uid)
-            (first,) = connection.execute(
-                "SELECT next_id FROM maps WHERE map = ?", (row,)
-            ).fetchone()
-            if first + count > IDS:
-                raise OutOfIdsError(f"{IDS - first} ids are left")
-            connection.execute("UPDATE maps SET next_id = ? WHERE map = ?", (first + count, row))
-            return int(first)
+            return add(connection)
+
+    def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
+        """Reserve ids that nobody has had, and return the first; errors as of `MapStore`."""
+        with self._database.transaction() as connection:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+            owners = Owners(connection, row)
+            now = self._clock()
+            reserved = owners.reserved(author, now - RESERVED_SECONDS)
+            if reserved + count > most:
+                raise TooManyIdsError(
+                    f"{reserved:,} ids are reserved by this key and not written; at most {most:,} "
+                    "may be"
+                )
+            if head.next_id + count > head.end_id:
+                # Around an id that somebody chose far from the others there may be more.
+                first, end = owners.largest_gap()
+                if end - first < max(count, head.end_id - head.next_id):
+                    first, end = head.next_id, head.end_id
+                if first + count > end:
+                    raise OutOfIdsError(f"{max(end - first, 0)} ids are left")
+                head = replace(head, next_id=first, end_id=end)
+                self._ledger.forget(uid)
+            first = head.next_id
+            self._ledger.raise_to(uid, first + count)
+            owners.reserve(first, first + count, author, now)
+            save_head(connection, row, replace(head, next_id=first + count))
+            return first
+
+    def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
+        """Return who wrote or reserved each of these ids last; None where nobody did."""
+        with self._database.snapshot() as connection:
+            return Owners(connection, row_of(connection, uid)).of(ids)
+
+    def free_ids(self, uid: str, used: Iterable[int]) -> Head:
+        """Forget who owned ids that are not used, and let the free ones begin after the used.
+
+        Args:
+            uid: of the map; KeyError if there is none.
+            used: ids that are used, ascending.
+        """
+        with self._database.transaction() as connection:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+            owners = Owners(connection, row)
+            owners.keep_only(used)
+            first, end = owners.largest_gap()
+            after = save_head(connection, row, replace(head, next_id=first, end_id=end))
+        try:
+            # Else the next start would take what was given up for given out.
+            self._ledger.forget(uid)
+            self._ledger.rewrite(self._ledger.limits | {uid: first})
+        except OSError as error:
+            raise StoreError("failing", f"{self._folder / LEDGER}: {error}") from error
+        return after
 
     def compact(self, uid: str, sequence: int, file: bytes) -> Head:
         """Let go of the versions before one, whose file is given; KeyError if it is not there."""
-        with self._database.transaction() as connection:
-            row = row_of(connection, uid)
+
+        def shorten(connection: sqlite3.Connection) -> Head:
+            row, head = row_of(connection, uid), head_of(connection, uid)
             found = connection.execute(
                 "UPDATE commits SET delta = NULL, bytes = 0 WHERE map = ? AND sequence = ?",
                 (row, sequence),
@@ -155,39 +253,94 @@ class SqliteMapStore:
             connection.execute(
                 "DELETE FROM commits WHERE map = ? AND sequence < ?", (row, sequence)
             )
-            connection.execute(
-                "UPDATE maps SET base = ?1, base_bytes = ?2, log_bytes = "
-                "(SELECT coalesce(sum(bytes), 0) FROM commits WHERE map = ?3) WHERE map = ?3",
-                (sequence, len(file), row),
-            )
             connection.execute("DELETE FROM bases WHERE map = ?", (row,))
             insert_base(connection, row, file)
+            (left,) = connection.execute(
+                "SELECT coalesce(sum(bytes), 0) FROM commits WHERE map = ?", (row,)
+            ).fetchone()
+            after = replace(head, oldest=sequence, base_bytes=len(file), log_bytes=left)
+            save_head(connection, row, after)
             return head_of(connection, uid)
+
+        return self._database.freeing(shorten)
 
     def delete(self, uid: str) -> None:
         """Remove a map with all its versions; KeyError if there is none."""
-        with self._database.transaction() as connection:
+
+        def remove(connection: sqlite3.Connection) -> None:
             row = row_of(connection, uid)
-            for table in ("commits", "bases", "maps"):
+            for table in ("commits", "bases", "owners", "maps"):
                 connection.execute(f"DELETE FROM {table} WHERE map = ?", (row,))
+
+        self._database.freeing(remove)
 
     def give_back(self) -> None:
         """Return the room of what was removed to the disk."""
         self._database.give_back()
 
-    def writable(self) -> bool:
-        """Whether the store can take a write."""
-        return self._database.is_there() and os.access(self._database.path, os.W_OK)
+    def trouble(self) -> str | None:
+        """Say why the store cannot take a write, if so; None if it can."""
+        return self._database.trouble()
+
+    def _opened_ledger(self) -> IdLedger:
+        """Read how far ids were given out, and skip those that the database does not know of."""
+        with self._database.snapshot() as connection:
+            (token,) = connection.execute("SELECT token FROM opened").fetchone() or ("",)
+        ledger = IdLedger(self._folder / LEDGER, token)
+        is_new = self._database.origin != "found" and not ledger.is_there
+        skipped = 0 if is_new or ledger.is_trusted else SKIPPED
+        heads = self.heads()
+        behind = {
+            head.uid: _skipped(head, ledger.limits.get(head.uid, 0), skipped)
+            for head in heads
+            if skipped or ledger.limits.get(head.uid, 0) > head.next_id
+        }
+        behind = {uid: next_id for uid, next_id in behind.items() if next_id}
+        if skipped and heads:
+            logger.warning(
+                "%s is not the file that was written here last: the maps may have come back from a "
+                "backup. %d ids of each map are left out, so that none is given out twice.",
+                *(self._folder / LEDGER, SKIPPED),
+            )
+        if behind:
+            with self._database.transaction(frees=True) as connection:
+                for uid, next_id in behind.items():
+                    try:
+                        row, head = row_of(connection, uid), head_of(connection, uid)
+                    except StoreError:
+                        continue  # the map is damaged and not served
+                    # Nobody knows by whom.
+                    Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
+                    save_head(connection, row, replace(head, next_id=next_id))
+        try:
+            ledger.rewrite({head.uid: behind.get(head.uid, head.next_id) for head in heads})
+        except OSError as error:
+            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
+        return ledger
 
     def verify(self) -> list[str]:
         """What is wrong with the database, if anything: its structure, and every blob's mark."""
         found = self._database.integrity()
+        with self._database.snapshot() as connection:
+            (lost,) = connection.execute(
+                "SELECT count(*) FROM owners WHERE map NOT IN (SELECT map FROM maps)"
+            ).fetchone()
+        found += [f"{lost} rows of the table owners are of no map"] if lost else []
         for head in self.heads():
             try:
                 with self.read(head.uid) as history:
+                    history.commits()
                     history.base()
                     for _ in history.blobs(head.oldest, head.sequence):
                         pass
+                with self._database.snapshot() as connection:
+                    Owners(connection, row_of(connection, head.uid)).check()
             except StoreError as error:
                 found.append(str(error))
         return found
+
+
+def _skipped(head: Head, given_out: int, count: int) -> int:
+    """Return the first of the free ids of a map after those that may have been given out."""
+    first = min(max(head.next_id, given_out), head.end_id)
+    return max(first, min(first + count, (first + head.end_id) // 2))

@@ -1,13 +1,16 @@
-"""The tables of `maps.sqlite`: maps, their commits, and the files of their oldest versions."""
+"""The tables of `maps.sqlite`: maps, commits, files of the oldest versions, owners of ids."""
 
 import hashlib
+import json
+import secrets
 import sqlite3
 from collections.abc import Sequence
 from typing import Any
 
-from service.map_store import Commit, Head, Note
+from service.map_store import Commit, Head, Note, StoreError, link_of, mark_of
+from service.sqlite_owners import Owners
 
-VERSION = 1
+VERSION = 2
 
 PART_BYTES = 4 << 20
 """Of a base, a row at most: what is read and written in one piece."""
@@ -22,7 +25,9 @@ CREATE TABLE maps (
     base INTEGER NOT NULL,
     next_id INTEGER NOT NULL,
     base_bytes INTEGER NOT NULL,
-    log_bytes INTEGER NOT NULL
+    log_bytes INTEGER NOT NULL,
+    end_id INTEGER NOT NULL DEFAULT 4294967296,
+    digest TEXT NOT NULL DEFAULT ''
 ) STRICT;
 CREATE TABLE commits (
     map INTEGER NOT NULL REFERENCES maps,
@@ -35,6 +40,7 @@ CREATE TABLE commits (
     mark TEXT NOT NULL,
     bytes INTEGER NOT NULL,
     delta BLOB,
+    link TEXT NOT NULL DEFAULT '',
     PRIMARY KEY (map, sequence)
 ) STRICT;
 CREATE TABLE bases (
@@ -44,13 +50,70 @@ CREATE TABLE bases (
     data BLOB NOT NULL,
     PRIMARY KEY (map, part)
 ) STRICT;
+CREATE TABLE owners (
+    map INTEGER NOT NULL REFERENCES maps,
+    first INTEGER NOT NULL,
+    until INTEGER NOT NULL,
+    author TEXT NOT NULL,
+    reserved REAL,
+    digest TEXT NOT NULL,
+    PRIMARY KEY (map, first)
+) STRICT;
+CREATE TABLE opened (
+    token TEXT NOT NULL
+) STRICT;
 """
 
 HEAD = """
 SELECT name, uid, sequence, mark, base, next_id, base_bytes, log_bytes, coalesce(
     (SELECT author FROM commits WHERE commits.map = maps.map AND commits.sequence = maps.base), ''
-) FROM maps"""
-COMMIT = "SELECT sequence, time, author, operation, changed, removed, bytes, mark"
+), end_id, digest FROM maps"""
+COMMIT = "SELECT sequence, time, author, operation, changed, removed, bytes, mark, link"
+
+
+def fill(connection: sqlite3.Connection) -> None:
+    """Put into an empty database what each has."""
+    connection.execute("INSERT INTO opened VALUES (?)", (secrets.token_hex(16),))
+
+
+def migrate(connection: sqlite3.Connection) -> None:
+    """Make a database of version 1 one of version 2; within a transaction.
+
+    Commits stay as they are: their link is empty, and their mark covers no note.
+    """
+    connection.execute("ALTER TABLE maps ADD COLUMN end_id INTEGER NOT NULL DEFAULT 4294967296")
+    connection.execute("ALTER TABLE maps ADD COLUMN digest TEXT NOT NULL DEFAULT ''")
+    connection.execute("ALTER TABLE commits ADD COLUMN link TEXT NOT NULL DEFAULT ''")
+    for statement in SCHEMA.split(";"):
+        if "TABLE owners" in statement or "TABLE opened" in statement:
+            connection.execute(statement)
+    fill(connection)
+    for row, *columns in connection.execute(HEAD.replace("SELECT", "SELECT map,", 1)).fetchall():
+        head = save_head(connection, row, head_from(tuple(columns)))
+        if head.next_id:  # nobody knows who had the ids below
+            Owners(connection, row).write([(0, head.next_id)], "")
+
+
+def save_head(connection: sqlite3.Connection, row: int, head: Head) -> Head:
+    """Write where a map stands, with a digest of it; return it."""
+    connection.execute(
+        "UPDATE maps SET sequence = ?, mark = ?, base = ?, next_id = ?, base_bytes = ?, "
+        "log_bytes = ?, end_id = ?, digest = ? WHERE map = ?",
+        (
+            *(head.sequence, head.mark, head.oldest, head.next_id, head.base_bytes),
+            *(head.log_bytes, head.end_id, digest_of(head), row),
+        ),
+    )
+    return head
+
+
+def digest_of(head: Head) -> str:
+    """Hash where a map stands, so that an altered row is noticed."""
+    told = [
+        *(head.name, head.uid, head.sequence, head.mark, head.oldest, head.next_id),
+        *(head.base_bytes, head.log_bytes, head.end_id),
+    ]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
 
 def row_of(connection: sqlite3.Connection, uid: str) -> int:
@@ -62,19 +125,45 @@ def row_of(connection: sqlite3.Connection, uid: str) -> int:
 
 
 def head_of(connection: sqlite3.Connection, uid: str) -> Head:
-    """Where a map stands."""
-    return head_from(connection.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone())
+    """Return where a map stands; KeyError if there is none, StoreError if its row was altered."""
+    row = connection.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone()
+    if row is None:
+        raise KeyError(uid)
+    head = head_from(row)
+    if row[-1] != digest_of(head):
+        raise StoreError("damaged", f"map {head.name!r}: its row in the table maps was altered")
+    return head
 
 
 def head_from(row: tuple[Any, ...]) -> Head:
-    """Of a row of `HEAD`."""
-    return Head(*row)
+    """Of a row of `HEAD`, unchecked."""
+    return Head(*row[:-1])
 
 
 def commit_from(row: Sequence[Any]) -> Commit:
     """Of a row of `COMMIT`."""
-    sequence, *note, size, mark = row
-    return Commit(sequence, Note(*note), size, mark)
+    sequence, *note, size, mark, link = row
+    return Commit(sequence, Note(*note), size, mark, link)
+
+
+def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
+    """Make the commit that follows the version of this mark."""
+    # As it comes back from the database.
+    note = Note(float(note.time), *(note.author, note.operation, note.changed, note.removed))
+    link = link_of(before, sequence, blob)
+    return Commit(sequence, note, size, mark_of(link, note), link)
+
+
+def is_own_mark(commit: Commit) -> bool:
+    """Whether a commit's note and link come to its mark; true for those of version 1."""
+    return not commit.link or mark_of(commit.link, commit.note) == commit.mark
+
+
+def follows(before: str, commit: Commit, blob: bytes) -> bool:
+    """Whether a commit is what was written after the version of this mark, with this blob."""
+    link = link_of(before, commit.sequence, blob)
+    known = commit.link or commit.mark
+    return link == known and is_own_mark(commit) and commit.bytes == len(blob)
 
 
 def insert_commit(
@@ -83,10 +172,11 @@ def insert_commit(
     """Add a commit; the oldest one has no blob."""
     note = commit.note
     connection.execute(
-        "INSERT INTO commits VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO commits (map, sequence, time, author, operation, changed, removed, mark, "
+        "bytes, delta, link) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
             *(row, commit.sequence, note.time, note.author, note.operation),
-            *(note.changed, note.removed, commit.mark, commit.bytes, blob),
+            *(note.changed, note.removed, commit.mark, commit.bytes, blob, commit.link),
         ),
     )
 

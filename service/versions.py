@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from placecell_client import encode
+import numpy as np
+from placecell_client import decode, decode_delta, encode
 
-from service.layers import Layers
+from segments.types import UInt32
+from service.layers import Layers, robots_of
 from service.map_store import Commit, History, MapStore
 from service.problems import Problem
 from service.replay import version_of
@@ -26,6 +28,24 @@ def commits_of(store: MapStore, stored: StoredMap) -> list[Commit]:
     """The commits of a map, oldest first."""
     with history_of(store, stored) as history:
         return history.commits()
+
+
+def robots_ever(store: MapStore, stored: StoredMap) -> set[str]:
+    """Return the robots whose segments any version has that is still kept."""
+    with history_of(store, stored) as history:
+        robots = {*robots_of(decode(history.base()))}
+        for _, blob in history.blobs(history.head.oldest, history.head.sequence):
+            robots |= {*robots_of(decode_delta(blob).changed)}
+        return robots
+
+
+def ids_ever(store: MapStore, stored: StoredMap) -> UInt32:
+    """Return the ids of all segments that any version has that is still kept, ascending."""
+    with history_of(store, stored) as history:
+        ids = [decode(history.base()).ids]
+        for _, blob in history.blobs(history.head.oldest, history.head.sequence):
+            ids.append(decode_delta(blob).changed.ids)
+        return np.unique(np.concatenate(ids))
 
 
 def version(store: MapStore, stored: StoredMap, sequence: int) -> tuple[Layers, str]:

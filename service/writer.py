@@ -9,10 +9,12 @@ from placecell_client import CompactMap, Delta, encode
 from placecell_client.map_edit import apply, delta_between, take
 
 from segments.types import UInt32
+from service.clock_check import check_times
+from service.id_rules import check_added, check_authors, check_new
 from service.keys import Holder
 from service.layers import Layers, robots_of
 from service.living import NONE, RADIUS, VIEWS, SameView, Sighting, sighting
-from service.map_store import OutOfIdsError
+from service.map_store import IDS, Head, OutOfIdsError, TooManyIdsError
 from service.maps import Maps, unknown
 from service.models import Models
 from service.preconditions import Preconditions
@@ -20,7 +22,7 @@ from service.problems import Problem
 from service.quotas import OverQuotaError
 from service.stored_map import StoredMap
 from service.uploads import check_joins, edit_of, map_of
-from service.versions import version
+from service.versions import robots_ever, version
 from service.visibility import written_by
 
 
@@ -43,8 +45,8 @@ class Written:
     repeats: int = 0
 
 
-Check = Callable[[CompactMap, Delta], None]
-"""Of the segments that will be replaced or removed, as they are, and of the delta that does it."""
+Check = Callable[[StoredMap, CompactMap, Delta], None]
+"""Of the map, its segments that will be replaced or removed, and of the delta that does it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,13 @@ class Writer:
             return self.commit(stored, delta, "put", replaces=True)
 
     def edit(
-        self, name: str, data: bytes, robot: str | None, create: bool, deduplicate: bool
+        self,
+        name: str,
+        data: bytes,
+        robot: str | None,
+        create: bool,
+        deduplicate: bool,
+        only_new: bool = False,
     ) -> Written:
         """Add, replace and remove segments, all or none.
 
@@ -91,13 +99,26 @@ class Writer:
             robot: whose segments may be removed, beside the key's and those of changed segments.
             create: make the map if there is none.
             deduplicate: do not store again what is seen again.
+            only_new: refuse to replace a segment, whoever wrote it.
         """
         edit = edit_of(data, self.models)
+        self.holder.check_robots(robots_of(edit.changed))
+        check_times(edit.changed)
         owners = {robot, self.holder.key.robot, *edit.changed.robots} - {None}
+        refreshed = NONE
 
-        def check(before: CompactMap, delta: Delta) -> None:
-            if self.conditions.if_match is None:
-                _check_own(before, delta, owners)
+        def check(stored: StoredMap, before: CompactMap, delta: Delta) -> None:
+            written = np.setdiff1d(delta.changed.ids, refreshed)
+            replaced = np.intersect1d(before.ids, written)
+            if only_new:
+                check_added(replaced)
+            if self.conditions.if_match is not None:
+                return
+            _check_own(before, delta, owners)
+            # With `robot` the request says whose segments are removed.
+            old = replaced if robot is not None else np.union1d(replaced, delta.removed)
+            new = np.setdiff1d(written, before.ids)
+            check_authors(self.maps.store, self.holder, stored.head, old, new)
 
         with self.maps.writing(name):
             stored = self.maps.find(name) if create else self.maps.get(name)
@@ -148,6 +169,9 @@ class Writer:
                 return 0
             stored = self.maps.get(name)
             self.holder.check_robots(stored.layers.robots)
+            if self.holder.key.robot is not None:
+                # What others wrote and removed can be restored as long as the map is there.
+                self.holder.check_robots(robots_ever(self.maps.store, stored))
             self.conditions.check(stored.tag)
             self.maps.delete(name)
             return len(stored)
@@ -167,18 +191,38 @@ class Writer:
         layers, _ = version(self.maps.store, stored, sequence)
         return self.maps.compact(stored.head, sequence, encode(layers.content()))
 
-    def reserve(self, name: str, count: int) -> int:
+    def reserve(self, name: str, count: int, most: int = IDS) -> int:
         """The first of so many ids that no segment of the map ever had, and nobody else is given.
 
+        Args:
+            name: of the map.
+            count: how many.
+            most: ids that the key may have reserved lately and not written.
+
         Raises:
-            Problem: 409 if there are not so many.
+            Problem: 409 if there are not so many, or the key has too many.
         """
         try:
-            return self.maps.store.reserve(self.maps.get(name).head.uid, count)
+            uid = self.maps.get(name).head.uid
+            return self.maps.store.reserve(uid, count, self.holder.name, most)
+        except TooManyIdsError as error:
+            raise Problem(
+                409,
+                "too-many-ids",
+                f"Map {name!r:.80}: {error}. Write segments with these ids first. A week after "
+                "they were reserved ids no longer count; POST /maps/MAP/ids/reset gives up all of "
+                "them.",
+            ) from error
         except KeyError as error:
             raise unknown(name) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
+
+    def reset_ids(self, name: str) -> Head:
+        """Make all ids free again that no version of the map has; for administrators."""
+        self.holder.check_admin()
+        with self.maps.writing(name):
+            return self.maps.free_ids(self.maps.get(name))
 
     def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
         upload = edit.changed
@@ -193,6 +237,8 @@ class Writer:
         """Store a new map, as far as the key and the conditions allow; `Maps.writing` is held."""
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
+        check_times(content)
+        check_new(self.maps.store, self.holder, None, content.ids)
         with self._told_quota():
             stored = self.maps.create(name, content, self.holder.name, operation)
         return Written(stored, len(content), 0, is_new=True)
@@ -226,9 +272,18 @@ class Writer:
             self.conditions.check_replaces(stored.tag)
         else:
             self.conditions.check(stored.tag)
-        check(before, delta)
+        check(stored, before, delta)
+        written = None
+        if operation not in {"restore", "age"}:
+            written = np.setdiff1d(delta.changed.ids, refreshed)
+            new = np.setdiff1d(written, before.ids)
+            check_times(delta.changed)
+            if operation == "merge":
+                written = new
+            else:
+                check_new(self.maps.store, self.holder, stored.head, new)
         with self._told_quota():
-            stored = self.maps.commit(stored, delta, self.holder.name, operation)
+            stored = self.maps.commit(stored, delta, self.holder.name, operation, written)
         return Written(stored, len(delta.changed), len(delta.removed))
 
     @contextmanager

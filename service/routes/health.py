@@ -2,6 +2,7 @@
 
 from dataclasses import asdict
 
+import anyio.to_thread
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import PlainTextResponse
 from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
@@ -40,8 +41,10 @@ async def readyz(state: StateOf) -> HealthResponse:
     """
     if state.draining:
         raise Problem(503, "not-ready", "The service is about to stop.")
-    if not state.maps.writable():
-        raise Problem(503, "not-ready", "The data directory is gone or cannot be written.")
+    # In a thread of its own: a disk may hang, and no request waits for it.
+    trouble = await anyio.to_thread.run_sync(state.maps.trouble)
+    if trouble is not None:
+        raise Problem(503, "not-ready", f"Maps cannot be written. {trouble}")
     if state.keys.is_good():
         return HealthResponse(status="ready")
     if not state.keys.any_works():

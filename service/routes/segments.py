@@ -76,16 +76,27 @@ async def edit_segments(
             "was last seen (`seen`). Other views of it are stored, and share its `views`."
         ),
     ] = False,
+    only_new: Annotated[
+        bool,
+        Query(
+            description="Refuse to replace a segment (409), whoever wrote it: for a robot whose "
+            "ids are all new. Segments that are there as they are do not count."
+        ),
+    ] = False,
 ) -> Response:
     """All of them or none; when the answer comes, they are on disk and survive a power cut.
 
     The body is a delta file whose `since` and `until` are 0. Sent again it changes nothing. A
-    segment of another robot is neither replaced nor removed: that is a 409 which lists the ids, and
-    nothing is done. It is with `If-Match: "ETAG"`, which says that you have seen that segment.
+    segment of another robot is neither replaced nor removed, nor is one that another key wrote,
+    and no id is taken that another key reserved: that is a 409 which lists the ids, and nothing is
+    done. It is with `If-Match: "ETAG"`, which says that you have seen that segment. A key that is
+    not for administration writes new ids up to 1,048,576 above those in use; others it reserves.
     """
     holder.check_write(name)
     async with state.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
-        written = await state.store(writer.edit, name, body.content, robot, create, deduplicate)
+        written = await state.store(
+            writer.edit, name, body.content, robot, create, deduplicate, only_new
+        )
     timing.lap("commit")
     tell_written(request, state, "edit", written)
     return JSONResponse(
@@ -140,12 +151,38 @@ async def reserve_ids(
     writer: WriterOf,
     count: Annotated[int, Query(ge=1, le=1_000_000, description="How many.")],
 ) -> IdsOut:
-    """That no segment of the map ever had, and that nobody else is given."""
+    """That no segment of the map ever had, and that nobody else is given.
+
+    A key may have `limits.reserved_ids` of a map that it reserved within a week and did not write.
+    """
     holder.check_write(name)
+    most = state.settings.limits.reserved_ids
     async with state.edits.enter(request):
-        first = await state.store(writer.reserve, name, count)
+        first = await state.store(writer.reserve, name, count, most)
     tell(request, state, "ids", name, f"{count} ids from {first} on")
     return IdsOut(first=first, count=count)
+
+
+@router.post(
+    "/maps/{map}/ids/reset",
+    summary="Make unused ids free again",
+    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504, 507),
+)
+async def reset_ids(
+    name: Name, request: Request, state: StateOf, holder: HolderOf, writer: WriterOf
+) -> IdsOut:
+    """For administrators: ids that no version of the map has, as far back as is kept, are free.
+
+    The answer tells the first of them, and how many follow it. Reservations are given up: robots
+    that still hold reserved ids may then write ids that others are given. Compact the map first to
+    free ids of removed segments.
+    """
+    holder.check_write(name)
+    async with state.edits.enter(request):
+        head = await state.store(writer.reset_ids, name)
+    count = head.end_id - head.next_id
+    tell(request, state, "ids reset", name, f"{count} ids from {head.next_id} on are free")
+    return IdsOut(first=head.next_id, count=count)
 
 
 @router.get(

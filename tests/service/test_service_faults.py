@@ -132,7 +132,7 @@ def test_a_full_disk(models_dir: Path, tmp_path: Path, files: list[bytes]) -> No
                 stored.append(file)
             assert_problem(response, 507, "disk-full", "nothing was changed")
             assert client.get("/maps/yard").content == stored[-1]
-            assert client.get("/readyz").status_code == 200
+            assert_problem(client.get("/readyz"), 503, "not-ready", "The disk is full")
         # As good as full; what was refused is not there after a kill either.
         with running(models_dir, data_dir) as (_, client):
             assert versions(client) == stored

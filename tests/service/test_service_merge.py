@@ -20,6 +20,8 @@ from segments.map_alignment import MapAlignment
 from service import aligning, merging
 from service.layers import Layers
 from service.map_index import index_of
+from service.sqlite_owners import Owners
+from service.sqlite_tables import row_of, save_head
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.site_builders import driven, merge, models_that_judge, put, relative
 from tests.service.test_service_keys import made
@@ -242,7 +244,7 @@ def test_a_map_that_gave_next_to_nothing_is_laid_as_it_was(
     stocked: Any, manifest: Manifest, ends: tuple[float, float], count: int
 ) -> None:
     merge(stocked, "site", ["east", "west"])
-    put_anew(stocked, "north", driven(manifest.model_id, "north", *ends, time=2e9))
+    put_anew(stocked, "north", driven(manifest.model_id, "north", *ends, time=1.5e9))
     first = merge(stocked, "site", ["north"]).json()
     assert first["parts"][0]["added"] == count
     again = merge(stocked, "site", ["north"]).json()
@@ -299,8 +301,13 @@ def test_a_site_without_enough_ids_is_left_as_it_is(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     merge(stocked, "site", ["east", "west"])
-    last = replace(take(maps["east"], np.arange(1)), ids=np.array([2**32 - 4], np.uint32))
-    edited(stocked, "site", last)
+    store = stocked.app.state.placecell.maps.store
+    with store._database.transaction() as connection:
+        (head,) = (each for each in store.heads() if each.name == "site")
+        row = row_of(connection, head.uid)
+        Owners(connection, row).write([(0, 2**32 - 3)], "anyone")
+        save_head(connection, row, replace(head, next_id=2**32 - 3))
+    edited(stocked, "site", take(maps["east"], np.arange(1)))
     before = stocked.get("/maps/site").content
     for dry_run in (True, False):
         refused = merge(stocked, "site", ["north"], dry_run=dry_run)
@@ -309,7 +316,7 @@ def test_a_site_without_enough_ids_is_left_as_it_is(
 
 
 def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest: Manifest) -> None:
-    west = driven(manifest.model_id, "west", 60, 210, time=2e9)
+    west = driven(manifest.model_id, "west", 60, 210, time=1.5e9)
     first = take(west, west.ids < 250)
     put(service, "east", driven(manifest.model_id, "east", 0, 150))
     put(service, "west", first)
@@ -343,7 +350,7 @@ def seen_at(there: CompactMap, rows: np.ndarray, moment: int) -> CompactMap:
 def test_what_a_map_saw_again_is_as_lately_seen_in_the_site(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
-    west, rows, later = maps["west"], np.arange(30), 2_000_000_000
+    west, rows, later = maps["west"], np.arange(30), 1_700_000_000
     merge(stocked, "site", ["east", "west"], deduplicate=False)
     before = content(stocked)
     edited(stocked, "west", seen_at(west, rows, later))
@@ -469,7 +476,7 @@ def test_a_map_put_anew_under_its_name_is_taken_anew(
     stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
 ) -> None:
     merge(stocked, "site", ["east", "west"], deduplicate=False)
-    other = driven(manifest.model_id, "west", 60, 210, seed=9, time=5e9)
+    other = driven(manifest.model_id, "west", 60, 210, seed=9, time=1.6e9)
     put_anew(stocked, "west", other)
     told = merge(stocked, "site", ["west"], deduplicate=False).json()
     (part,) = told["parts"]
