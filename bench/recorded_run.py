@@ -18,7 +18,7 @@ from bench.made_map import Kind
 from bench.server import Service
 from bench.writer import Writer
 
-UNKEPT = ("-shm", "/lock", "/service.log")
+UNKEPT = ("-shm", "/lock", "/reserve", "/service.log")
 """Ends of files that nothing is read from after a start: SQLite's shared memory is made anew."""
 
 TIDYING_SECONDS = 1.8

@@ -120,11 +120,11 @@ def _place_of(status: os.stat_result) -> str:
 
 
 def _append(path: Path, line: bytes) -> None:
-    descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
     try:
         before = os.fstat(descriptor).st_size
         try:
-            if os.write(descriptor, line) < len(line):
+            if os.pwrite(descriptor, line, before) < len(line):
                 raise OSError(errno.ENOSPC, "only a part was written")
             os.fsync(descriptor)
         except OSError:

@@ -44,7 +44,7 @@ class Key(BaseModel):
 
     sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="Of the key.")
     write: bool = Field(default=False, description="May change maps.")
-    admin: bool = Field(default=False, description="May reload models.")
+    admin: bool = Field(default=False, description="May reload models and free ids.")
     maps: tuple[str, ...] = Field(default=("*",), description="Names of maps, with * and ?.")
     robot: str | None = Field(default=None, description="May write this robot's segments alone.")
 
@@ -89,7 +89,7 @@ class Holder:
     def check_admin(self) -> None:
         """See that the key may change what the service runs; 403 if not."""
         if not self.key.admin:
-            raise Problem(403, "forbidden", "This key does not reload models.")
+            raise Problem(403, "forbidden", "This key does not administer the service.")
 
     def _own_alone(self) -> Problem:
         return Problem(

@@ -4,7 +4,7 @@ import logging
 import secrets
 import sqlite3
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -303,15 +303,8 @@ class SqliteMapStore:
                 *(self._folder / LEDGER, SKIPPED),
             )
         if behind:
-            with self._database.transaction(frees=True) as connection:
-                for uid, next_id in behind.items():
-                    try:
-                        row, head = row_of(connection, uid), head_of(connection, uid)
-                    except StoreError:
-                        continue  # the map is damaged and not served
-                    # Nobody knows by whom.
-                    Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
-                    save_head(connection, row, replace(head, next_id=next_id))
+            # On a disk that is full, too, or it could not be freed.
+            self._database.freeing(lambda connection: _skip(connection, behind), share=0.5)
         try:
             ledger.rewrite({head.uid: behind.get(head.uid, head.next_id) for head in heads})
         except OSError as error:
@@ -338,6 +331,18 @@ class SqliteMapStore:
             except StoreError as error:
                 found.append(str(error))
         return found
+
+
+def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None:
+    """Leave ids out, up to the first that is free, by the uid of the map."""
+    for uid, next_id in first_free.items():
+        try:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+        except StoreError:
+            continue  # the map is damaged and not served
+        # Nobody knows by whom.
+        Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
+        save_head(connection, row, replace(head, next_id=next_id))
 
 
 def _skipped(head: Head, given_out: int, count: int) -> int:
