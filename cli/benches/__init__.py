@@ -8,6 +8,7 @@ from cli.benches.crash import crash
 from cli.benches.describe import describe
 from cli.benches.fleet import fleet
 from cli.benches.floors import floors
+from cli.benches.json_requests import json_requests
 from cli.benches.ladder import ladder
 from cli.benches.localisation import localisation
 from cli.benches.localize import localize
@@ -37,3 +38,4 @@ bench.command()(crash)
 bench.command()(powerloss)
 bench.command()(fleet)
 bench.command()(attack)
+bench.command("json")(json_requests)

@@ -1,0 +1,9 @@
+from bench.json_requests import bench
+
+
+def test_the_report_names_its_baseline_and_has_both_readers() -> None:
+    report = bench(seconds=0.1)
+    assert set(report["rows"]) == {"baseline", "compiled"}
+    assert report["saturation_ratio"] > 0
+    assert report["longest_pause_ms"] > 0
+    assert "pydantic" in report["baseline"]
