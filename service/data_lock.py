@@ -1,4 +1,4 @@
-"""One service owns a data directory, whatever becomes of the lock file."""
+"""Lock of a data directory: one service owns it, even if the lock file is removed."""
 
 import errno
 import logging
@@ -22,7 +22,7 @@ logger = logging.getLogger("placecell")
 
 @dataclass(frozen=True, slots=True)
 class DataLock:
-    """A lock on the file `DATA_DIR/lock`, and one on the directory itself.
+    """Lock on the file `DATA_DIR/lock` and on the directory itself.
 
     The file may be removed while it is locked, and another process may then make and lock a new
     one. The directory's own lock stands all the same.
@@ -36,7 +36,7 @@ class DataLock:
     inode: tuple[int, int]
 
     def trouble(self) -> str | None:
-        """Say what is wrong with the lock, if anything."""
+        """Return the problem of the lock as a text; None if there is none."""
         try:
             found = _inode_of(self.file)
         except OSError:

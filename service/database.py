@@ -25,11 +25,11 @@ VACUUM_PAGES = 1_000
 """Given back to the disk at once, 4 kB each."""
 
 FULL_DISK_PAGES = 50
-"""Given back at once where the disk is full: each step needs as much room in the log."""
+"""Pages returned per step on a full disk: each step needs as much space in the log."""
 
 MIGRATION_BYTES = 1 << 20
 MIGRATION_PAGE_BYTES = 64
-"""That must be free for a migration, and so many more for each page of the database."""
+"""Free disk bytes that a migration needs, and as many more for each page of the database."""
 
 BUSY_SECONDS = 5.0
 """To wait for another process, such as a backup, to let go."""
@@ -50,7 +50,7 @@ _KINDS: dict[str, Trouble] = {
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The tables of a database, and how earlier ones become so.
+    """Tables of a database and the migrations from earlier versions.
 
     Attributes:
         version: of the tables.
@@ -79,7 +79,7 @@ class Database:
     def __init__(
         self, path: Path, layout: Layout, lock_trouble: Callable[[], str | None] = lambda: None
     ) -> None:
-        """Open the file, or make it.
+        """Open or create the file.
 
         Args:
             path: of the file.
@@ -123,7 +123,7 @@ class Database:
 
     @contextmanager
     def transaction(self, frees: bool = False) -> Iterator[sqlite3.Connection]:
-        """Writes that happen together, and last when the context ends; or none of them.
+        """Run writes as one transaction, durable when the context ends, or undo all of them.
 
         Args:
             frees: whether they are to free the disk, so that they may use what is kept for that.
@@ -147,7 +147,7 @@ class Database:
                 raise
 
     def freeing(self, work: Callable[[sqlite3.Connection], Result], share: float = 1.0) -> Result:
-        """Do writes that are to free the disk, with what is kept for that if it is full.
+        """Run writes that free the disk; a full disk lends them its reserve.
 
         Args:
             work: a transaction; it may be done twice, for the first time does not count.
@@ -181,7 +181,7 @@ class Database:
             yield connection
 
     def trouble(self) -> str | None:
-        """Say why no write can be taken, if so; a write that failed is tried in small."""
+        """Return why no write can be taken; None if it can. Retries a failed write in small."""
         if told := self._misplaced() or self._lock_trouble():
             return told
         if not os.access(self.path, os.W_OK) or not os.access(self.path.parent, os.W_OK):
@@ -213,7 +213,7 @@ class Database:
         return None
 
     def give_back(self) -> None:
-        """Return freed pages to the disk, if they are many; in steps, so that no writer waits long.
+        """Return freed pages to the disk in steps, so that no writer waits long.
 
         Fewer are left, to be written to again. Where the disk is full all are returned.
         """
@@ -233,7 +233,7 @@ class Database:
         self._reserve.hold()
 
     def _empty_log(self) -> None:
-        """Move the log into the database, and return its room to the disk."""
+        """Move the log into the database and return its space to the disk."""
         with self._writing, _translated(self.path):
             self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchall()
 
@@ -242,7 +242,7 @@ class Database:
             return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
 
     def _misplaced(self) -> str | None:
-        """Say whether the files are no longer those that were opened, if so.
+        """Return a text if the files are no longer those that were opened; None otherwise.
 
         SQLite goes on writing to a file that was removed, and would take a file that is put in its
         place, or an empty one, for the database.
@@ -272,7 +272,7 @@ class Database:
 
     @contextmanager
     def _noted(self) -> Iterator[None]:
-        """Remember a write that failed because of the disk until one succeeds."""
+        """Remember a write that failed because of the disk, until one succeeds."""
         try:
             yield
         except StoreError as error:
@@ -282,7 +282,7 @@ class Database:
         self._failed = None
 
     def _opened(self, layout: Layout) -> sqlite3.Connection:
-        """Connect, and see that the file is whole and has these tables."""
+        """Connect, and check that the file is whole and has these tables."""
         with _translated(self.path):
             connection = _connect(self.path)
         try:
@@ -325,7 +325,7 @@ class Database:
         return [] if found == ["ok"] else found
 
     def _checked(self, connection: sqlite3.Connection, layout: Layout) -> int:
-        """Return the version of the file's tables, after a look at whether it is whole."""
+        """Check that the file is whole and return the version of its tables."""
         (application,) = connection.execute("PRAGMA application_id").fetchone()
         (found,) = connection.execute("PRAGMA user_version").fetchone()
         if application != APPLICATION:
@@ -351,7 +351,7 @@ ADVICE = "bring it back from a backup, or move it and the files beside it away t
 
 
 def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connection:
-    """Connect to a file that is there; with `rwc` it may be made."""
+    """Connect to an existing file; mode `rwc` may create it."""
     connection = sqlite3.connect(
         f"{path.absolute().as_uri()}?mode={mode}",
         timeout=BUSY_SECONDS,
@@ -411,7 +411,7 @@ def _inode_of(path: Path) -> tuple[int, int]:
 
 @contextmanager
 def _translated_os(path: Path) -> Iterator[None]:
-    """Errors of the disk as the store's own."""
+    """Translate errors of the disk into the store's own."""
     try:
         yield
     except OSError as error:

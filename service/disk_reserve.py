@@ -1,20 +1,20 @@
-"""Disk space that is kept for deletions, so that a full disk can be freed."""
+"""Disk reserve: space kept for deletions, so that a full disk can be freed."""
 
 import errno
 import os
 from pathlib import Path
 
 RESERVE_BYTES = 8 << 20
-"""Kept on disks that are large enough."""
+"""Size of the reserve on disks that are large enough, bytes."""
 
 DISK_SHARE = 16
-"""A small disk keeps one part in so many."""
+"""Divisor of a small disk's size that gives its reserve."""
 
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
 class DiskReserve:
-    """A file, `DATA_DIR/reserve`, that is cut while something is deleted from a full disk.
+    """Reserve file `DATA_DIR/reserve`, which is cut while a full disk is being freed.
 
     Attributes:
         size: bytes that are kept.
@@ -26,14 +26,14 @@ class DiskReserve:
         self.size = min(RESERVE_BYTES, disk.f_blocks * disk.f_frsize // DISK_SHARE)
 
     def is_held(self) -> bool:
-        """Whether all of it is on the disk."""
+        """Return whether the whole reserve is on the disk."""
         try:
             return self._path.stat().st_size >= self.size
         except OSError:
             return False
 
     def hold(self) -> bool:
-        """Take the space, unless it is held; whether it is now."""
+        """Allocate the reserve unless it is held; return whether it is held now."""
         if self.is_held():
             return True
         try:
@@ -51,7 +51,7 @@ class DiskReserve:
         return True
 
     def release(self, bytes_left: int = 0) -> None:
-        """Give the space back to the disk, all but so many bytes."""
+        """Free the reserve except for `bytes_left`."""
         try:
             if self._path.stat().st_size > bytes_left:
                 os.truncate(self._path, bytes_left)
@@ -59,7 +59,7 @@ class DiskReserve:
             return
 
     def free_bytes(self) -> int:
-        """How much the disk has free for this process."""
+        """Return the free bytes of the disk for this process."""
         disk = os.statvfs(self._path.parent)
         return disk.f_bavail * disk.f_frsize
 

@@ -1,4 +1,4 @@
-"""How far ids were given out, in a file beside the database: `DATA_DIR/ids`.
+"""Id ledger: how far ids were given out, in the file `DATA_DIR/ids` beside the database.
 
 A database that is brought back from a backup does not know which ids were given out since. This
 file does: it is written before the ids are given out, and stays where it is when the database is
@@ -21,16 +21,16 @@ from service.disk_reserve import FULL
 from service.map_store import StoreError
 
 LEASE = 4_096
-"""Ids that are written down ahead, so that not each write costs a sync."""
+"""Ids recorded ahead, so that not every write needs a sync."""
 
 SKIPPED = 1 << 22
-"""Ids of each map that are left out where nobody knows how many were given out."""
+"""Ids of each map that are skipped when the number given out is unknown."""
 
 logger = logging.getLogger("placecell")
 
 
 class IdLedger:
-    """The file of one data directory. Calls come one at a time.
+    """Ledger file of one data directory. Calls come one at a time.
 
     Attributes:
         limits: by the uid of a map, the end of the ids that may have been given out.
@@ -46,11 +46,11 @@ class IdLedger:
 
     @property
     def is_there(self) -> bool:
-        """Whether there is such a file, whatever it holds."""
+        """Return whether the ledger file exists, whatever it holds."""
         return self._path.exists()
 
     def rewrite(self, limits: Mapping[str, int]) -> None:
-        """Replace what the file says; it is whole, or as it was.
+        """Replace the ledger's content atomically.
 
         Raises:
             OSError: it is as it was.
@@ -69,7 +69,7 @@ class IdLedger:
         self.is_trusted = True
 
     def raise_to(self, uid: str, end: int) -> None:
-        """Write down that ids below `end` may be given out; StoreError if that cannot be done."""
+        """Record that ids below `end` may be given out; StoreError if that fails."""
         if self.limits.get(uid, 0) >= end:
             return
         line = _line(f"{uid} {end + LEASE}").encode()
@@ -84,7 +84,7 @@ class IdLedger:
         self.limits[uid] = end + LEASE
 
     def forget(self, uid: str) -> None:
-        """Let the ids of a map begin anew, lower; the file is replaced by the next call."""
+        """Forget a map's ids; the next call rewrites the file with a lower end."""
         self.limits.pop(uid, None)
         self.is_trusted = False
 
@@ -105,7 +105,7 @@ class IdLedger:
 
 
 def _touch(path: Path) -> str:
-    """Make a file, or change nothing but when it was last changed."""
+    """Create a file, or change only its modification time."""
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
     try:
         os.utime(descriptor)

@@ -1,4 +1,4 @@
-"""Who wrote or reserved the ids of a map last, in runs of ids."""
+"""Ownership of ids: which key wrote or reserved each run of ids of a map last."""
 
 import hashlib
 import json
@@ -11,16 +11,16 @@ import numpy as np
 from service.map_store import IDS, Owner, StoreError
 
 CLOSED = 16_384
-"""Ids between two that a key writes, up to which those that nobody owns become its own: else a map
-with scattered ids would have a run for each."""
+"""Largest gap of unowned ids between two written ones that becomes the writer's own. Without it a
+map with scattered ids would have one run per id."""
 
 Run = tuple[int, int]
-"""First id, and end, exclusive."""
+"""First id and exclusive end of a run."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Owned:
-    """A run of ids of one owner.
+    """Run of ids with one owner.
 
     Attributes:
         first: id.
@@ -35,13 +35,13 @@ class _Owned:
     reserved: float | None
 
     def digest(self, row: int) -> str:
-        """Hash the run, so that one that was altered is noticed."""
+        """Hash the run, so that an altered run is noticed."""
         told = [row, self.first, self.until, self.author, self.reserved]
         return hashlib.sha256(json.dumps(told).encode()).hexdigest()[:16]
 
 
 class Owners:
-    """The owners of one map's ids, within a transaction."""
+    """Owners of one map's ids, within a transaction."""
 
     def __init__(self, connection: sqlite3.Connection, row: int) -> None:
         self._connection = connection
@@ -56,7 +56,7 @@ class Owners:
         self._paint([(first, until)], author, now)
 
     def reserved(self, author: str, since: float) -> int:
-        """Count the ids that a key has reserved since a time, and not written."""
+        """Count the ids that a key has reserved since a time and not written."""
         (count,) = self._connection.execute(
             "SELECT coalesce(sum(until - first), 0) FROM owners "
             "WHERE map = ? AND author = ? AND reserved > ?",
@@ -65,7 +65,7 @@ class Owners:
         return int(count)
 
     def of(self, ids: Iterable[int]) -> list[Owner | None]:
-        """Return who owns each of these ids, which ascend."""
+        """Return the owner of each of these ascending ids."""
         wanted = np.fromiter(ids, np.int64)
         if not len(wanted):
             return []
@@ -81,7 +81,7 @@ class Owners:
         return found
 
     def largest_gap(self) -> Run:
-        """Return the largest run of ids that nobody ever wrote or reserved; empty at worst."""
+        """Return the largest run of ids that were never written or reserved; it may be empty."""
         best, at = (0, 0), 0
         for each in self._within(0, IDS):
             best = max(best, (at, each.first), key=_length)
@@ -89,7 +89,7 @@ class Owners:
         return max(best, (at, IDS), key=_length)
 
     def keep_only(self, used: Iterable[int]) -> None:
-        """Forget what was reserved, and what was written but is not used; ids ascend."""
+        """Forget reservations, and owners of ids outside `used`, which ascends."""
         ids = np.fromiter(used, np.int64)
         kept = []
         for each in self._within(0, IDS):
@@ -104,7 +104,7 @@ class Owners:
         self._read("SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1")
 
     def _within(self, first: int, until: int) -> list[_Owned]:
-        """Return the runs that have an id of these, ascending."""
+        """Return the ascending runs that overlap these ids."""
         found = self._read(
             "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 AND "
             "first < ?3 AND first >= coalesce((SELECT max(first) FROM owners "
@@ -166,7 +166,7 @@ def _length(run: Run) -> int:
 
 
 def _closed(runs: Sequence[Run], owned: Sequence[_Owned]) -> list[Run]:
-    """Join runs with small gaps between them that nobody owns a part of."""
+    """Join runs whose gaps are small and unowned."""
     starts = np.array([run[0] for run in runs])
     ends = np.array([run[1] for run in runs])
     before = np.searchsorted([each.until for each in owned], ends[:-1], "right")
@@ -178,7 +178,7 @@ def _closed(runs: Sequence[Run], owned: Sequence[_Owned]) -> list[Run]:
 
 
 def _joined(owned: Iterable[_Owned]) -> list[_Owned]:
-    """Make one run of those that follow each other and have one owner."""
+    """Join adjacent runs of one owner."""
     joined: list[_Owned] = []
     for each in owned:
         last = joined[-1] if joined else None

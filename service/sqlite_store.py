@@ -46,7 +46,7 @@ LEDGER = "ids"
 LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate})
 
 RESERVED_SECONDS = 7 * 24 * 3600.0
-"""For which ids that a key reserved, and did not write, count against what it may reserve."""
+"""Seconds for which a reserved, unwritten id counts against the key's limit."""
 
 logger = logging.getLogger("placecell")
 
@@ -60,7 +60,7 @@ class SqliteMapStore:
         lock_trouble: Callable[[], str | None] = lambda: None,
         clock: Callable[[], float] = time.time,
     ) -> None:
-        """Open it; see `owned`, for one process at a time may.
+        """Open the store; hold `owned` first, because one process at a time may use it.
 
         Args:
             data_dir: the directory.
@@ -283,7 +283,7 @@ class SqliteMapStore:
         return self._database.trouble()
 
     def _opened_ledger(self) -> IdLedger:
-        """Read how far ids were given out, and skip those that the database does not know of."""
+        """Read the end of the ids given out, and skip ids that the database does not know."""
         with self._database.snapshot() as connection:
             (token,) = connection.execute("SELECT token FROM opened").fetchone() or ("",)
         ledger = IdLedger(self._folder / LEDGER, token)
@@ -334,7 +334,7 @@ class SqliteMapStore:
 
 
 def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None:
-    """Leave ids out, up to the first that is free, by the uid of the map."""
+    """Skip ids of each map, up to its first free id."""
     for uid, next_id in first_free.items():
         try:
             row, head = row_of(connection, uid), head_of(connection, uid)
@@ -346,6 +346,6 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
 
 
 def _skipped(head: Head, given_out: int, count: int) -> int:
-    """Return the first of the free ids of a map after those that may have been given out."""
+    """Return a map's first free id after those that may have been given out."""
     first = min(max(head.next_id, given_out), head.end_id)
     return max(first, min(first + count, (first + head.end_id) // 2))

@@ -72,12 +72,12 @@ COMMIT = "SELECT sequence, time, author, operation, changed, removed, bytes, mar
 
 
 def fill(connection: sqlite3.Connection) -> None:
-    """Put into an empty database what each has."""
+    """Insert the rows that every database has."""
     connection.execute("INSERT INTO opened VALUES (?)", (secrets.token_hex(16),))
 
 
 def migrate(connection: sqlite3.Connection) -> None:
-    """Make a database of version 1 one of version 2; within a transaction.
+    """Migrate a database from version 1 to version 2, within a transaction.
 
     Commits stay as they are: their link is empty, and their mark covers no note.
     """
@@ -95,7 +95,7 @@ def migrate(connection: sqlite3.Connection) -> None:
 
 
 def save_head(connection: sqlite3.Connection, row: int, head: Head) -> Head:
-    """Write where a map stands, with a digest of it; return it."""
+    """Write a map's head with its digest; return the head."""
     connection.execute(
         "UPDATE maps SET sequence = ?, mark = ?, base = ?, next_id = ?, base_bytes = ?, "
         "log_bytes = ?, end_id = ?, digest = ? WHERE map = ?",
@@ -108,7 +108,7 @@ def save_head(connection: sqlite3.Connection, row: int, head: Head) -> Head:
 
 
 def digest_of(head: Head) -> str:
-    """Hash where a map stands, so that an altered row is noticed."""
+    """Hash a map's head, so that an altered row is noticed."""
     told = [
         *(head.name, head.uid, head.sequence, head.mark, head.oldest, head.next_id),
         *(head.base_bytes, head.log_bytes, head.end_id),
@@ -125,7 +125,7 @@ def row_of(connection: sqlite3.Connection, uid: str) -> int:
 
 
 def head_of(connection: sqlite3.Connection, uid: str) -> Head:
-    """Return where a map stands; KeyError if there is none, StoreError if its row was altered."""
+    """Return a map's head; KeyError if there is none, StoreError if its row was altered."""
     row = connection.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone()
     if row is None:
         raise KeyError(uid)
@@ -136,7 +136,7 @@ def head_of(connection: sqlite3.Connection, uid: str) -> Head:
 
 
 def head_from(row: tuple[Any, ...]) -> Head:
-    """Of a row of `HEAD`, unchecked."""
+    """Build a head from a row of `HEAD`, unchecked."""
     return Head(*row[:-1])
 
 
@@ -147,7 +147,7 @@ def commit_from(row: Sequence[Any]) -> Commit:
 
 
 def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
-    """Make the commit that follows the version of this mark."""
+    """Build the commit that follows the version of this mark."""
     # As it comes back from the database.
     note = Note(float(note.time), *(note.author, note.operation, note.changed, note.removed))
     link = link_of(before, sequence, blob)
@@ -155,12 +155,12 @@ def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int)
 
 
 def is_own_mark(commit: Commit) -> bool:
-    """Whether a commit's note and link come to its mark; true for those of version 1."""
+    """Check a commit's note and link against its mark; true for commits of version 1."""
     return not commit.link or mark_of(commit.link, commit.note) == commit.mark
 
 
 def follows(before: str, commit: Commit, blob: bytes) -> bool:
-    """Whether a commit is what was written after the version of this mark, with this blob."""
+    """Check that a commit with this blob follows the version of this mark."""
     link = link_of(before, commit.sequence, blob)
     known = commit.link or commit.mark
     return link == known and is_own_mark(commit) and commit.bytes == len(blob)

@@ -46,7 +46,7 @@ class Written:
 
 
 Check = Callable[[StoredMap, CompactMap, Delta], None]
-"""Of the map, its segments that will be replaced or removed, and of the delta that does it."""
+"""Check of an edit: takes the map, the segments that it replaces or removes, and the delta."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +192,7 @@ class Writer:
         return self.maps.compact(stored.head, sequence, encode(layers.content()))
 
     def reserve(self, name: str, count: int, most: int = IDS) -> int:
-        """The first of so many ids that no segment of the map ever had, and nobody else is given.
+        """Reserve `count` ids that no segment ever had and no other key holds; return the first.
 
         Args:
             name: of the map.
@@ -219,7 +219,7 @@ class Writer:
             raise out_of_ids(name, error) from error
 
     def reset_ids(self, name: str) -> Head:
-        """Make all ids free again that no version of the map has; for administrators."""
+        """Make all ids free that no version of the map has; for administrators."""
         self.holder.check_admin()
         with self.maps.writing(name):
             return self.maps.free_ids(self.maps.get(name))
@@ -288,7 +288,7 @@ class Writer:
 
     @contextmanager
     def _told_quota(self) -> Iterator[None]:
-        """Tell what all maps hold only to a key that opens all."""
+        """Show the totals of all maps only to a key that opens all maps."""
         try:
             yield
         except OverQuotaError as error:

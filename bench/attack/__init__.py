@@ -1,1 +1,1 @@
-"""A standing attack on the service: the faults of load and security, one case each."""
+"""Standing attack on the service: one case for each fault of load and security."""

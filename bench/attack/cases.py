@@ -1,4 +1,4 @@
-"""All cases, in the order of the rows."""
+"""All attack cases, ordered by fault row."""
 
 from bench.attack import connections, storage, tenants, work
 from bench.attack.stage import Case

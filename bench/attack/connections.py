@@ -1,4 +1,4 @@
-"""Connections that take more than their share: A3, A5, A6, A7, A11, A27."""
+"""Attacks with connections that take more than their share: A3, A5, A6, A7, A11, A27."""
 
 import socket
 import threading
@@ -29,14 +29,14 @@ from bench.made_map import Kind
 
 PIECE = 1 << 14
 SMALL_WINDOW = 1 << 12
-"""Bytes of an answer that the kernel of a slow reader holds."""
+"""Receive window of a slow reader, bytes that its kernel holds."""
 
 UNREAD_MB = 150.0
-"""By which the service may grow for answers that nobody reads."""
+"""Largest growth of the service's memory for answers that nobody reads, MB."""
 
 
 def slow_download(stage: Stage) -> None:
-    """A3: downloads over slow links that go on reading."""
+    """A3: downloads over slow links that keep reading."""
     count = stage.size(320_000, 320_000)  # 14.9 MB
     with stage.service(own=False) as target:
         kind = kind_of(target)
@@ -95,7 +95,7 @@ def reads_of_old_versions(stage: Stage) -> None:
 
 
 def trickled_bodies(stage: Stage) -> None:
-    """A6: many requests whose bodies come a byte a second."""
+    """A6: many requests whose bodies arrive one byte per second."""
     seconds = stage.size(15, 2)
     packed, delta, file = ({"Content-Type": each} for each in (MSGPACK, DELTA, MAP))
     doors = {
@@ -128,7 +128,7 @@ def trickled_bodies(stage: Stage) -> None:
 
 
 def unread_answers(stage: Stage) -> None:
-    """A7: large answers that nobody reads."""
+    """A7: large answers that no client reads."""
     readers = stage.size(40, 30)
     with stage.service(own=False) as target:
         kind = kind_of(target)
@@ -161,7 +161,7 @@ def unread_answers(stage: Stage) -> None:
 
 
 def idle_connections(stage: Stage) -> None:
-    """A11: more connections than the service takes, that say nothing or half of a head."""
+    """A11: more connections than the service accepts, silent or with half a request head."""
     count = 1_100
     with stage.service(own=False) as target:
         heads = {"silent": b"", "half a head": b"GET /livez HTTP/1.1\r\nHost: x\r\nX: "}
@@ -190,7 +190,7 @@ def idle_connections(stage: Stage) -> None:
 
 
 def smuggled_requests(stage: Stage) -> None:
-    """A27: requests whose length is told twice, with a second request in their body."""
+    """A27: requests that state their length twice, with a second request in their body."""
     with stage.service(own=False) as target:
         kind = kind_of(target)
         _put_map(stage, target, kind, "precious", 10)
@@ -232,7 +232,7 @@ def smuggled_requests(stage: Stage) -> None:
 
 
 def _put_map(stage: Stage, target: Target, kind: Kind, name: str, count: int) -> bytes:
-    """Store a map of so many segments; its file."""
+    """Store a map of `count` segments and return its file."""
     file = encode(kind.made(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random))
     answer = stage.ask(target, Request("PUT", f"/maps/{name}", file, ROBOT, {"Content-Type": MAP}))
     stage.expect(answer.status == 201, f"A map of {count} segments was answered {answer.status}.")
@@ -240,7 +240,7 @@ def _put_map(stage: Stage, target: Target, kind: Kind, name: str, count: int) ->
 
 
 def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[int, int, int]:
-    """Read an answer slowly for some seconds, then fast.
+    """Read an answer slowly for `slow` seconds, then at full speed.
 
     Returns:
         Its status, the length that it states (-1: none), and how many bytes of it came.
@@ -268,7 +268,7 @@ def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[i
 
 @contextmanager
 def _trickling(target: Target, requests: Sequence[Request]) -> Iterator[None]:
-    """Send the heads of requests, and of each body a byte a second until the block ends."""
+    """Send request heads, then one byte per second of each body until the block ends."""
     ended, links = threading.Event(), list[socket.socket]()
 
     def trickle() -> None:
@@ -303,7 +303,7 @@ def _trickling(target: Target, requests: Sequence[Request]) -> Iterator[None]:
 
 
 def _expect_at_once(stage: Stage, target: Target, request: Request, what: str) -> None:
-    """Expect that a request of another key is not refused."""
+    """Expect that the service admits another key's request at once."""
     begun = time.perf_counter()
     while (answer := stage.ask(target, request)).status in {0, 429, 503, 504}:
         if time.perf_counter() > begun + 5 * stage.victim_seconds:
@@ -318,7 +318,7 @@ def _expect_at_once(stage: Stage, target: Target, request: Request, what: str) -
 
 
 def _from_elsewhere(target: Target, request: Request) -> Answer:
-    """Ask from the address of the victim."""
+    """Send a request from the victim's address."""
     host, port = target.place
     begun = time.perf_counter()
     try:

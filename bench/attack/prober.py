@@ -1,4 +1,4 @@
-"""The victim: a robot that sends small requests all the time, in a process of its own.
+"""The victim: a robot process that sends small requests all the time.
 
     python -m bench.attack.prober PLAN
 
@@ -18,10 +18,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 PATIENCE = 30.0
-"""Seconds after the end of an attack in which an answer may still come."""
+"""Seconds after the end of an attack within which an answer still counts."""
 
 PAUSE = 0.05
-"""Seconds until a refused request is sent again."""
+"""Seconds before a refused request is sent again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Probe:
 
 @dataclass(frozen=True, slots=True)
 class ProbePlan:
-    """Where the requests go."""
+    """Address of the service and the probes to send."""
 
     host: str
     port: int
@@ -57,7 +57,7 @@ class ProbePlan:
 
 @dataclass(slots=True)
 class Waits:
-    """How one kind of request fared.
+    """Waiting times and results of one kind of request.
 
     Attributes:
         idle_max: longest wait before the attack, seconds.
@@ -75,7 +75,7 @@ class Waits:
 
 
 class _Prober:
-    """Sends one kind of request until it is told to stop."""
+    """Sender of one kind of request, until it is told to stop."""
 
     def __init__(self, plan: ProbePlan, probe: Probe) -> None:
         self.waits = Waits()
@@ -99,7 +99,7 @@ class _Prober:
             ended.wait(max(0.0, due + probe.interval - time.perf_counter()))
 
     def _answered(self, body: bytes, ended: threading.Event) -> bool:
-        """Send a request until it is answered with success; whether it was."""
+        """Send a request until it succeeds; return whether it did."""
         end: float | None = None
         while True:
             status = self._status(body)
@@ -133,7 +133,7 @@ class _Prober:
 
 
 def main() -> None:
-    """Run the plan that the caller wrote a moment ago, for this process alone."""
+    """Run the plan file that the caller wrote, for this process alone."""
     plan: ProbePlan = pickle.loads(Path(sys.argv[1]).read_bytes())
     attacked, ended = threading.Event(), threading.Event()
     probers = [_Prober(plan, probe) for probe in plan.probes]

@@ -1,4 +1,4 @@
-"""What a case works with: services to attack, a victim that is measured, and what it found."""
+"""Stage of an attack case: services to attack, a measured victim, and findings."""
 
 import json
 import pickle
@@ -25,23 +25,23 @@ from segments.types import UInt32
 
 VICTIM_MAP = "victim-map"
 VICTIM_SEGMENTS = 20
-"""Of the victim's request."""
+"""Segments in the victim's request."""
 
 IDLE_SECONDS = 1.0
-"""The victim is measured for so long before each attack; a third of it in the short form."""
+"""Seconds for which the victim is measured before each attack; a third in the short form."""
 
 EDITS = 400
-"""Writes of the victim during one attack, at most."""
+"""Largest number of victim writes during one attack."""
 
 ALL_EDITS = 8_000
-"""Writes of the victim to one service, at most."""
+"""Largest number of victim writes to one service."""
 
 NONE: UInt32 = np.zeros(0, np.uint32)
 
 
 @dataclass(slots=True)
 class Findings:
-    """What one case found.
+    """Findings of one case.
 
     Attributes:
         why: one sentence for everything that is not as it should be.
@@ -64,7 +64,7 @@ class Findings:
 
 @dataclass(slots=True)
 class Stage:
-    """The place of one case.
+    """Services, victim and findings of one case.
 
     Attributes:
         folder: for the data directories of its services.
@@ -88,11 +88,11 @@ class Stage:
     _lost: set[tuple[Target, str, int]] = field(default_factory=set)
 
     def size(self, full: float, short: float) -> int:
-        """The size for this form."""
+        """Return the size for this form of the run."""
         return int(short if self.short else full)
 
     def expect(self, good: bool, why: str) -> bool:
-        """Note what is wrong unless it is good; whether it is."""
+        """Note `why` as a fault unless `good` is true; return `good`."""
         if not good and why not in self.found.why:
             self.found.why.append(why)
         return good
@@ -102,7 +102,7 @@ class Stage:
         self.found.notes[name] = value
 
     def next_data(self) -> Path:
-        """The data directory of the next service."""
+        """Return the data directory of the next service."""
         return self.folder / f"service-{self._services + 1}" / "data"
 
     @contextmanager
@@ -112,7 +112,7 @@ class Stage:
         with_keys: bool = True,
         own: bool = True,
     ) -> Iterator[Target]:
-        """Run a service; at the end it must live, and hold all that it acknowledged.
+        """Run a service; at the end it must run and hold every acknowledged write.
 
         Args:
             environment: further variables.
@@ -135,7 +135,7 @@ class Stage:
             self._judge(target)
 
     def ask(self, target: Target, request: Request, seconds: float = 120.0) -> Answer:
-        """Send a request, and count its status."""
+        """Send a request and count its status."""
         answer = ask(target, request, seconds)
         self.count([answer])
         return answer
@@ -143,7 +143,7 @@ class Stage:
     def ask_all(
         self, target: Target, requests: Sequence[Request], at_once: int, seconds: float = 120.0
     ) -> list[Answer]:
-        """Send requests, so many at once, and count their statuses."""
+        """Send requests concurrently and count their statuses."""
         answers = ask_all(target, requests, at_once, seconds)
         self.count(answers)
         return answers
@@ -153,7 +153,7 @@ class Stage:
         self.found.statuses.update(str(answer.status) for answer in answers)
 
     def expect_no_failure(self, answers: Iterable[Answer], what: str) -> None:
-        """Expect answers that are refusals at worst: no 500, no cut connection."""
+        """Expect answers that are at worst refusals: no 500, no cut connection."""
         bad = Counter(answer.status for answer in answers if answer.status in {0, 500, 502})
         self.expect(not bad, f"{what}: {sum(bad.values())} requests failed (statuses {dict(bad)}).")
 
@@ -201,7 +201,7 @@ class Stage:
         self._take(target, waits, self.victim_seconds if seconds is None else seconds)
 
     def settle(self, target: Target) -> None:
-        """Kill the service, start it again, and count the victim's writes that are gone."""
+        """Kill the service, restart it, and count the victim's lost writes."""
         written = self._written.get(target)
         if not written or target.died:
             return
@@ -212,7 +212,7 @@ class Stage:
         self.expect_there(target, VICTIM_MAP, written, "after a kill")
 
     def expect_there(self, target: Target, name: str, written: Iterable[int], when: str) -> None:
-        """Expect that a map holds the segments of acknowledged writes; count those that it lost."""
+        """Expect that a map holds the segments of acknowledged writes; count the lost ones."""
         answer = ask(target, Request("GET", f"/maps/{name}", key=OWNER))
         there = {*decode(answer.body).ids.tolist()} if answer.status == 200 else set[int]()
         lost = {*written} - there
@@ -221,7 +221,7 @@ class Stage:
         self.expect(not lost, f"{len(lost)} acknowledged writes of {name} are gone {when}.")
 
     def _sharing(self, target: Target) -> Iterator[Target]:
-        """Lend the shared service; it is started again if the case before was its end."""
+        """Lend the shared service; restart it if the previous case ended it."""
         if not target.is_running():
             target.stop()
             self.expect(not target.died, f"It ended after the case before: {target.died}.")
@@ -312,7 +312,7 @@ class Case:
 def clouds(
     count: int, points: int, random: np.random.Generator, spread: float = 20.0
 ) -> list[np.ndarray[Any, np.dtype[np.float32]]]:
-    """Points of segments, float32 (points, 3) each, within `spread` meters of the sensor."""
+    """Random points of segments, float32 (points, 3) each, within `spread` meters of the sensor."""
     return [
         (random.uniform(-1, 1, (points, 3)) + random.uniform(-spread, spread, 3)).astype("<f4")
         for _ in range(count)
@@ -322,7 +322,7 @@ def clouds(
 def described(
     segments: Sequence[np.ndarray[Any, np.dtype[np.float32]]], sensor: Sequence[float] = (0, 0, 0)
 ) -> dict[str, Any]:
-    """The body of a request in msgpack, not packed yet."""
+    """Body of a request as msgpack content, not yet packed."""
     return {
         "segments": [
             {"points": each.astype("<f4").tobytes(), "sensor": [*map(float, sensor)]}
@@ -332,23 +332,23 @@ def described(
 
 
 def describe_body(segments: Sequence[np.ndarray[Any, np.dtype[np.float32]]]) -> bytes:
-    """The body of a `/describe` in msgpack."""
+    """Body of a `/describe` request in msgpack."""
     packed: bytes = msgpack.packb(described(segments))
     return packed
 
 
 def kind_of(target: Target) -> Kind:
-    """The kind of map that the service's default model describes."""
+    """Kind of map that the service's default model describes."""
     return Kind.of(target.client(OWNER).info())
 
 
 def delta_of(changed: CompactMap, removed: UInt32 = NONE) -> bytes:
-    """The file of an edit."""
+    """Delta file of an edit."""
     return encode_delta(Delta(changed, removed))
 
 
 def with_columns(content: CompactMap, **columns: Any) -> CompactMap:
-    """A map with other columns."""
+    """Copy of a map with some columns replaced."""
     return replace(content, **columns)
 
 

@@ -1,4 +1,4 @@
-"""What fills, moves or alters the store: A2, A8, A10, A16, A17, A18, A22, A23, A24, A28."""
+"""Attacks on the store: filled, moved or altered files: A2, A8, A10, A16-A18, A22-A24, A28."""
 
 import os
 import shutil
@@ -24,10 +24,10 @@ LAST_ID = (1 << 32) - 1
 DATABASE = "maps.sqlite"
 
 EMPTY_MAPS_MB = 200.0
-"""That 10,000 empty maps may take."""
+"""Largest memory that 10,000 empty maps may take, MB."""
 
 DISK_BYTES = 24 << 20
-"""Of the disk that is filled."""
+"""Size of the disk to fill, bytes."""
 
 DAY = 86_400.0
 
@@ -35,7 +35,7 @@ REFUSALS = {400, 403, 409, 413, 422, 429, 507}
 
 
 def empty_maps(stage: Stage) -> None:
-    """A2: as many maps as a key may make, all empty; then as many over all keys."""
+    """A2: as many empty maps as one key may create, then as many over all keys."""
     count = stage.size(10_000, 200)
     with stage.service(own=not stage.short) as target:
         kind = kind_of(target)
@@ -70,7 +70,7 @@ def empty_maps(stage: Stage) -> None:
 
 
 def all_ids(stage: Stage) -> None:
-    """A8: the last id, and reservations without end, in maps that others use too."""
+    """A8: the highest id and endless id reservations, also in shared maps."""
     with stage.service(own=not stage.short) as target:
         kind = kind_of(target)
         file = {"Content-Type": MAP}
@@ -120,7 +120,7 @@ def all_ids(stage: Stage) -> None:
 
 
 def moved_database(stage: Stage) -> None:
-    """A10: the database is moved away under a running service, read from, and put back."""
+    """A10: the database is moved away from a running service, read from, and put back."""
     with stage.service() as target:
         kind = kind_of(target)
         with stage.victim(target):
@@ -162,7 +162,7 @@ def moved_database(stage: Stage) -> None:
 
 
 def seen_in_the_future(stage: Stage) -> None:
-    """A16: a robot tells that it saw another's segment in the year 2106."""
+    """A16: a robot claims that it saw another robot's segment in the year 2106."""
     late = (1 << 32) - 1
     with stage.service(own=False) as target:
         kind = kind_of(target)
@@ -191,7 +191,7 @@ def seen_in_the_future(stage: Stage) -> None:
 
 
 def last_seen(content: CompactMap) -> tuple[UInt32, Float64]:
-    """Each segment's id, and when it was last seen, seconds."""
+    """Id of each segment and the time when it was last seen, seconds."""
     times = content.frame_times[content.frame_index]
     return content.ids, times if content.seen is None else content.seen.astype(np.float64)
 
@@ -241,7 +241,7 @@ def long_history(stage: Stage) -> None:
 
 
 def full_disk(stage: Stage) -> None:
-    """A18: a disk is filled by a robot and by others; then maps are removed to free it."""
+    """A18: a robot and other programs fill a disk; then maps are deleted to free it."""
     freeing = {
         "DELETE": Request("DELETE", "/maps/hoard", key=OWNER),
         "age": Request("POST", "/maps/hoard/age?unseen_since=4000000000", key=OWNER),
@@ -258,7 +258,7 @@ def full_disk(stage: Stage) -> None:
 
 
 def removed_lock(stage: Stage) -> None:
-    """A22: the lock is removed, and a second service started on the directory."""
+    """A22: the lock file is removed and a second service starts on the directory."""
     with stage.service() as target:
         kind = kind_of(target)
         target.client(VICTIM).edit_map(VICTIM_MAP, Delta(kind.none(), NONE), create=True)
@@ -290,7 +290,7 @@ def removed_lock(stage: Stage) -> None:
 
 
 def restored_backup(stage: Stage) -> None:
-    """A23: ids are reserved, a backup from before is restored, and ids are reserved again."""
+    """A23: ids are reserved, an earlier backup is restored, and ids are reserved again."""
     with stage.service() as target:
         kind = kind_of(target)
         first = _with_ids(stage, kind, VICTIM, [1, 2, 3])
@@ -323,7 +323,7 @@ def restored_backup(stage: Stage) -> None:
 
 
 def delete_of_shared_map(stage: Stage) -> None:
-    """A24: a robot's key deletes a map with others' history."""
+    """A24: a robot's key deletes a map that holds other robots' history."""
     with stage.service(own=False) as target:
         kind = kind_of(target)
         victims = _with_ids(stage, kind, VICTIM, [1, 2])
@@ -350,7 +350,7 @@ def delete_of_shared_map(stage: Stage) -> None:
 
 
 def flipped_bits(stage: Stage) -> None:
-    """A28: bits of commits' notes flip on the disk."""
+    """A28: bits of commit notes flip on the disk."""
     changes = {
         "author": "UPDATE commits SET author = 'mallory' WHERE sequence = 2",
         "time": "UPDATE commits SET time = time + 1e6 WHERE sequence = 2",
@@ -401,7 +401,7 @@ def flipped_bits(stage: Stage) -> None:
 def _expect_after_start(
     stage: Stage, target: Target, made: int, before: float, most: float
 ) -> None:
-    """Expect that all maps are there after a kill, and take no more memory."""
+    """Expect that all maps survive a kill and take no more memory than before."""
     target.kill()
     target.start()
     again = target.peak_mb() - before
@@ -414,7 +414,7 @@ def _expect_after_start(
 
 
 def _expect_limit_of_maps(stage: Stage) -> None:
-    """Expect that a limit of maps is in /info, and holds."""
+    """Expect that /info states a limit on maps and that the service enforces it."""
     with stage.service(own=False) as target:
         limits = target.client(OWNER).info().limits
     names = [name for name in limits if name in {"maps", "key_maps"}]
@@ -489,7 +489,7 @@ def _fill_and_free(stage: Stage, name: str, request: Request) -> None:
 
 
 def _soon(stage: Stage, target: Target, request: Request) -> Answer:
-    """Ask until it is a success, for some seconds."""
+    """Repeat a request until it succeeds, for some seconds."""
     for _ in range(20):
         answer = stage.ask(target, request)
         if answer.status < 300:
@@ -499,7 +499,7 @@ def _soon(stage: Stage, target: Target, request: Request) -> Answer:
 
 
 def _fill(folder: Path) -> Path:
-    """Fill a disk with a file of someone else."""
+    """Fill a disk with a file of another program."""
     file = folder / "ballast"
     with file.open("wb", buffering=0) as written:
         for size in (1 << 20, 1 << 12, 1):
@@ -514,7 +514,7 @@ def _fill(folder: Path) -> Path:
 
 @contextmanager
 def _small_disk(stage: Stage) -> Iterator[bool]:
-    """Make the next service's data directory a small disk; whether that can be done here."""
+    """Put the next service's data directory on a small disk; yield whether that is possible."""
     folder = stage.next_data()
     folder.mkdir(parents=True)
     options = ["-t", "tmpfs", "-o", f"size={DISK_BYTES}", "tmpfs", str(folder)]
@@ -529,7 +529,7 @@ def _small_disk(stage: Stage) -> Iterator[bool]:
 
 @contextmanager
 def _second(target: Target) -> Iterator[str | None]:
-    """Start a second service on the same data; its address, None if it refuses to start."""
+    """Start a second service on the same data; yield its address, None if it refuses to start."""
     command = [sys.executable, "-m", "cli", "serve", "--port", "0", "--data-dir", str(target.data)]
     command += ["--keys-file", str(target.keys_file)]
     with subprocess.Popen(

@@ -1,4 +1,4 @@
-"""Runs the cases, and reports which of them the service holds."""
+"""Run the attack cases and report which of them the service withstands."""
 
 import resource
 import tempfile
@@ -18,12 +18,12 @@ from bench.attack.target import CORES, Target
 from training.evaluation import machine
 
 DESCRIPTORS = 8_192
-"""Of files, that this process and the services that it starts may open."""
+"""Largest number of files that this process and the services that it starts may open."""
 
 
 @dataclass(frozen=True, slots=True)
 class AttackPlan:
-    """What is run.
+    """Selection and limits of an attack run.
 
     Attributes:
         cases: ids of the cases; empty: all.
@@ -41,7 +41,7 @@ class AttackPlan:
 
 
 def chosen(plan: AttackPlan) -> list[Case]:
-    """The cases that a plan names.
+    """Return the cases that a plan names.
 
     Raises:
         ValueError: it names one that does not exist.
@@ -60,7 +60,7 @@ def attack(
     progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,
     told: Callable[[str, dict[str, Any]], None] = lambda *_: None,
 ) -> dict[str, Any]:
-    """Run the cases; the report as `placecell bench attack` writes it.
+    """Run the cases and return the report that `placecell bench attack` writes.
 
     Args:
         plan: what is run.
@@ -97,7 +97,7 @@ def attack(
 
 @contextmanager
 def _shared(plan: AttackPlan) -> Iterator[Target | None]:
-    """Prepare the service that the cases of the short form share; the first one starts it."""
+    """Prepare the service that the short form's cases share; the first case starts it."""
     with tempfile.TemporaryDirectory(prefix="placecell-attack-") as folder:
         shared = Target(Path(folder) / "shared", plan.limit_mb) if plan.short else None
         try:
@@ -108,7 +108,7 @@ def _shared(plan: AttackPlan) -> Iterator[Target | None]:
 
 
 def run_case(case: Case, plan: AttackPlan, shared: Target | None = None) -> dict[str, Any]:
-    """Run one case; its part of the report.
+    """Run one case and return its part of the report.
 
     Args:
         case: to run.
@@ -144,7 +144,7 @@ def run_case(case: Case, plan: AttackPlan, shared: Target | None = None) -> dict
 
 
 def failures(report: dict[str, Any]) -> Sequence[str]:
-    """A line for each case that failed."""
+    """Return one line for each failed case."""
     return [f"{id_}: {case['why']}" for id_, case in report["cases"].items() if not case["held"]]
 
 

@@ -17,13 +17,13 @@ from segments.types import UInt32
 from service.keys import new_key
 
 CORES = 2
-"""That the service may use."""
+"""Processor cores that the service may use."""
 
 LOOK_SECONDS = 0.01
-"""Between two looks at the memory of the service."""
+"""Seconds between two reads of the service's memory."""
 
 ONCE = Retries(attempts=1)
-"""A refusal is told at once."""
+"""Retry policy without retries: a refusal is returned at once."""
 
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
@@ -35,8 +35,8 @@ OWNER, VICTIM, ROBOT, WRITER, READER, HALL = (
     "reader",
     "hall",
 )
-"""Names of the keys: the owner may do all; the victim and mallory write their own segments alone;
-the writer those of all robots; the reader reads; the last one knows maps of `hall-*` alone."""
+"""Names of the keys: the owner may do all; the victim and mallory write their own segments only;
+the writer writes those of all robots; the reader reads; the last one maps of `hall-*`."""
 
 RIGHTS: dict[str, dict[str, Any]] = {
     OWNER: {"write": True, "admin": True},
@@ -50,7 +50,7 @@ RIGHTS: dict[str, dict[str, Any]] = {
 
 @dataclass(slots=True)
 class Memory:
-    """What the watched processes took.
+    """Memory use of the watched processes.
 
     Attributes:
         limit_mb: of resident memory; a service above it is killed.
@@ -64,7 +64,7 @@ class Memory:
 
 
 class Target:
-    """A service that can be attacked, killed and started again on the same data."""
+    """Service that can be attacked, killed and restarted on the same data."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ class Target:
         environment: Mapping[str, str] | None = None,
         with_keys: bool = True,
     ) -> None:
-        """Prepare its files; `start` starts it.
+        """Prepare the service's files; `start` starts it.
 
         Args:
             folder: a new one, for its data directory `data` and its file of keys.
@@ -107,17 +107,17 @@ class Target:
 
     @property
     def service(self) -> Service:
-        """The process, as long as it runs."""
+        """Return the process; fails unless the service runs."""
         assert self._service is not None
         return self._service
 
     @property
     def place(self) -> tuple[str, int]:
-        """Host and port."""
+        """Return host and port."""
         return address_of(self.address)
 
     def start(self) -> None:
-        """Start it and wait until it listens.
+        """Start the service and wait until it listens.
 
         Raises:
             RuntimeError: it does not start.
@@ -140,21 +140,21 @@ class Target:
             client.info()
 
     def stop(self) -> None:
-        """Stop it as an operator does."""
+        """Stop the service as an operator does."""
         if self._service is not None:
             self._leave()
             self._service.stop()
             self._service = None
 
     def kill(self) -> None:
-        """Kill it as a power cut does."""
+        """Kill the service as a power cut does."""
         if self._service is not None:
             self._leave()
             self._service.kill()
             self._service = None
 
     def client(self, name: str = OWNER, seconds: float = 120.0) -> Client:
-        """A client with the key of that name; closed when the service stops."""
+        """Return a client with the key of that name; it is closed when the service stops."""
         if name not in self._clients:
             self._clients[name] = Client(
                 self.address, seconds, key=self.keys.get(name), retries=ONCE
@@ -162,7 +162,7 @@ class Target:
         return self._clients[name]
 
     def authorization(self, name: str | None) -> dict[str, str]:
-        """The header that shows a key; none without a name or without keys."""
+        """Return the header that shows a key; empty without a name or without keys."""
         key = self.keys.get(name) if name is not None else None
         return {"Authorization": f"Bearer {key}"} if key is not None else {}
 
@@ -171,12 +171,12 @@ class Target:
         return self._service is not None and self._service.process.poll() is None
 
     def resident_mb(self) -> float:
-        """What it has in memory now."""
+        """Return the service's resident memory, MB."""
         pages = Path(f"/proc/{self.service.process.pid}/statm").read_text().split()[1]
         return int(pages) * PAGE_BYTES / 1e6
 
     def peak_mb(self) -> float:
-        """The most that it had since `forget_peak`; 0 if it is gone."""
+        """Return the peak memory since `forget_peak`, MB; 0 if the process is gone."""
         try:
             peak = self.service.peak_mb()
         except (AssertionError, OSError, IndexError):  # a dead process has no memory
@@ -185,7 +185,7 @@ class Target:
         return peak
 
     def forget_peak(self) -> None:
-        """Let the kernel count the peak anew, from what it has in memory now."""
+        """Reset the kernel's count of the peak memory."""
         self.peak_mb()
         Path(f"/proc/{self.service.process.pid}/clear_refs").write_text("5")
 

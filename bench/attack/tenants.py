@@ -1,4 +1,4 @@
-"""What one key learns of or takes from another: A9, A12, A19, A20, A21, A25, A26."""
+"""Attacks on what one key learns or takes from another: A9, A12, A19, A20, A21, A25, A26."""
 
 import re
 import time
@@ -17,14 +17,14 @@ from bench.made_map import Kind
 from segments.types import UInt32
 
 ROOT = Path(__file__).resolve().parents[2]
-"""Of the checkout."""
+"""Root folder of the checkout."""
 
 SECRET = "secret-lab"
-"""A map that the key of the hall knows nothing of."""
+"""Name of a map that the key of `hall-*` must not learn."""
 
 
 def foreign_pages(stage: Stage) -> None:
-    """A9: a page of a foreign site, and a rebound name, before a service without keys."""
+    """A9: a foreign site's page and a rebound name, against a service without keys."""
     with stage.service(with_keys=False) as target:
         kind = kind_of(target)
         here = target.address.removeprefix("http://")
@@ -82,7 +82,7 @@ def foreign_pages(stage: Stage) -> None:
 
 
 def broken_key_file(stage: Stage) -> None:
-    """A12: a key is withdrawn from a file that has a typo, or whose file is deleted."""
+    """A12: a key is withdrawn from a file that has a typo or is deleted."""
     with stage.service() as target:
         assert target.keys_file is not None
         whole = target.keys_file.read_text()
@@ -124,7 +124,7 @@ def broken_key_file(stage: Stage) -> None:
 
 
 def foreign_names(stage: Stage) -> None:
-    """A19: what a key of `hall-*` learns of other maps and keys."""
+    """A19: names of other maps and keys that a key of `hall-*` sees."""
     with stage.service({"PLACECELL_LIMITS__ROBOT_SEGMENTS": "50"}) as target:
         kind = kind_of(target)
         client = target.client(OWNER)
@@ -186,7 +186,7 @@ def foreign_names(stage: Stage) -> None:
 
 
 def docs_pages(stage: Stage) -> None:
-    """A20: the pages of the documentation, and what the OpenAPI says of keys."""
+    """A20: the documentation pages, and the key requirements in the OpenAPI."""
     with stage.service(own=False) as target:
         for path in ("/docs", "/redoc"):
             page = stage.ask(target, Request("GET", path))
@@ -218,7 +218,7 @@ def docs_pages(stage: Stage) -> None:
 
 
 def unknown_keys(stage: Stage) -> None:
-    """A21: requests with none and with wrong keys."""
+    """A21: requests without a key and with wrong keys."""
     with stage.service(own=False) as target:
         headers = {
             "no key": {},
@@ -242,7 +242,7 @@ def unknown_keys(stage: Stage) -> None:
 
 
 def many_sessions(stage: Stage) -> None:
-    """A25: one key opens sessions until another's would be forgotten."""
+    """A25: one key opens sessions until another key's session would be dropped."""
     with stage.service({"PLACECELL_LIMITS__SESSIONS": "40"}) as target:
         kind = kind_of(target)
         codes = stage.random.integers(-127, 128, (60, kind.code_bytes)).astype(np.int8)
@@ -309,7 +309,7 @@ def many_sessions(stage: Stage) -> None:
 
 
 def pinned_builds(stage: Stage) -> None:
-    """A26: what an image is built from."""
+    """A26: the pinned sources of an image build."""
     dockerfile = (ROOT / "Dockerfile").read_text()
     images = re.findall(r"^FROM\s+(\S+)", dockerfile, flags=re.MULTILINE)
     stages = set(re.findall(r"^FROM\s+\S+\s+AS\s+(\S+)", dockerfile, flags=re.MULTILINE | re.I))
@@ -340,7 +340,7 @@ def pinned_builds(stage: Stage) -> None:
 
 
 def score_of(answer: dict[str, object]) -> float:
-    """The probability of the first localization of an answer; -1 if there is none."""
+    """Return the probability of an answer's first localization; -1 if there is none."""
     told = answer.get("localisations") or answer.get("localizations") or []
     assert isinstance(told, list)
     return round(float(told[0]["probability"]), 6) if told else -1.0
@@ -355,7 +355,7 @@ def _put_precious(stage: Stage, target: Target, kind: Kind) -> None:
 
 
 def _status(target: Target, method: str, path: str, headers: dict[str, str]) -> int:
-    """Of a request with exactly these headers."""
+    """Return the status of a request with exactly these headers."""
     lines = [f"{method} {path} HTTP/1.1", *(f"{name}: {value}" for name, value in headers.items())]
     head = "\r\n".join([*lines, "Content-Length: 0", "Connection: close", "", ""])
     line = raw(target, head.encode()).split(b"\r\n")[0].split()
@@ -363,7 +363,7 @@ def _status(target: Target, method: str, path: str, headers: dict[str, str]) -> 
 
 
 def _key_metrics(stage: Stage, target: Target) -> dict[str, str]:
-    """Metrics of the file of keys."""
+    """Return the metrics about the key file."""
     lines = stage.ask(target, Request("GET", "/metrics")).text.splitlines()
     found = [line.rpartition(" ") for line in lines if re.match(r"[a-z_]*keys?[a-z_]*[ {]", line)]
     return {name: value for name, _, value in found}

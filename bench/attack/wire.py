@@ -1,4 +1,4 @@
-"""Requests as an attacker sends them: whole, slow, cut, many at once, or no HTTP at all."""
+"""Requests as an attacker sends them: whole, slow, cut, concurrent, or not HTTP."""
 
 import http.client
 import json
@@ -33,14 +33,14 @@ class Request:
 
 
 def edit(name: str, delta: bytes, key: str | None, query: str = "") -> Request:
-    """The request that edits a map, with options such as `create=true`."""
+    """Return the request that edits a map, with a query such as `create=true`."""
     path = f"/maps/{name}/segments" + (f"?{query}" if query else "")
     return Request("POST", path, delta, key, {"Content-Type": DELTA})
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """An answer; status 0 if the connection failed before it came."""
+    """Answer of the service; status 0 if the connection failed before one arrived."""
 
     status: int
     seconds: float
@@ -48,17 +48,17 @@ class Answer:
     headers: Mapping[str, str] = field(default_factory=dict)
 
     def json(self) -> Any:
-        """The body, which is JSON."""
+        """Parse the body as JSON."""
         return json.loads(self.body)
 
     @property
     def text(self) -> str:
-        """The body as text."""
+        """Decode the body as text."""
         return self.body.decode(errors="replace")
 
 
 def ask(target: Target, request: Request, seconds: float = 120.0) -> Answer:
-    """Send a request on a connection of its own."""
+    """Send a request on its own connection and return the answer."""
     host, port = target.place
     connection = http.client.HTTPConnection(
         host, port, timeout=seconds, source_address=_source_of(host)
@@ -80,13 +80,13 @@ def ask(target: Target, request: Request, seconds: float = 120.0) -> Answer:
 def ask_all(
     target: Target, requests: Sequence[Request], at_once: int, seconds: float = 120.0
 ) -> list[Answer]:
-    """Send requests, so many at once."""
+    """Send requests concurrently and return their answers."""
     with ThreadPoolExecutor(at_once) as pool:
         return list(pool.map(lambda request: ask(target, request, seconds), requests))
 
 
 def head_of(target: Target, request: Request, length: int | None = None) -> bytes:
-    """The head of a request whose body is of this length, or as long as it is."""
+    """Return a request's head; `length` overrides the body's length."""
     length = len(request.body) if length is None else length
     headers = {"Host": target.address.removeprefix("http://")}
     headers |= target.authorization(request.key) | dict(request.headers)
@@ -100,7 +100,7 @@ def head_of(target: Target, request: Request, length: int | None = None) -> byte
 def connect(
     target: Target, seconds: float = 30.0, receive_bytes: int | None = None
 ) -> socket.socket:
-    """A connection from the attacker's address.
+    """Open a connection from the attacker's address.
 
     Args:
         target: to connect to.
@@ -123,13 +123,13 @@ def connect(
 
 
 def abandon(target: Target, request: Request) -> None:
-    """Send a whole request and leave without its answer."""
+    """Send a whole request and disconnect before its answer."""
     with suppress(OSError), connect(target) as connection:
         connection.sendall(head_of(target, request) + request.body)
 
 
 def raw(target: Target, data: bytes, seconds: float = 10.0) -> bytes:
-    """Send bytes as they are; all that comes back until the service closes the connection.
+    """Send raw bytes and return what arrives until the service closes the connection.
 
     A service that keeps the connection open ends the answer with the text `(left open)`.
     """

@@ -1,4 +1,4 @@
-"""Small requests that cost much: A1, A4, A13, A14, A15."""
+"""Small requests that cost much work: A1, A4, A13, A14, A15."""
 
 import gzip
 import json
@@ -33,11 +33,11 @@ DEDUPLICATION_MB = 200.0
 
 VOXEL = 0.6
 CELLS = 1 << 13
-"""Of the table of voxels that the crafted points fill: its voxels' edge, and cells along a box."""
+"""Number of cells of the voxel table that the crafted points fill."""
 
 
 def coincident(stage: Stage) -> None:
-    """A1: segments that all lie in one place, with `deduplicate=true`."""
+    """A1: coincident segments with `deduplicate=true`."""
     count = stage.size(100_000, 8_000)
     with stage.service(own=False) as target:
         kind = kind_of(target)
@@ -65,7 +65,7 @@ def coincident(stage: Stage) -> None:
 
 
 def crafted_points(stage: Stage) -> None:
-    """A4: points that fill one slot of a hash table, and segments that all see each other."""
+    """A4: points that collide in one hash slot, and segments that are all within reach."""
     points = stage.size(50_000, 20_000)
     segment = _one_slot(points)
     crafted = describe_body([segment] * stage.size(10, 5))
@@ -102,7 +102,7 @@ def crafted_points(stage: Stage) -> None:
 
 
 def long_line(stage: Stage) -> None:
-    """A13: two maps whose sensor positions lie on a line along y are aligned and merged."""
+    """A13: aligning and merging two maps whose sensor positions lie on a line along y."""
     count, limit = stage.size(160_000, 20_000), 5.0
     environment = {"PLACECELL_LIMITS__ALIGNMENT_SECONDS": str(limit)}
     with stage.service(environment) as target:
@@ -128,7 +128,7 @@ def long_line(stage: Stage) -> None:
 
 
 def bombs(stage: Stage) -> None:
-    """A14: bodies of empty gzip members and zstd frames, of names of maps, of nothing much."""
+    """A14: bodies of empty gzip members and zstd frames, of many map names, and tiny ones."""
     megabytes = stage.size(16, 2)
     room = (megabytes << 20) - 1_000
     member, frame = gzip.compress(b"", mtime=0), zstandard.ZstdCompressor().compress(b"")
@@ -180,7 +180,7 @@ def bombs(stage: Stage) -> None:
 
 
 def far_origin(stage: Stage) -> None:
-    """A15: an origin at the limit of coordinates, and points at it too."""
+    """A15: an origin at the limit of coordinates, and points at that limit too."""
     far = 1e8
     cases: list[tuple[list[float], list[float], list[float]]] = [
         ([far, 0, 0], [far, 0, 0], [far, 0, 0]),
@@ -218,7 +218,7 @@ def far_origin(stage: Stage) -> None:
 
 
 def _parked(stage: Stage, kind: Kind, objects: int, count: int, noise: float) -> bytes:
-    """The edit of a robot that stands before some objects and sees them again and again."""
+    """Return the edit of a robot that stands before `objects` and sees them repeatedly."""
     made = kind.made(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random)
     frames = count // objects
     owners = np.arange(count) % objects
@@ -237,7 +237,7 @@ def _parked(stage: Stage, kind: Kind, objects: int, count: int, noise: float) ->
 
 
 def _line(stage: Stage, kind: Kind, count: int) -> Any:
-    """A map of one segment a frame, all along y."""
+    """Return a map along y with one segment per frame."""
     positions = np.zeros((count, 3))
     positions[:, 1] = 0.02 * np.arange(count)
     ids: UInt32 = np.arange(1, count + 1, dtype=np.uint32)
@@ -252,7 +252,7 @@ def _line(stage: Stage, kind: Kind, count: int) -> Any:
 
 
 def _one_slot(points: int) -> Cloud:
-    """A segment all of whose voxels would share a slot of a table that hashes without a seed."""
+    """Return a segment whose voxels share one slot of a table with an unseeded hash."""
     slots = 1
     while slots < 2 * points:
         slots *= 2
@@ -278,7 +278,7 @@ def _as_json(segments: Sequence[Cloud]) -> bytes:
 
 
 def _begin(target: Target) -> float:
-    """Count the peak of memory anew; what is in memory now, MB."""
+    """Reset the peak memory count; return the memory in use now, MB."""
     target.forget_peak()
     return target.resident_mb()
 
