@@ -1,4 +1,4 @@
-"""Floors that look alike: how often a robot on one of them is told, and surely, another one.
+"""Look-alike floors: how often /localize confuses one floor with another, and how surely.
 
 A floor is a set of things, each with a descriptor and a place. Another floor has the same things in
 the same places, but for a share that is replaced by others. Each map sees each thing anew: its
@@ -34,15 +34,15 @@ from service.timing import Timing
 from training.evaluation import machine
 
 SIZE = np.array([90.0, 40.0, 4.0])
-"""Of a floor, metres."""
+"""Size of a floor along x, y, z, meters."""
 
 SCATTER = 0.3
-"""Of a thing's centroid between views, standard deviation along each axis, metres."""
+"""Scatter of a thing's centroid between views: standard deviation along each axis, meters."""
 
 SURE = 0.9
 
 NEAR = 3.0, 10.0
-"""Meters and degrees within which a pose is the right place; how exact it is, others measure."""
+"""Tolerance of a right pose, meters and degrees; how exact a pose is, other benches measure."""
 
 K = 25
 
@@ -95,7 +95,7 @@ CASES = (
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One robot that asked once.
+    """Result of one trial: one robot that asked once.
 
     Attributes:
         case: name of it.
@@ -127,7 +127,7 @@ def bench(
     *,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Run the trials, evenly over cases and shares of change; the report of `bench floors`.
+    """Run the trials, spread evenly over cases and shares of change; return the report.
 
     Args:
         views: of each model, the first one's maps are asked.
@@ -161,19 +161,19 @@ def bench(
 
 
 DECIDES, LEAST = 0.3, 10
-"""Share of what the robot sees, and number of segments, that only the true floor has: from here on
-the difference decides."""
+"""Share of the robot's segments, and number of segments, that only the true floor must have for the
+difference to decide."""
 
 
 def decides(trial: Trial) -> bool:
-    """Whether the robot sees enough of what differs, and scores of one model tell it."""
+    """Return whether the robot sees enough of the difference, and scores of one model show it."""
     seen = {case.name: case.seen for case in CASES}.get(trial.case, 0)
     is_enough = trial.differs >= DECIDES and trial.differs * seen >= LEAST
     return is_enough and trial.case != "two models"
 
 
 def summary(trials: Sequence[Trial]) -> dict[str, Any]:
-    """Count what came out."""
+    """Summarize the trials of each case."""
     count = len(trials)
     return {
         "trials": count,
@@ -188,14 +188,14 @@ def summary(trials: Sequence[Trial]) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Floor:
-    """What stands on a floor: things by number, and their places, float64 (n, 3)."""
+    """Floor of a building: things by number, and their positions, float64 (n, 3)."""
 
     things: Int64
     places: Float64
 
 
 def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) -> Trial:
-    """Draw floors, map them, and ask from the first."""
+    """Draw floors, map them, and localize a robot of the first floor."""
     random = np.random.default_rng(seed)
     share = float(random.uniform(0, 0.6)) if case.differing is None else 0.0
     count = case.things
@@ -269,7 +269,7 @@ def _outcome(
     truth: Pose,
     here: Float64,
 ) -> Trial:
-    """What the robot makes of the answer."""
+    """Return what the robot makes of the answer."""
     best = answers[0]
     pose, probability = best.judged.localisation.pose, best.judged.localisation.probability
     is_told = pose is not None
@@ -296,7 +296,7 @@ def _near(pose: Pose | None, truth: Pose, here: Float64) -> bool:
 
 
 def _extended(floor: Floor, count: int, first: int, random: np.random.Generator) -> Floor:
-    """A floor in a map of more: further things, beside it."""
+    """Return a floor with further things beside it, as part of a larger map."""
     reach = SIZE * (np.ceil(count / len(floor.things)), 1.0, 1.0)
     places = random.uniform(0, 1, (count, 3)) * reach + (SIZE[0] + 20.0, 0.0, 0.0)
     return Floor(
@@ -308,7 +308,7 @@ def _extended(floor: Floor, count: int, first: int, random: np.random.Generator)
 def _mapped(
     floor: Floor, views: Views, looks: Float32, times: int, name: str, random: np.random.Generator
 ) -> CompactMap:
-    """A map of a floor: each thing seen so many times."""
+    """Return a map of a floor, with each thing seen `views` times."""
     things = np.repeat(floor.things, times)
     codes: Int8 = views.codes(looks, things, random)
     content = map_of(codes, views.manifest, f"robot of {name}", int(random.integers(2**31)))
@@ -325,7 +325,7 @@ def _stored(content: CompactMap, model: Model, name: str) -> StoredMap:
 
 
 class _Shared:
-    """The shared indexes of one trial."""
+    """Shared indexes of one trial."""
 
     def __init__(self) -> None:
         self.shared = SharedIndexes()
@@ -336,7 +336,7 @@ class _Shared:
 
 
 def loaded(folder: Path, names: Sequence[str]) -> list[Model]:
-    """The models of a folder, as the service loads them."""
+    """Load the models of a folder as the service loads them."""
     settings = Settings(models_dir=folder, model=names[0], also=tuple(names[1:]))
     models = Models(settings, Metrics())
     return [models.named(name) for name in names]

@@ -1,4 +1,4 @@
-"""How fast JSON requests are read, and for how long other threads wait meanwhile."""
+"""Throughput of the JSON request reader, and how long other threads wait for it."""
 
 import json
 import os
@@ -22,7 +22,7 @@ Read = Callable[[bytes], Scan]
 
 
 def bench(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
-    """Measure the reader and the one before it, in the same run.
+    """Measure the present reader and the former one in the same run.
 
     Args:
         seconds: of each of them.
@@ -51,14 +51,14 @@ def bench(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
 
 
 def body_of(segments: int, points: int, seed: int) -> bytes:
-    """A request of /describe, its points float32 written with all digits."""
+    """Return a /describe request whose float32 points are written with all digits."""
     drawn = np.random.default_rng(seed).normal(0, 30, (segments, points, 3)).astype(np.float32)
     content = [{"points": each.tolist(), "sensor": [0.0, 0.0, 1.8]} for each in drawn]
     return json.dumps({"segments": content}).encode()
 
 
 def saturation(read: Read, body: bytes, seconds: float) -> float:
-    """Requests a second that all cores read."""
+    """Return the requests per second that all cores read together."""
     threads = os.cpu_count() or 1
     read(body)
     began = time.perf_counter()
@@ -76,7 +76,7 @@ def saturation(read: Read, body: bytes, seconds: float) -> float:
 
 
 def longest_pause(read: Read, body: bytes, repeats: int = 5) -> float:
-    """Milliseconds that a thread which only wakes up waits at most; median of some runs."""
+    """Return the median of the longest wait of an otherwise idle thread, milliseconds."""
     worst = []
     for _ in range(repeats):
         ticks, done = [time.perf_counter()], threading.Event()

@@ -35,7 +35,7 @@ SCATTER = 0.3
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What is measured.
+    """Sizes and rates of the measurement.
 
     Attributes:
         sizes: segments of the map.
@@ -101,7 +101,7 @@ def _row(views: Views, size: int, plan: Plan, data: Path, seed: int) -> dict[str
 
 
 def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
-    """Measure requests that name no map, among many maps."""
+    """Measure requests without `maps` among many maps."""
     frame = random_frame(seed)
     # One road, cut into maps, no two of which hold the same things; each robot is within one.
     views_a_map = plan.map_segments // VIEWS * VIEWS
@@ -132,7 +132,7 @@ def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]
 def road_with_queries(
     views: Views, size: int, plan: Plan, frame: Pose, seed: int, step: int | None = None
 ) -> tuple[CompactMap, Sequence[Description]]:
-    """A map of so many segments, and what a robot sees of it.
+    """Return a map of `count` segments and what a robot sees of it.
 
     Args:
         frame: from the map's to the robot's own.

@@ -103,7 +103,7 @@ class Views:
         )
 
     def things(self, count: int, random: np.random.Generator) -> Float32:
-        """Draw descriptors of so many things, float32 (count, d)."""
+        """Draw descriptors of `count` things, float32 (count, d)."""
         real = self.found[random.permutation(len(self.found))[:count]]
         pairs = random.integers(len(self.found), size=(count - len(real), 2))
         mixed = (self.found[pairs[:, 0]] + self.found[pairs[:, 1]]) * np.float32(np.sqrt(0.5))

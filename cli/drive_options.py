@@ -1,4 +1,4 @@
-"""Options of every command that reads recorded drives: how their files are laid out."""
+"""Options of every command that reads recorded drives: the layout of their files."""
 
 import functools
 import inspect
@@ -72,12 +72,12 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
 
 
 def tell(message: str) -> None:
-    """Tell on standard error what was found in a drive's files."""
+    """Print on standard error what was found in a drive's files."""
     typer.echo(f"placecell: {message}", err=True)
 
 
 def takes_drives(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command the options of recorded drives, in force while it runs."""
+    """Add the options of recorded drives to a command; they apply while it runs."""
 
     @functools.wraps(command)
     def with_options(**words: Any) -> None:

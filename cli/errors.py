@@ -1,4 +1,4 @@
-"""Errors as lines: the one place where an exception becomes a message and an exit status."""
+"""Errors of the command line: turns exceptions into messages and exit statuses."""
 
 import codecs
 import errno
@@ -13,7 +13,7 @@ import typer
 from typer.core import TyperGroup
 
 DEBUG_VARIABLE = "PLACECELL_DEBUG"
-"""Set to anything, an unexpected error is shown with its stack trace."""
+"""Environment variable that shows unexpected errors with their stack trace, whatever its value."""
 
 FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 """Exit statuses; the last two are 128 and the signal's number, as shells have it."""
@@ -28,7 +28,7 @@ def fail(message: object, status: int = FAILED) -> NoReturn:
 
 @contextmanager
 def clear_errors() -> Iterator[None]:
-    """Show errors that tell the user what to do as a line, not as a stack trace."""
+    """Show errors that the user can mend as one line, without a stack trace."""
     try:
         yield
     except BrokenPipeError:
@@ -44,7 +44,7 @@ def clear_errors() -> Iterator[None]:
 
 
 def plain(error: BaseException) -> str:
-    """Say in a line what went wrong: the file or setting first, then what, then what to do."""
+    """Return an error as one line: the file or setting, the fault, the remedy."""
     if isinstance(error, OSError):
         return _plain_os_error(error)
     if isinstance(error, UnicodeError):
@@ -105,7 +105,7 @@ codecs.register(_find_codec)
 
 
 def _prepare_streams() -> None:
-    """Let no character of a name end a command: what the terminal cannot show is escaped."""
+    """Escape characters that the terminal cannot show, so that no name ends a command."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by the shell: `>&-`
@@ -117,7 +117,7 @@ def _prepare_streams() -> None:
 
 
 def _silence(stream: Any) -> None:
-    """Let what is left in a stream's buffer go nowhere, so that nothing fails at the exit."""
+    """Discard what is left in a stream's buffer, so that nothing fails at exit."""
     try:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())
@@ -127,7 +127,7 @@ def _silence(stream: Any) -> None:
 
 
 class Commands(TyperGroup):
-    """The root of all commands; whatever one raises ends as a line and an exit status."""
+    """Root of all commands; turns exceptions into a line and an exit status."""
 
     def main(
         self,
@@ -178,7 +178,7 @@ class Commands(TyperGroup):
 
 
 def _flush() -> None:
-    """Write what was printed, for a full disk or a closed pipe to be told now.
+    """Flush the output, so that a full disk or a closed pipe is reported now.
 
     Raises:
         Exit: the output cannot be written.
@@ -194,7 +194,7 @@ def _flush() -> None:
 
 
 def _show_usage(error: Any) -> int:
-    """Two lines: what is wrong with the words, and where help is."""
+    """Print two lines, the usage error and where to find help; return the exit status."""
     status = int(error.exit_code)
     context = getattr(error, "ctx", None)
     if type(error).__name__ == "NoArgsIsHelpError":

@@ -160,7 +160,7 @@ def _listening_socket(settings: "Settings", open_to_all: bool) -> Iterator[socke
 
 @contextmanager
 def _unix_socket(path: Path) -> Iterator[socket.socket]:
-    """A Unix socket that listens; a file that a service left behind is replaced."""
+    """Listen on a Unix socket; replaces a socket file that a stopped service left behind."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as listening:
         try:
             if path.is_socket() and not _is_answered(path):
@@ -176,7 +176,7 @@ def _unix_socket(path: Path) -> Iterator[socket.socket]:
 
 
 def _is_answered(path: Path) -> bool:
-    """Whether a process listens on a Unix socket."""
+    """Return whether a process listens on a Unix socket."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
         try:
             probe.connect(str(path))
@@ -186,7 +186,7 @@ def _is_answered(path: Path) -> bool:
 
 
 def _shown(listening: socket.socket) -> str:
-    """Where the service can be reached, for those who start it."""
+    """Return the address at which clients reach the service."""
     name = listening.getsockname()
     if isinstance(name, str):
         return f"unix:{name}"
@@ -195,7 +195,7 @@ def _shown(listening: socket.socket) -> str:
 
 
 def _raise_file_limit(connections: int) -> None:
-    """Let the process open a file for each connection, and some more, if the system allows it."""
+    """Raise the limit of open files to the number of connections and some more, if allowed."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     wanted = 2 * connections + 1_024
     if hard != resource.RLIM_INFINITY:

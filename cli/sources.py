@@ -71,7 +71,7 @@ def load(path: Path, every: int | None = None) -> "Recording":
 
 
 def refuse_nothing(drive: "Drive", recordings: "Sequence[Recording]") -> None:
-    """Refuse a drive that gave no segments, and say what its scans are like.
+    """Refuse a drive that gave no segments; the error describes its scans.
 
     Raises:
         ValueError: none of the recordings holds a segment.

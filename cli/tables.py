@@ -1,4 +1,4 @@
-"""Tables and JSON on standard output: for people on a terminal, whole and plain in a pipe."""
+"""Tables and JSON on standard output: colored on a terminal, plain and uncut in a pipe."""
 
 import json
 import sys
@@ -17,11 +17,11 @@ JsonFile = Annotated[
 ]
 
 UNBOUNDED = 1_000_000
-"""Columns of a pipe: nothing in a table is cut or wrapped."""
+"""Width of a table in a pipe, columns: large enough that nothing is cut or wrapped."""
 
 
 def console() -> "Console":
-    """A console that shows names as they are: no markup, no emoji; in a pipe no color, no width."""
+    """Return a console that shows names without markup or emoji; a pipe gets no color."""
     from rich.console import Console
 
     if sys.stdout.isatty():
@@ -37,14 +37,14 @@ def console() -> "Console":
 
 
 def progress_console() -> "Console":
-    """Where progress bars go: standard error, so that a pipe holds results alone."""
+    """Return the console of progress bars: standard error, so that a pipe holds results only."""
     from rich.console import Console
 
     return Console(stderr=True)
 
 
 def new_table(*headers: str, title: str | None = None) -> "Table":
-    """A table whose cells are wrapped where a terminal is narrow, never cut."""
+    """Return a table that wraps its cells on a narrow terminal and never cuts them."""
     from rich.table import Table
 
     table = Table(title=title)
@@ -54,7 +54,7 @@ def new_table(*headers: str, title: str | None = None) -> "Table":
 
 
 def print_tables(*tables: "Table") -> None:
-    """Print tables, one under the other.
+    """Print tables, one below the other.
 
     Raises:
         BrokenPipeError: nobody reads them.
@@ -66,19 +66,19 @@ def print_tables(*tables: "Table") -> None:
 
 
 def print_json(content: Any) -> None:
-    """Print JSON, arrays as lists."""
+    """Print JSON, with arrays as lists."""
     typer.echo(json.dumps(content, indent=2, default=_plain))
 
 
 def write_json(content: Any, file: Path | None) -> None:
-    """Write figures as JSON, if a file is named."""
+    """Write figures as JSON if a file is named."""
     if file:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(content, indent=2, default=_plain) + "\n", encoding="utf-8")
 
 
 def _plain(value: Any) -> Any:
-    """An array, a number of NumPy's, a path or a set as JSON has it."""
+    """Convert an array, a NumPy number, a path or a set to a JSON value."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, set | frozenset | tuple):

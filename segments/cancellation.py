@@ -1,4 +1,4 @@
-"""Cancellation: a token that stops work whose request is late or whose client has left.
+"""Cancellation: a token that stops work whose request is late or whose client disconnected.
 
 A token is set for a request and found by everything below it, in threads too:
 
@@ -22,11 +22,11 @@ from segments.types import Int32
 
 
 class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
-    """The work was stopped: its request is late, or its client has left."""
+    """Work was stopped because its request is late or its client disconnected."""
 
 
 class CancelToken:
-    """Says whether work shall stop. Safe to share between threads.
+    """Token that tells work to stop. Safe to share between threads.
 
     Attributes:
         flag: int32 (1,), not 0 once the work shall stop; compiled loops read it.
@@ -41,23 +41,23 @@ class CancelToken:
         self.deadline = deadline
 
     def cancel(self) -> None:
-        """Stop the work as soon as it looks."""
+        """Tell the work to stop at its next check."""
         self.flag[0] = 1
 
     @property
     def is_cancelled(self) -> bool:
-        """Whether the work shall stop."""
+        """Return whether the work is to stop."""
         if not self.flag[0] and time.monotonic() >= self.deadline:
             self.cancel()
         return bool(self.flag[0])
 
     @property
     def seconds_left(self) -> float:
-        """Seconds until the deadline, 0 or more; inf: there is none."""
+        """Return the seconds until the deadline, 0 or more; inf without a deadline."""
         return max(self.deadline - time.monotonic(), 0.0)
 
     def check(self) -> None:
-        """Stop here if the work shall stop.
+        """Raise `Cancelled` if the work is to stop.
 
         Raises:
             Cancelled: it shall.
@@ -76,7 +76,7 @@ def current() -> CancelToken:
 
 @contextmanager
 def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
-    """Make a token the current one for a block, and for the threads and tasks that it starts."""
+    """Make a token current for a block and for the threads and tasks that it starts."""
     before = _token.set(token)
     try:
         yield token
@@ -85,7 +85,7 @@ def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
 
 
 def _is_cancelled(typing_context: Any, flag: Any) -> Any:
-    """Read a flag in compiled code, anew at each call: a plain read may leave the loop."""
+    """Read a flag in compiled code, anew at each call: the compiler may hoist a plain read."""
     del typing_context
 
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -97,4 +97,4 @@ def _is_cancelled(typing_context: Any, flag: Any) -> Any:
 
 
 is_cancelled: Any = numba.extending.intrinsic(_is_cancelled)
-"""In compiled code: whether a token's flag (int32 array) is set. Costs a read of memory."""
+"""Compiled function: whether a token's flag (int32 array) is set. Costs one memory read."""

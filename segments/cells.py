@@ -1,4 +1,4 @@
-"""Cells of a grid: which points may be near each other, whoever chose where they are."""
+"""Grid cells: find points that may be near each other, wherever the points are."""
 
 import secrets
 
@@ -8,14 +8,14 @@ from segments.jit import compiled
 from segments.types import Float64, Int64, UInt64
 
 SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
-"""Of the numbers of cells, new in each process: nobody can choose points whose numbers collide."""
+"""Seed of cell numbers, new in each process: nobody can choose points whose numbers collide."""
 
 LAYER_BITS = 20
-"""Of a cell's number, the lowest, tell its layer: cells above each other are found together."""
+"""Lowest bits of a cell's number that hold its layer, so that stacked cells are found together."""
 
 
 def neighboring(points: Float64, radius: float) -> tuple[Int64, Int64]:
-    """Put points into cells, such that those within the radius are in neighboring ones.
+    """Assign points to cells such that points within the radius are in neighboring cells.
 
     Time is that of sorting, wherever the points are.
 
@@ -40,7 +40,7 @@ def neighboring(points: Float64, radius: float) -> tuple[Int64, Int64]:
 
 @compiled
 def _key(x: int, y: int, z: int, seed: UInt64) -> np.uint64:
-    """Return the number of a cell; the finalizer of MurmurHash3 (Appleby), seeded."""
+    """Return the number of a cell: the finalizer of MurmurHash3 (Appleby), seeded."""
     mixed: np.uint64 = seed[0]
     for coordinate in (x, y):
         mixed = (mixed + np.uint64(coordinate)) * seed[1]
@@ -53,14 +53,14 @@ def _key(x: int, y: int, z: int, seed: UInt64) -> np.uint64:
 
 @compiled
 def _number(cells: Int64, seed: UInt64, keys: UInt64) -> None:
-    """Fill keys, the number of each cell."""
+    """Fill `keys` with the number of each cell."""
     for row in range(len(cells)):
         keys[row] = _key(cells[row, 0], cells[row, 1], cells[row, 2], seed)
 
 
 @compiled
 def _look_around(cells: Int64, distinct: UInt64, seed: UInt64, around: Int64) -> None:
-    """Fill around: the cell itself first, then the others."""
+    """Fill `around` with each cell and its neighbors, the cell itself first."""
     for row in range(len(cells)):
         around[row, 0] = row
         count = 1
@@ -86,7 +86,7 @@ def _look_around(cells: Int64, distinct: UInt64, seed: UInt64, around: Int64) ->
 
 @compiled
 def _place_of(distinct: UInt64, key: np.uint64) -> int:
-    """Return how many of the numbers, ascending, are lower than a key."""
+    """Return how many of the ascending numbers are lower than a key."""
     low, high = 0, len(distinct)
     while low < high:
         middle = (low + high) // 2

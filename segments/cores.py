@@ -1,4 +1,4 @@
-"""Processor cores that this process may use: affinity and the quota of its control group."""
+"""Processor cores that this process may use: CPU affinity and control group quota."""
 
 import math
 import os
@@ -7,7 +7,7 @@ from collections.abc import Iterator, MutableMapping
 from pathlib import Path, PurePosixPath
 
 THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-"""Of libraries that otherwise start a thread for each core of the host; see `limit_threads`."""
+"""Variables of libraries that by default start a thread per host core; see `limit_threads`."""
 
 OPENMP = "OMP_NUM_THREADS"
 
@@ -35,7 +35,7 @@ def visible_cores() -> int:
 def limit_threads(
     root: Path = Path("/"), environment: MutableMapping[str, str] = os.environ
 ) -> None:
-    """Tell numeric libraries how many threads to start; call it before they are imported.
+    """Limit the threads of numeric libraries; call this before they are imported.
 
     They look at the affinity themselves, so there is something to tell only where a quota is
     lower. What the environment sets already stays; `OMP_NUM_THREADS` speaks for the others, too.

@@ -1,4 +1,4 @@
-"""Compiled loops: one decorator, and a cache on disk that is never a condition of starting."""
+"""Compiled loops: a decorator and an optional cache on disk."""
 
 # mypy: allow-untyped-calls
 
@@ -16,7 +16,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 CACHE_VERSION = f"{numba.__version__}+placecell-1"
-"""Numba's own cache has another version, so neither reads the other's files."""
+"""Version of the cache, unlike Numba's own, so that neither reads the other's files."""
 
 DIGEST_SIZE = hashlib.sha256().digest_size
 
@@ -44,7 +44,7 @@ def compiled(function: Function) -> Function:
 
 
 class CheckedCacheFile(IndexDataCacheFile):
-    """Numba's cache files with a checksum: damaged machine code would end the process."""
+    """Numba cache files with a checksum, because damaged machine code would end the process."""
 
     def __init__(self, cache_path: str, filename_base: str, source_stamp: object) -> None:
         super().__init__(cache_path, filename_base, source_stamp)
@@ -78,7 +78,7 @@ class CheckedCacheFile(IndexDataCacheFile):
 
 
 class OptionalCache(FunctionCache):
-    """A cache of compiled code that loads what it can, and otherwise leaves it to the compiler."""
+    """Cache of compiled code that loads what it can and otherwise compiles anew."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
@@ -96,7 +96,7 @@ class OptionalCache(FunctionCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep compiled code where that is possible."""
+        """Store compiled code if possible."""
         try:
             super().save_overload(sig, data)
         # A full disk, a folder that was made read-only, a folder in place of the file.
@@ -105,7 +105,7 @@ class OptionalCache(FunctionCache):
 
 
 def tell_once(kind: str, detail: str) -> None:
-    """Write one line to the log for each kind of problem, however many files have it."""
+    """Log each kind of problem once, however many files have it."""
     with _telling:
         first = kind not in _told
         _told.add(kind)

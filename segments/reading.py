@@ -1,4 +1,4 @@
-"""How the files of a drive are read, where they do not say it themselves."""
+"""Options for reading the files of a drive that do not describe themselves."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,12 +16,12 @@ SECONDS: dict[TimeUnit, float] = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 
 def silent(message: str) -> None:
-    """Tell nobody."""
+    """Ignore a message."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Options of reading a drive; the defaults leave all to the files' content.
+    """Options for reading a drive; the defaults infer everything from the files' content.
 
     Attributes:
         columns: names of a scan's columns, x, y and z among them; none: found from the content.
@@ -43,7 +43,7 @@ class Reading:
 
     @property
     def states_layout(self) -> bool:
-        """Whether the layout of scans is given, not to be found from their content."""
+        """Return whether the options state the layout of scans."""
         return self.columns is not None or self.dtype is not None or self.order != "rows"
 
 
@@ -51,13 +51,13 @@ _current: ContextVar[Reading] = ContextVar("reading", default=Reading())  # noqa
 
 
 def current_reading() -> Reading:
-    """Return the options that `open_drive` uses unless it is given others."""
+    """Return the options that `open_drive` uses by default."""
     return _current.get()
 
 
 @contextmanager
 def reading(options: Reading) -> Iterator[None]:
-    """Use these options for all drives that are opened inside."""
+    """Use these options for all drives that are opened inside the block."""
     token = _current.set(options)
     try:
         yield

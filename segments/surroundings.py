@@ -23,16 +23,16 @@ CELLS = 1 << 13
 """Voxels along an edge of a segment's box, at most."""
 
 SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
-"""Of the hash tables of voxels, new in each process: nobody can choose points that collide."""
+"""Seed of the voxel hash tables, new in each process: nobody can choose points that collide."""
 
 STRIP = 5.0
-"""Edge in meters of the cells in which near voxels are looked up."""
+"""Edge of the cells in which near voxels are looked up, meters."""
 
 STRIPS = 1 << 20
-"""Cells from the middle to either side, at most; what lies beyond shares the last one."""
+"""Largest number of cells from the middle to either side; farther voxels share the last cell."""
 
 BLOCK = 1024
-"""Voxels that are counted together: their intermediate values stay in the nearest cache."""
+"""Voxels counted together, so that intermediate values stay in the nearest cache."""
 
 
 def describe_surroundings(
@@ -66,7 +66,7 @@ def describe_surroundings(
 
 @compiled
 def slot_of(key: int, seed: UInt64, slots: int) -> np.int64:
-    """Return a key's slot in a hash table, below a power of two that is at most 2**31.
+    """Return a key's slot in a hash table whose size is a power of two, at most 2**31.
 
     The finalizer of MurmurHash3 (Appleby) behind a secret affine step.
     """
@@ -77,7 +77,7 @@ def slot_of(key: int, seed: UInt64, slots: int) -> np.int64:
 
 
 def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
-    """One point for each voxel that a segment fills, the mean of its points there.
+    """Return one point for each voxel that a segment fills: the mean of its points there.
 
     The voxels of a segment begin at its lowest corner: neither the frame's origin nor the other
     segments make a difference.
@@ -113,7 +113,7 @@ def _merge(
     owners: Int64,
     sizes: Int64,
 ) -> None:
-    """Fill means and owners, and tell how many there are.
+    """Fill `means` and `owners`; return how many there are.
 
     Voxels are told apart by a hash table of each segment (linear probing; Knuth, The Art of
     Computer Programming, 6.4): sorting all points takes twice the time. The hash is seeded; voxels
@@ -175,7 +175,7 @@ def count_voxels(
     parameters: SurroundingsParameters,
     found: Float32,
 ) -> None:
-    """Fill found, (segments, rings, layers), from the voxels about each segment.
+    """Fill `found`, (segments, rings, layers), from the voxels near each segment.
 
     Args:
         voxels: float64 (n, 3), those of a segment one after the other.
@@ -208,7 +208,7 @@ def count_voxels(
 
 
 def _cell_of(coordinates: Float64) -> Int64:
-    """Number of the cell along an axis, from 0 on; no number is in the first."""
+    """Return the number of the cell along an axis, from 0 on; NaN is in cell 0."""
     cells = np.nan_to_num(np.floor(coordinates / STRIP), nan=-np.inf)
     return cells.clip(-STRIPS, STRIPS).astype(np.int64) + STRIPS
 
@@ -232,7 +232,7 @@ def _count(
     flag: Int32,
     found: Float32,
 ) -> None:
-    """Fill found; all voxels are in the order of their cells, and, once more, of their owners.
+    """Fill `found`; voxels come in the order of cells and again in the order of owners.
 
     A segment's own voxels are counted with the others and taken out again: counts are whole
     numbers, so nothing is left of them.
@@ -293,7 +293,7 @@ def _place(
     layers: Int64,
     sectors: Int64,
 ) -> None:
-    """Fill whole meters from a centroid (reach: too far), layer and sector of a block of voxels.
+    """Fill meters from a centroid (reach: too far), layer and sector of a block of voxels.
 
     Each loop does one thing without a branch, so that several voxels go through at once.
     """

@@ -1,15 +1,15 @@
-"""Client addresses, grouped as limits and shares count them."""
+"""Client addresses, grouped as limits and fair shares count them."""
 
 import ipaddress
 from functools import lru_cache
 
 IPV6_PREFIX = 64
-"""Bits of an IPv6 address that name a network: one client has all addresses of it."""
+"""Network prefix of an IPv6 address, bits: one client has all addresses of a network."""
 
 
 @lru_cache(maxsize=4_096)
 def client_network(address: str) -> str:
-    """Return what an address counts as: an IPv4 address itself, or the /64 of an IPv6 address.
+    """Return the network that an address counts as: IPv4 itself, IPv6 its /64.
 
     An IPv4 address that came to a socket of IPv6 (`::ffff:192.0.2.1`) counts as itself.
     """

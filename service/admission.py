@@ -34,17 +34,17 @@ from service.timing import Timing
 Result = TypeVar("Result")
 
 TIMEOUT = "placecell-timeout"
-"""Header: seconds after which the client no longer waits."""
+"""Header with the seconds after which the client stops waiting."""
 
 HEAVY_BYTES = 1 << 20
-"""A larger body takes much memory as it is read; so does a compressed one, it is not known."""
+"""Bytes from which a body counts as heavy; a compressed one counts as heavy at any size."""
 
 SHARING_SECONDS = 5.0
-"""So long after its last request a client counts as one that others share a lane with."""
+"""Seconds after its last request during which a client still has a share of a lane."""
 
 
 class Lane:
-    """Admits requests of one kind, and runs their work in threads of its own."""
+    """Lane of requests of one kind, with its own limits and threads."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Lane:
         receiver: Receiver,
         gauge: Gauge | None = None,
     ) -> None:
-        """Make a lane.
+        """Create a lane.
 
         Args:
             most: requests at work or waiting.
@@ -81,7 +81,7 @@ class Lane:
     async def admit(
         self, request: Request, media_types: Collection[str], timing: Timing
     ) -> AsyncIterator[Body]:
-        """Receive the body of a request; the block ends in time, or when the client leaves.
+        """Receive a request's body; the block ends at the deadline or when the client disconnects.
 
         Raises:
             Problem: 429 if the lane is full, 504 if the deadline passes, 408, 413 or 415 if the
@@ -119,7 +119,7 @@ class Lane:
 
     @asynccontextmanager
     async def enter(self, request: Request) -> AsyncIterator[None]:
-        """Admit a request that needs no body; errors as of `admit`."""
+        """Admit a request that needs no body; raises as `admit` does."""
         client = client_of(request)
         asked = _timeout_of(request)
         limit = self._limit(asked, 0.0)
@@ -127,7 +127,7 @@ class Lane:
             yield
 
     def _limit(self, asked: float | None, spent: float) -> float:
-        """Seconds that are left for the work.
+        """Return the seconds that are left for the work.
 
         Where a body has its time from the same account, it is not given twice.
         """
@@ -179,7 +179,7 @@ class Lane:
             self._gauge.set(self._inside.total())
 
     def _check(self, client: str) -> None:
-        """See that there is a place for one more request of a client; 429 if not.
+        """Check that a client may have one more request in the lane; 429 if not.
 
         Places are shared by the clients that ask: each may have an equal part of them, and each may
         always have one.
@@ -198,7 +198,7 @@ class Lane:
             )
 
     async def _check_early(self, client: str, request: Request) -> None:
-        """Refuse a request before its body has come, if it would be refused after it too."""
+        """Refuse a request before its body arrives, if it would be refused afterwards too."""
         try:
             self._check(client)
         except Problem as problem:
@@ -211,7 +211,7 @@ class Lane:
 
 @dataclass(frozen=True, slots=True)
 class Admitted:
-    """A request that has a place in a lane."""
+    """Request that has a place in a lane."""
 
     lane: Lane
     client: str
@@ -228,12 +228,12 @@ _admitted: ContextVar[Admitted | None] = ContextVar("placecell_admitted", defaul
 
 
 def admitted() -> Admitted | None:
-    """Return the request at hand, if it has a place in a lane."""
+    """Return the request at hand if it has a place in a lane; None otherwise."""
     return _admitted.get()
 
 
 def client_of(request: Request) -> str:
-    """Return who shares with others: the request's key, or its address where there are no keys."""
+    """Return the client that shares are counted for: the request's key, or its address."""
     state = request.app.state.placecell
     if state.keys:
         return f"key {request.scope['state'].get('key', '')}"
@@ -241,7 +241,7 @@ def client_of(request: Request) -> str:
 
 
 def _timeout_of(request: Request) -> float | None:
-    """How many seconds the client waits, if it says so."""
+    """Return the seconds that the client waits; None if it states none."""
     asked = request.headers.get(TIMEOUT)
     if asked is None:
         return None

@@ -22,7 +22,7 @@ BLOCK = 1 << 16
 
 
 SEARCHED = 512
-"""Segments that are looked for at once: so often it is asked whether anybody waits."""
+"""Segments searched per step; cancellation is checked between steps."""
 
 Check = Callable[[], None]
 """Raises an exception when nobody waits any longer; is asked for each part of a map."""

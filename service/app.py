@@ -37,7 +37,7 @@ EXPOSED_HEADERS = (
     "Server-Timing",
     "X-Request-Id",
 )
-"""Headers of answers that web pages of `cors_origins` may read."""
+"""Response headers that web pages of `cors_origins` may read."""
 
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 

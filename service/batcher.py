@@ -18,12 +18,12 @@ from service.metrics import Metrics
 from service.timing import Timing
 
 PART = 128
-"""Segments of one request in a batch, at most: others wait for no more than a batch."""
+"""Largest number of one request's segments in a batch, so that others wait one batch at most."""
 
 
 @dataclass(slots=True, eq=False)
 class Waiting:
-    """One request's inputs, and where its descriptors are awaited.
+    """Inputs of one request that waits for its descriptors.
 
     Attributes:
         inputs: of all its segments.
@@ -44,13 +44,13 @@ class Waiting:
 
     @property
     def left(self) -> int:
-        """Segments that are in no batch yet."""
+        """Return the number of segments that are in no batch yet."""
         return len(self) - self.taken
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
-    """Segments of a request that go into one batch: those from `start` to `stop`."""
+    """Part of a request in one batch: the segments from `start` to `stop`."""
 
     waiting: Waiting
     start: int
@@ -67,7 +67,7 @@ class Batcher:
     """
 
     def __init__(self, extractor: Extractor, metrics: Metrics, most: int) -> None:
-        """Make it for a model.
+        """Create the batcher of a model.
 
         Args:
             extractor: the model.
@@ -81,7 +81,7 @@ class Batcher:
         self._at_work: asyncio.Task[None] | None = None
 
     async def infer(self, inputs: Inputs, timing: Timing) -> Float32:
-        """Descriptors of prepared segments, float32 (rows, dimension).
+        """Return descriptors of prepared segments, float32 (rows, dimension).
 
         Cancelled while it waits, it is left out of the batches that follow.
         """
@@ -101,7 +101,7 @@ class Batcher:
             self._at_work = None
 
     def _take(self) -> list[Part]:
-        """A part of each of the longest waiting; who has more goes behind the others."""
+        """Take a part of the longest waiting requests; unfinished requests go to the end."""
         batch: list[Part] = []
         rest: list[Waiting] = []
         room = self._most

@@ -82,7 +82,7 @@ def parse(
 
 
 def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
-    """A response in its encoding.
+    """Encode a response.
 
     Its lists are encoded one item after the other, so that other threads get their turn.
     """
@@ -91,7 +91,7 @@ def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
 
 
 def _json_parts(content: dict[str, Any]) -> Iterator[bytes]:
-    """JSON of an object, its lists an item at a time."""
+    """Yield the JSON of an object, lists item by item."""
     before = b"{"
     for key, value in content.items():
         yield before + to_json(key) + b":"

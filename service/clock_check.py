@@ -1,4 +1,4 @@
-"""Times of segments, against the service's clock: nothing was seen in the future."""
+"""Clock check: refuse segments that were seen after the service's present time."""
 
 import time
 from datetime import UTC, datetime
@@ -12,11 +12,12 @@ AHEAD = 300.0
 """Seconds by which a robot's clock may be ahead."""
 
 SET_SINCE = datetime(2025, 1, 1, tzinfo=UTC).timestamp()
-"""A clock before this was not set yet, as on a computer without a battery; nothing is checked."""
+"""Earliest time of a clock that was set. Before it, as on a computer without a battery, nothing is
+checked."""
 
 
 def check_times(content: CompactMap) -> None:
-    """Check that no segment's frame or `seen` is in the future; 422 if one is.
+    """Check that no segment's frame time or `seen` is in the future; 422 if one is.
 
     A segment from the future would never be pruned. Times of the past are all taken: recorded
     drives have them, and drives that count from zero.

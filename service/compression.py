@@ -1,4 +1,4 @@
-"""Compressed bodies, decompressed within limits: a small body can hold a large one."""
+"""Decompression of bodies within limits, because a small body can hold a large one."""
 
 import zlib
 from collections.abc import Iterator
@@ -15,17 +15,17 @@ WINDOW_BYTES = 8 << 20
 """Of zstd, at most, as RFC 8878 wants every decoder to support."""
 
 MEMBERS = 4_096
-"""Members of a gzip body, or frames of a zstd body, at most: each costs time, however empty."""
+"""Largest number of gzip members or zstd frames of a body: each costs time, even empty."""
 
 GZIP_PIECE = 64 << 10
-"""Compressed bytes taken at once; the work can be cancelled after each piece."""
+"""Compressed gzip bytes per step; the work can be cancelled after each step."""
 
 ZSTD_PIECE = 512
-"""The same of zstd, where four bytes can hold 128 KiB and the decoder takes no limit."""
+"""Compressed zstd bytes per step; four bytes can hold 128 KiB, and the decoder has no limit."""
 
 
 def decompress(content: bytes, coding: str, limit: int) -> bytes:
-    """Return what a body holds.
+    """Return the decompressed content of a body.
 
     Args:
         content: the body.
@@ -45,7 +45,7 @@ def decompress(content: bytes, coding: str, limit: int) -> bytes:
 
 
 class _Output:
-    """What was decompressed so far."""
+    """Output that was decompressed so far."""
 
     def __init__(self, limit: int) -> None:
         self._parts: list[bytes] = []

@@ -1,4 +1,4 @@
-"""The cost of a request: an estimate in seconds of one core, made before the work.
+"""Cost of a request: an estimate in seconds of one core, made before the work.
 
 A request within the limits on size can still be more work than its deadline allows: 1,000 queries
 in maps of a hundred million segments, or two maps of a million to be aligned. Such a request is
@@ -21,20 +21,21 @@ MACHINE = "one core of an Intel Xeon (Emerald Rapids), processor time, best of 3
 
 @dataclass(frozen=True, slots=True)
 class Rates:
-    """Seconds that each unit of work takes, measured with the default model on `MACHINE`."""
+    """Seconds of one core per unit of work, measured with the default model on `MACHINE`."""
 
     point: float = 4.0e-8
-    """Of a segment: voxels of its neighborhood, orientation, the network's grid."""
+    """Seconds per point of a segment: neighborhood voxels, orientation, the network's grid."""
     segment: float = 2.3e-4
-    """Of the network."""
+    """Seconds per segment in the network."""
     near_voxel: float = 2.9e-9
-    """Of a segment and a voxel of another one within reach, for a model that looks around."""
+    """Seconds per pair of a segment and another segment's voxel within reach, for a model with a
+    neighborhood."""
     compared: float = 1.2e-9
-    """Of a query and a segment of a map."""
+    """Seconds per pair of a query and a map segment."""
     compared_k: float = 2.8e-11
-    """The same, for each candidate wanted."""
+    """Seconds per pair of a query and a map segment, for each candidate wanted."""
     candidate: float = 1.1e-6
-    """Of a query's candidates, whose probability is computed."""
+    """Seconds per candidate of a query whose match probability is computed."""
 
 
 RATES = Rates()
@@ -42,7 +43,7 @@ RATES = Rates()
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """Seconds of one core, by the kind of work."""
+    """Cost of a request by kind of work, seconds of one core."""
 
     points: float = 0.0
     network: float = 0.0
@@ -52,7 +53,7 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """Of all kinds together."""
+        """Return the sum over all kinds of work."""
         return sum(float(getattr(self, field.name)) for field in fields(self))
 
     def __add__(self, other: "Cost") -> "Cost":
@@ -65,7 +66,7 @@ class Cost:
 
     @property
     def largest(self) -> str:
-        """The kind that costs most."""
+        """Return the kind of work that costs most."""
         return max((field.name for field in fields(self)), key=lambda name: getattr(self, name))
 
 
@@ -81,7 +82,7 @@ REMEDIES = {
 
 
 def check_cost(cost: Cost, limit: float, remedy: str | None = None) -> None:
-    """Refuse work that cannot be done in time.
+    """Refuse work that costs more than a limit.
 
     Args:
         cost: of the request.
@@ -103,7 +104,7 @@ def check_cost(cost: Cost, limit: float, remedy: str | None = None) -> None:
 def cost_of_describing(
     points: Float32, counts: Int64, looks: SurroundingsParameters | None
 ) -> Cost:
-    """Return what it costs to describe segments.
+    """Return the cost of describing segments.
 
     Args:
         points: float32 (n, 3), of the segments, one after the other.
@@ -119,7 +120,7 @@ def cost_of_describing(
 
 
 def near_voxels(points: Float32, counts: Int64, looks: SurroundingsParameters) -> int:
-    """Return about how many pairs of a segment and a voxel within reach there are, seldom fewer.
+    """Estimate the pairs of a segment and a voxel within reach; seldom too low.
 
     Along each axis by itself, of which the one with the fewest pairs counts; so it takes no longer
     than to sort the segments.
@@ -144,7 +145,7 @@ def near_voxels(points: Float32, counts: Int64, looks: SurroundingsParameters) -
 
 
 def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
-    """Return what it costs to look for candidates.
+    """Return the cost of searching candidates.
 
     Args:
         queries: segments, or codes, of the request.
@@ -159,7 +160,7 @@ def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
 
 
 def cost_of_aligning(sizes: Sequence[int], k: int, parameters: AlignmentParameters) -> Cost:
-    """Return what it costs to align each two of some maps.
+    """Return the cost of aligning every pair of some maps.
 
     Args:
         sizes: segments of each map; each is searched for those of all after it.

@@ -19,7 +19,7 @@ from service.timing import Timing
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prepared:
-    """A scan's segments as the model wants them.
+    """Model inputs of a scan's segments.
 
     Attributes:
         inputs: of the usable segments.
@@ -90,7 +90,7 @@ class Describer:
         )
 
     def prepare(self, scan: Scan, timing: Timing, besides: Cost = NOTHING) -> Prepared:
-        """A scan's segments as the model wants them.
+        """Prepare the model inputs of a scan's segments.
 
         Args:
             scan: of a request.

@@ -1,4 +1,4 @@
-"""`placecell bench attack`: attacks on a service that it starts."""
+"""`placecell bench attack`: attack a service that the command starts."""
 
 from typing import Annotated, Any
 

@@ -1,4 +1,4 @@
-"""`placecell bench floors`: whether look-alike floors in several maps are told apart."""
+"""`placecell bench floors`: measure whether /localize tells look-alike floors apart."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -43,11 +43,11 @@ def floors(
 
 
 OTHER_MODEL = "group"
-"""Of the case with two models."""
+"""Model of the other floors in the case with two models."""
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """Print the figures."""
+    """Print the figures as a table."""
     columns = ("trials", "right", "ambiguous", "wrong", "wrong_but_sure")
     titles = ("trials", "right", "ambiguous", "wrong", "wrong but sure")
     table = new_table("floors", *titles, title="similar floors in several maps")

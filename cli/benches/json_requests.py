@@ -1,4 +1,4 @@
-"""`placecell bench json`: how fast JSON requests are read."""
+"""`placecell bench json`: measure the JSON request reader."""
 
 from typing import Annotated
 
@@ -15,7 +15,7 @@ def json_requests(
     ] = 3.0,
     seed: Seed = 7,
 ) -> None:
-    """Measure how fast JSON requests are read, and for how long other threads wait.
+    """Measure the throughput of the JSON reader, and how long other threads wait for it.
 
     The parser of earlier versions is measured in the same run.
     """

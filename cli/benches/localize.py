@@ -68,7 +68,7 @@ def print_rows(report: dict[str, Any]) -> None:
 
 
 def _title(row: dict[str, Any]) -> str:
-    """What was asked: one map of so many segments, or all of so many maps."""
+    """Return the title of a row: one map of some size, or all of some number of maps."""
     if "maps" in row:
         return f"{row['segments']:,} in {row['maps']:,} maps"
     return f"{row['segments']:,}"

@@ -39,7 +39,7 @@ class Caller:
         return f"{type(self).__name__}({self._base_url!r})"
 
     def _explain(self, error: Exception) -> None:
-        """Let the last error of a call say what to do."""
+        """Add what to do to the last error of a call."""
         if isinstance(error, httpx.TransportError):
             error.args = (explained(error, self._base_url),)
 

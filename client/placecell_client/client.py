@@ -99,7 +99,7 @@ class Client(Caller):
         return self._send(self._calls.info())
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
-        """Descriptors of the segments of one scan.
+        """Describe the segments of one scan.
 
         Args:
             segments: points of each, (points, 3), or structured with fields x, y and z; metres,

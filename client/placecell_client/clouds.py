@@ -1,4 +1,4 @@
-"""Point clouds and positions as callers have them: checked, named in errors, never reshaped."""
+"""Point clouds and positions of callers: checked, named in errors, never reshaped."""
 
 import warnings
 from collections.abc import Sequence
@@ -10,18 +10,18 @@ from numpy.typing import ArrayLike, NDArray
 
 AXES = ("x", "y", "z")
 COARSE_METERS = 131_072.0
-"""From here on a float32 steps by more than 1 cm (2^17 m: 1.6 cm)."""
+"""Coordinate from which float32 steps exceed 1 cm, meters (2^17 m: 1.6 cm)."""
 FEW_POINTS = 10
-"""Fewer may be whole numbers by chance."""
+"""Number of points below which whole numbers may be chance."""
 
 
 class PrecisionWarning(UserWarning):
-    """Coordinates are too large for float32: their digits are lost already."""
+    """Warning: coordinates are too large for float32 and have lost digits."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Clouds:
-    """The segments of a call.
+    """Segments of a call as checked arrays.
 
     Attributes:
         points: of each, (n, 3), finite; float32 if they were, otherwise float64.
@@ -35,7 +35,7 @@ class Clouds:
 
     @classmethod
     def of(cls, segments: Sequence[ArrayLike], sensors: ArrayLike) -> "Clouds":
-        """From what a caller gives.
+        """Build from the arrays of a caller.
 
         Raises:
             ValueError: an array has another shape or type, or a sensor is not finite.
@@ -58,7 +58,7 @@ class Clouds:
 
 
 def points_of(points: ArrayLike, name: str) -> NDArray[Any]:
-    """Points as (n, 3), float32 if they are float32 already, otherwise float64.
+    """Convert points to (n, 3), float32 if they are float32 already, otherwise float64.
 
     Structured arrays with fields x, y and z are taken, whatever else they hold. What is masked
     becomes NaN.
@@ -77,7 +77,7 @@ def points_of(points: ArrayLike, name: str) -> NDArray[Any]:
 
 
 def rows_of(values: ArrayLike, name: str, columns: int | None, integers: bool) -> NDArray[Any]:
-    """Numbers as (n, columns), or (n, any) if columns is None; integers stay as they are.
+    """Convert numbers to (n, columns), or (n, any) if columns is None; integers stay integers.
 
     Raises:
         ValueError: the array has another shape or type.
@@ -101,7 +101,7 @@ def _array(values: ArrayLike, name: str) -> NDArray[Any]:
 
 
 def _of_fields(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """The coordinates of a structured array, (n, 3)."""
+    """Return the coordinates of a structured array, (n, 3)."""
     names = array.dtype.names or ()
     missing = [axis for axis in AXES if axis not in names]
     if missing:
@@ -115,7 +115,7 @@ def _of_fields(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _floats(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """As native float32 or float64, without a mask."""
+    """Convert to native float32 or float64, without a mask."""
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name} has type {array.dtype}, expected numbers")
     single = array.dtype.kind == "f" and array.dtype.itemsize == 4
@@ -126,7 +126,7 @@ def _floats(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _is_coarse(points: NDArray[Any]) -> bool:
-    """Whether the points went through a float32 that is too coarse for them."""
+    """Return whether float32 rounded the points too coarsely."""
     largest = np.abs(points).max(axis=0, initial=0.0)
     large = largest >= COARSE_METERS
     if not large.any():

@@ -1,4 +1,4 @@
-"""Why a service cannot be reached, in words that say what to do."""
+"""Explanations of connection errors: why a service cannot be reached, and what to do."""
 
 import ipaddress
 import os
@@ -11,7 +11,7 @@ LOOPBACK_NAMES = frozenset({"localhost", "localhost.localdomain"})
 
 
 def checked_url(base_url: str) -> httpx.URL:
-    """The address of a service.
+    """Parse the address of a service.
 
     Raises:
         ValueError: it is none, or has no scheme or host.
@@ -27,7 +27,7 @@ def checked_url(base_url: str) -> httpx.URL:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a host is this machine."""
+    """Return whether a host is this machine."""
     if host.lower() in LOOPBACK_NAMES:
         return True
     try:
@@ -37,7 +37,7 @@ def is_loopback(host: str) -> bool:
 
 
 def proxy_of(url: httpx.URL) -> str | None:
-    """The variable and address of the proxy that the environment names; None if none is used."""
+    """Return variable and address of the proxy in the environment; None if none is used."""
     if is_loopback(url.host) or proxy_bypass(url.netloc.decode()):
         return None
     proxies = getproxies()
@@ -55,7 +55,7 @@ def proxy_of(url: httpx.URL) -> str | None:
 
 
 def explained(error: httpx.TransportError, url: httpx.URL) -> str:
-    """What happened and what to do; the error's own words alone where nothing more is known."""
+    """Return what happened and what to do; only the error's own text if no more is known."""
     text = str(error) or type(error).__name__
     hints = [_hint(error, text, url)]
     proxy = proxy_of(url)

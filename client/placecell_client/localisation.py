@@ -80,7 +80,7 @@ class Hypothesis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rival(Hypothesis):
-    """The best place in another map, which is not known to be the same place.
+    """Best pose in another map that is not known to show the same place.
 
     Attributes:
         map: the other map's name.
@@ -93,7 +93,7 @@ class Rival(Hypothesis):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Localisation:
-    """What one map says of the robot's place.
+    """Localization in one map: the robot's pose, or the reason why there is none.
 
     Attributes:
         map: the map's name.
@@ -139,7 +139,7 @@ class Localisation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Localisations:
-    """What the maps say, the likeliest first.
+    """Localizations in several maps, the most probable first.
 
     Attributes:
         model_id: of the model whose codes were compared.
@@ -157,7 +157,7 @@ class Localisations:
 
     @property
     def best(self) -> Localisation | None:
-        """The likeliest one with a pose, equally likely ones by score; None if there is none.
+        """Return the most probable localization, equal ones by score; None if no map has a pose.
 
         None also if two maps fit about equally well: see `rival`.
         """
@@ -166,7 +166,7 @@ class Localisations:
 
     @property
     def rival(self) -> Rival | None:
-        """The map and pose that fit as well as the first map's; None unless that is the reason.
+        """Return the map and pose that fit as well as the first map's; None if that is no reason.
 
         The first map's own pose is the first of its `others`. Name one of the two in `maps`, or
         merge them if they show one place.

@@ -47,7 +47,7 @@ def info(answer: Answer) -> Info:
 
 
 def description(answer: Answer, count: int, dropped: int = 0) -> Description:
-    """Of `POST /describe` with this many segments, of which these points were left out."""
+    """Read the answer of `POST /describe` to `count` segments; `dropped` points were left out."""
     content = _content(answer)
     items = _items(content["descriptors"], count)
     good = [index for index, item in enumerate(items) if "error" not in item]
@@ -76,7 +76,7 @@ def description(answer: Answer, count: int, dropped: int = 0) -> Description:
 
 
 def matches(answer: Answer, count: int, dropped: int = 0) -> Matches:
-    """Of `POST /match` with this many queries, of which these points were left out."""
+    """Read the answer of `POST /match` to `count` queries; `dropped` points were left out."""
     content = _content(answer)
     items = _items(content["queries"], count)
     return Matches(
@@ -105,7 +105,7 @@ def matches_of(answer: Answer, description: Description, rows: list[int]) -> Mat
 
 
 def localisations(answer: Answer, dropped: int = 0) -> Localisations:
-    """Of `POST /localize` with segments, of which these points were left out."""
+    """Read the answer of `POST /localize`; `dropped` points were left out."""
     content = _content(answer)
     return Localisations(
         model_id=content["model_id"],

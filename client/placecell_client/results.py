@@ -74,7 +74,7 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Matches:
-    """Candidates of each query, nearest first; of maps of several models likeliest first.
+    """Candidates of each query, nearest first; those of several models most probable first.
 
     Attributes:
         model_id: of the model whose descriptors were compared.
@@ -219,7 +219,7 @@ class MapVersion:
 
 @dataclass(frozen=True, slots=True)
 class Info:
-    """What the service is, and how much it takes at once.
+    """Versions, limits and costs of a service.
 
     Attributes:
         version: of the service.

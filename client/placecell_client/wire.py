@@ -41,7 +41,7 @@ def loads(media_type: str, content: bytes) -> dict[str, Any]:
 def segments_of(
     segments: Sequence[ArrayLike], sensors: ArrayLike, encoding: Encoding
 ) -> tuple[dict[str, Any], int]:
-    """The part of a body that holds segments, and how many points were not finite.
+    """Return the part of a body that holds segments, and the number of non-finite points.
 
     Nothing is rounded that need not be: float32 arrays travel as they are. Others, as msgpack,
     travel as float32 relative to the median sensor, where that resolves micrometres.
@@ -77,7 +77,7 @@ def segments_of(
 
 
 def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:
-    """Codes (q, d) as they stand in a body.
+    """Encode codes (q, d) for a body.
 
     Raises:
         ValueError: the array has another shape, or values that are no int8.
@@ -92,7 +92,7 @@ def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:
 
 
 def centroids_of(centroids: ArrayLike, encoding: Encoding) -> list[list[float]] | bytes:
-    """Centroids (q, 3) as they stand in a body.
+    """Encode centroids (q, 3) for a body.
 
     Raises:
         ValueError: the array has another shape, or a value that is not finite.

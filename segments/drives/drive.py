@@ -15,12 +15,12 @@ from segments.reading import Reading, current_reading
 from segments.types import Float32, Float64
 
 SHOWN = 5
-"""Scans that a message names."""
+"""Largest number of scans that a message names."""
 
 
 @dataclass(slots=True)
 class Dropouts:
-    """What of a drive's scans could not be used.
+    """Scans and points of a drive that could not be used.
 
     Attributes:
         skipped: why, of each scan that gives no points.
@@ -31,7 +31,7 @@ class Dropouts:
     dropped: dict[int, int] = field(default_factory=dict)
 
     def within(self, scans: range) -> tuple[tuple[int, ...], int]:
-        """Indices of the skipped ones of these scans, and how many points were dropped."""
+        """Return the indices of these scans that were skipped, and how many points were dropped."""
         skipped = tuple(sorted(index for index in self.skipped if index in scans))
         return skipped, sum(count for index, count in self.dropped.items() if index in scans)
 
@@ -71,11 +71,11 @@ class Drive(ABC):
 
     @cached_property
     def dropouts(self) -> Dropouts:
-        """What of its scans could not be used, of those that were read so far."""
+        """Return the dropouts of the scans that were read so far."""
         return Dropouts()
 
     def examine(self) -> None:
-        """Find the layout of the scans, and tell what their sizes say before any work begins.
+        """Find the layout of the scans and report what their sizes show, before any work begins.
 
         Raises:
             DriveError: the layout is not sure, most scans cannot be used, or one cannot and the
@@ -95,7 +95,7 @@ class Drive(ABC):
             self.options.tell(f"{self.folder}: {self.told(range(len(self)))}")
 
     def scan(self, index: int) -> Float32:
-        """Points of one scan, float32 (n, 3), metres, sensor frame; none if it cannot be used.
+        """Return the points of a scan, float32 (n, 3), meters, sensor frame; none if unusable.
 
         Points that are not finite are dropped. `dropouts` counts both.
 
@@ -119,7 +119,7 @@ class Drive(ABC):
         return usable
 
     def skip(self, index: int, why: str) -> None:
-        """Note that a scan cannot be used.
+        """Record that a scan cannot be used.
 
         Raises:
             DriveError: the options are strict.
@@ -129,7 +129,7 @@ class Drive(ABC):
         self.dropouts.skipped[index] = why
 
     def check_usable(self, scans: range) -> None:
-        """Refuse a drive of which more than half of these scans cannot be used.
+        """Refuse a drive if more than half of these scans cannot be used.
 
         Raises:
             DriveError: so it is.
@@ -142,7 +142,7 @@ class Drive(ABC):
             )
 
     def told(self, scans: range) -> str:
-        """How many of these scans were skipped, which and why, and how many points dropped."""
+        """Summarize the skipped scans, with reasons, and the dropped points."""
         skipped, dropped = self.dropouts.within(scans)
         words = []
         if skipped:
@@ -157,7 +157,7 @@ class Drive(ABC):
         return "; ".join(words)
 
     def scan_hash(self, index: int) -> str:
-        """SHA-256 of a scan's file, shortened to 16 hex digits: a scan's identity.
+        """Return a scan's identity: the SHA-256 of its file, shortened to 16 hex digits.
 
         A scan without content, as a sensor's dropout leaves it, is known by its drive and name: two
         drives with such scans have not seen the same place.
@@ -176,7 +176,7 @@ class Drive(ABC):
 
 
 def size_of(file: Path) -> int:
-    """Bytes of a file; -1 if it cannot be reached."""
+    """Return a file's size in bytes; -1 if it cannot be read."""
     try:
         return file.stat().st_size if file.is_file() else -1
     except OSError:
@@ -184,7 +184,7 @@ def size_of(file: Path) -> int:
 
 
 def size_told(size: int) -> str:
-    """Say what a file's size tells that cannot be used."""
+    """Return why a file of this size cannot be used."""
     if size < 0:
         return "missing or not a file"
     return f"{size} bytes is no whole number of points" if size else "no points (0 bytes)"
@@ -235,7 +235,7 @@ def find_scans(folder: Path) -> list[Path]:
 
 
 def read_lines(file: Path, what: str) -> list[str]:
-    """Lines of a text file in UTF-8, with or without a byte order mark, LF or CRLF.
+    """Read the lines of a UTF-8 text file, with or without byte order mark, LF or CRLF.
 
     Raises:
         DriveError: missing, a folder, unreadable, or no text.
@@ -257,7 +257,7 @@ WIDTHS = {
     8: "a TUM trajectory: time, position, quaternion",
     16: "4x4 matrices",
 }
-"""Tables of poses that other programs write, by their numbers a line."""
+"""Pose tables of other programs, by the count of numbers per line."""
 
 
 def read_table(file: Path, columns: int, what: str) -> Float64:
@@ -312,7 +312,7 @@ def check_rotations(poses: Float64, file: Path) -> None:
 
 
 def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Path) -> list[str]:
-    """Doubt the units of poses and times; returns remarks on what is odd but possible.
+    """Check the units of poses and times; return remarks on odd but possible values.
 
     Raises:
         DriveError: times are no seconds, or the sensor would be faster than anything that drives.
@@ -356,4 +356,4 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
 
 
 FASTEST = 400.0
-"""Meters a second; in millimeters a walk of 1 m/s is at 1,000."""
+"""Highest plausible speed, m/s; in millimeters a walk of 1 m/s gives 1,000."""

@@ -1,5 +1,5 @@
-"""The error that every reader of drives raises."""
+"""Error that every reader of drives raises."""
 
 
 class DriveError(ValueError):
-    """A drive that cannot be read; the message names the file and what to do."""
+    """Drive cannot be read; the message names the file and what to do."""

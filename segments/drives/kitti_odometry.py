@@ -74,7 +74,7 @@ class KittiOdometry(Drive):
 
 
 def with_missing(files: list[Path], poses: int) -> list[Path]:
-    """Scan files by their numbers from 0, with those in between that are not there.
+    """Return the scan files from number 0 on, with the missing ones in between.
 
     So that a lost scan costs that scan alone, where there is a pose for it.
     """

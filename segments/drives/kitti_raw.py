@@ -75,7 +75,7 @@ class KittiRaw(Drive):
 
 
 def check_oxts(records: Float64, files: list[Path]) -> None:
-    """Refuse records that are not in degrees (position) and radians (orientation).
+    """Refuse positions that are not in degrees and orientations that are not in radians.
 
     Raises:
         DriveError: a latitude, longitude or angle is out of its range.

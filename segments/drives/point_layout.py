@@ -1,4 +1,4 @@
-"""The layout of scan files without a header: how many columns, of which type, in which order.
+"""Layout of scan files without a header: number, type and order of columns.
 
 A `.bin` file does not say what it holds. KITTI's has float32 x, y, z, reflectance; nuScenes' has
 five columns, Waymo's six, others three, or float64. Read with the wrong layout, all of them give
@@ -21,19 +21,20 @@ from segments.types import Float32, Float64, Int64
 SAMPLED_SCANS = 8
 STRETCHES = 8
 STRETCH = 7_560
-"""Values of a sample: a multiple of all numbers of columns, so that every layout begins a row."""
+"""Values of a sample, a common multiple of all column counts: it begins a row in every layout."""
 COLUMN_COUNTS = (3, 4, 5, 6, 7, 8, 9, 10)
 BINS = 64
 FEWEST_POINTS = 100
-"""Of a scan; with fewer, the content says too little, for a standing sensor repeats itself."""
+"""Smallest number of points of a scan whose content is judged; smaller scans of a standing sensor
+repeat themselves."""
 CONTRADICTED = 1.0
-"""Bits a value by which small scans must be worse as KITTI's to be refused."""
+"""Bits per value by which small scans must fit KITTI's layout worse to be refused."""
 MARGIN = 0.2
-"""Bits a value by which a layout must be better than the others; measured: 0.5 or more."""
+"""Bits per value by which a layout must be better than all others; measured: 0.5 or more."""
 TINY, HUGE = 1e-5, 1e6
-"""Magnitudes of values that a sensor gives, in any unit; others are bits read as another type."""
+"""Smallest and largest plausible magnitude of sensor values; others are misread bits."""
 FARTHEST_MEDIAN = 250.0
-"""Meters; the median range of a LiDAR's scan is some 10 m, and no sensor reaches much farther."""
+"""Largest plausible median range, meters; a LiDAR scan's is some 10 m."""
 
 ITEM_SIZES: dict[DType, int] = {"float32": 4, "float64": 8}
 TYPES: dict[DType, str] = {"float32": "<f4", "float64": "<f8"}
@@ -62,7 +63,7 @@ class PointLayout:
 
     @property
     def point_bytes(self) -> int:
-        """Bytes of a point."""
+        """Return the bytes of one point."""
         return len(self.columns) * ITEM_SIZES[self.dtype]
 
     def __str__(self) -> str:
@@ -96,7 +97,7 @@ class PointLayout:
             return points.astype(np.float32, copy=False)
 
     def as_table(self, values: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Values of a file as (points, columns)."""
+        """Arrange a file's values as (points, columns)."""
         count = len(self.columns)
         return values.reshape(-1, count) if self.order == "rows" else values.reshape(count, -1).T
 
@@ -105,7 +106,7 @@ KITTI = PointLayout()
 
 
 def stated_layout(reading: Reading) -> PointLayout:
-    """Return the layout that the options give; what they leave open is as KITTI has it."""
+    """Return the layout that the options state; what they leave open follows KITTI."""
     return PointLayout(
         columns=reading.columns or NAMES,
         dtype=reading.dtype or "float32",
@@ -164,7 +165,7 @@ def divisible(sizes: NDArray[np.int_], point_bytes: int) -> float:
 
 
 def count_of(sizes: NDArray[np.int_], point_bytes: int) -> str:
-    """Say how many files hold no whole number of points, with the size of one."""
+    """Return how many files hold no whole number of points, with the size of one, as text."""
     bad = sizes[sizes % point_bytes != 0]
     return f"{len(bad)} of {len(sizes)} scans (one of {bad[0]} bytes)"
 
@@ -172,7 +173,7 @@ def count_of(sizes: NDArray[np.int_], point_bytes: int) -> str:
 def told_by_content(
     folder: Path, sizes: NDArray[np.int_], sampled: Sequence[bytes], scale: float
 ) -> PointLayout:
-    """Find the layout from sizes and values.
+    """Find the layout from file sizes and values.
 
     Raises:
         DriveError: KITTI's layout is contradicted and no other is sure.
@@ -226,7 +227,7 @@ def told_by_content(
 
 
 def sizes_told(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) -> str:
-    """Say which numbers of columns the sizes of all files allow."""
+    """Return which numbers of columns the sizes of all files allow, as text."""
     if not fits:
         return f"their sizes (one is {sizes[0]} bytes) fit 3 to 10 columns of {dtype} in no way"
     return (
@@ -235,7 +236,7 @@ def sizes_told(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) ->
 
 
 def as_values(content: bytes, dtype: DType) -> Float64:
-    """Values of a scan, of long ones several stretches of whole rows; NaN as 0."""
+    """Return a scan's values, of long scans several stretches of whole rows; NaN becomes 0."""
     item = ITEM_SIZES[dtype]
     values = np.frombuffer(content, TYPES[dtype], len(content) // item)
     if len(values) > STRETCHES * STRETCH:
@@ -246,7 +247,7 @@ def as_values(content: bytes, dtype: DType) -> Float64:
 
 
 def implausible(values: NDArray[np.floating]) -> float:
-    """Return the share of finite values that no sensor gives: bits read as another type."""
+    """Return the share of finite values that no sensor gives: bits read as the wrong type."""
     with np.errstate(invalid="ignore"):
         size = np.abs(values[np.isfinite(values)].astype(np.float64))
     if not len(size):
@@ -255,7 +256,7 @@ def implausible(values: NDArray[np.floating]) -> float:
 
 
 def dtype_of(sampled: Sequence[bytes]) -> DType | None:
-    """Tell float32 from float64; None if the values are neither.
+    """Distinguish float32 from float64; None if the values are neither.
 
     The first half of a float64 holds the last bits of its fraction: as a float32 it is noise.
     Columns of other magnitudes, such as a time of 1e15, are few among plausible ones.
@@ -278,14 +279,14 @@ def dtype_of(sampled: Sequence[bytes]) -> DType | None:
 
 
 def low_halves(words: NDArray[np.uint32]) -> float:
-    """Share of words that look like a float64's lower half: noise, or what a float32 leaves 0."""
+    """Return the share of words that look like a float64's lower half: noise or zero."""
     with np.errstate(invalid="ignore"):
         size = np.abs(np.nan_to_num(words.view("<f4").astype(np.float64), nan=1.0))
     return float(np.mean((words & 0x1FFF_FFFF == 0) | (size < TINY) | (size > HUGE)))
 
 
 def bits_by_columns(values: Sequence[Float64]) -> tuple[dict[int, float], float]:
-    """Bits a value needs for each number of columns, and without any columns."""
+    """Return the bits per value for each number of columns, and without columns."""
     numbers = numbered(values)
     return {count: bits_of(columns_of(numbers, count)) for count in COLUMN_COUNTS}, bits_of(
         [np.concatenate(numbers)]
@@ -293,7 +294,7 @@ def bits_by_columns(values: Sequence[Float64]) -> tuple[dict[int, float], float]
 
 
 def numbered(values: Sequence[Float64]) -> list[Int64]:
-    """Each value's bin; bins hold as many values each, so far as values differ."""
+    """Return each value's histogram bin; bins hold equal counts as far as values differ."""
     pooled = np.concatenate(values)
     bins = int(np.clip(len(pooled) // 40, 8, BINS))
     some = pooled[:: max(1, len(pooled) // 50_000)]
@@ -302,13 +303,13 @@ def numbered(values: Sequence[Float64]) -> list[Int64]:
 
 
 def columns_of(numbers: Sequence[Int64], count: int) -> list[Int64]:
-    """Bins of each of so many columns, over all scans."""
+    """Return the bins of each of `count` columns, over all scans."""
     tables = [each[: len(each) // count * count].reshape(-1, count) for each in numbers]
     return list(np.concatenate(tables).T)
 
 
 def bits_of(columns: Sequence[Int64]) -> float:
-    """Bits a value, with what the columns' histograms cost themselves."""
+    """Return the bits per value, including the cost of the columns' histograms."""
     total, values = 0.0, 0
     for column in columns:
         if not len(column):
@@ -324,7 +325,7 @@ def bits_of(columns: Sequence[Int64]) -> float:
 def fewest_bits(
     bits: dict[int, float], values: Sequence[Float64], fits: dict[int, float]
 ) -> int | None:
-    """Number of columns that explains the values best, of those that fit the files' sizes.
+    """Return the number of columns that explains the values best and fits the file sizes.
 
     A multiple explains them as well. Where lasers fire in turn it may do so even better; so the
     smaller number is taken if its columns are alike in both halves of the larger one.
@@ -344,14 +345,14 @@ def fewest_bits(
 
 
 def distance(one: Int64, other: Int64) -> float:
-    """Total variation between two columns' histograms, 0 to 1."""
+    """Return the total variation distance between two columns' histograms, 0 to 1."""
     size = BINS + 1
     shares = [np.bincount(each, minlength=size) / max(len(each), 1) for each in (one, other)]
     return float(np.abs(shares[0] - shares[1]).sum() / 2)
 
 
 def is_column_major(values: Sequence[Float64], pooled: float) -> bool:
-    """Whether stretches of a file hold alike values, though no number of columns explains them."""
+    """Return whether a file stores column after column: values alike, but no row length fits."""
     numbers = numbered(values)
     stretches: list[list[Int64]] = [[] for _ in range(STRETCHES)]
     for each in numbers:
@@ -361,7 +362,7 @@ def is_column_major(values: Sequence[Float64], pooled: float) -> bool:
 
 
 def doubt_of_axes(values: Sequence[Float64], count: int) -> str:
-    """Say why the first three columns may not be x, y and z; empty if they may be."""
+    """Return why the first three columns may not be x, y and z; empty if they may be."""
     table = np.concatenate(
         [each[: len(each) // count * count].reshape(-1, count) for each in values]
     )

@@ -96,7 +96,7 @@ def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Co
 
 
 def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
-    """Number of the place that each row belongs to, int64 (m,).
+    """Return the number of the place that each row belongs to, int64 (m,).
 
     Rows, from one end of the map on, begin a place unless they are within the radius of one that
     did.
@@ -125,7 +125,7 @@ def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
 def _lead(
     points: Float64, cells: Int64, around: Int64, radius: float, flag: Int32, numbers: Int64
 ) -> None:
-    """Fill numbers: of each point, in order, the first leader within the radius.
+    """Fill `numbers` with the first leader within the radius of each point, in order.
 
     Leaders are apart from each other, so a cell holds few of them, and each point is held against
     few, wherever the points are.

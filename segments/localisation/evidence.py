@@ -67,7 +67,7 @@ class Evidence:
 
     @property
     def weight(self) -> float:
-        """Variance of the support, as a share of that of one request's score."""
+        """Return the variance of the support, as a share of that of one request's score."""
         return self.parameters.past_weight**2 * len(self.independent)
 
     def guesses(self, at: Float64) -> list[Pose]:

@@ -19,7 +19,7 @@ from segments.types import Float64, Int64
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hypothesis:
-    """A pose of the robot's frame in the map's, and the segments that agree with it.
+    """Pose of the robot's frame in the map's frame, with its inlier segments.
 
     Attributes:
         pose: from the robot's frame to the map's.

@@ -1,4 +1,4 @@
-"""Joint judgement: where the robot is among several maps, as if they were one.
+"""Joint judgment: compare the robot's pose hypotheses over several maps.
 
 Each map alone may fit well: floors of one building look alike. So the hypotheses of all maps
 compete. A rival in another map counts as a second place, exactly as one in the same map does. What
@@ -33,8 +33,8 @@ from segments.localisation.pose import Pose
 from segments.types import Float64
 
 Link = Callable[[int, int], Pose | None]
-"""Gives the pose of one map's frame (the second index) in another's (the first), where both hold
-the same segments; None where they do not."""
+"""Function that returns the pose of one map's frame (second index) in another's (first index), if
+both hold the same segments; None otherwise."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +60,7 @@ class MapQuery:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rival:
-    """A hypothesis of another map, which is not the same place.
+    """Hypothesis in another map that is not the same place.
 
     Attributes:
         map: index of the map.
@@ -82,7 +82,7 @@ class Rival:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Judged:
-    """One map's part of a joint judgement.
+    """One map's part of a joint judgment.
 
     Attributes:
         localisation: in this map, after the hypotheses of all maps were compared.
@@ -100,7 +100,7 @@ def localise_jointly(
     parameters: LocalisationParameters,
     link: Link = lambda *_: None,
 ) -> list[Judged]:
-    """Find the robot's frame in each of several maps, and judge all of them together.
+    """Localize the robot in several maps and judge the hypotheses of all maps together.
 
     Args:
         queries: one a map; a single one is judged as `localise` judges it.
@@ -135,7 +135,7 @@ tolerances so many times as wide. What is found then is no place to tell, but a 
 
 
 def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
-    """Of each model, each segment's largest belief in all candidates of one map, float64 (n,).
+    """Return each segment's largest belief over all maps of a model, float64 (n,), by model.
 
     A small map has few look-alikes: by its own candidates alone a pair would be worth more in it
     than the same pair is in a large map.
@@ -205,7 +205,7 @@ def _compared(
     alone: Localisation,
     parameters: LocalisationParameters,
 ) -> Rival:
-    """Compare a rival in another map with a map's own best hypothesis, segment by segment."""
+    """Compare a rival in another map with a map's best hypothesis, segment by segment."""
     assert own.looks is not None
     assert rival.looks is not None
     assert own.worth is not None
@@ -236,7 +236,7 @@ def _against(
     queries: Sequence[MapQuery],
     parameters: LocalisationParameters,
 ) -> tuple[Localisation, Rival | None]:
-    """Judge a map's best hypothesis against those of the other maps; and the rival to name."""
+    """Judge a map's best hypothesis against the other maps'; return also the rival to name."""
     assert own.best is not None
     query = queries[number]
     alike = [each for each in rivals if queries[each.map].model == query.model]
@@ -303,7 +303,7 @@ def _against(
 
 
 def chance_of_map(ahead: float, parameters: LocalisationParameters) -> float:
-    """Return the probability that the map that fits better is the right one.
+    """Return the probability that the better fitting map is the right one.
 
     Either both maps show the robot the same, and what it is ahead by is normal about 0; or they do
     not, and it is normal about what it typically is (`apart_by`).
@@ -317,7 +317,7 @@ def chance_of_map(ahead: float, parameters: LocalisationParameters) -> float:
 
 
 def _told(own: Hypothesis, rival: Hypothesis) -> str:
-    """Say how many segments speak for each of two maps."""
+    """Return how many segments support each of two maps, as text."""
     assert own.looks is not None
     assert rival.looks is not None
     here, there = own.looks > 0.5 * own.looks.max(), rival.looks > 0.5 * rival.looks.max()
@@ -337,7 +337,7 @@ ADVICE = (
 def _same_places(
     found: Sequence[Places], parameters: LocalisationParameters, link: Link
 ) -> dict[tuple[int, int], int]:
-    """Number the places: hypotheses of linked maps that put the robot in one place share a number.
+    """Number the places: hypotheses of linked maps at the same place share a number.
 
     By map and index of the hypothesis.
     """

@@ -79,7 +79,7 @@ def localise(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Places:
-    """Places in one map where the robot may be, before they are scored and judged.
+    """Candidate places of the robot in one map, before they are scored and judged.
 
     Attributes:
         hypotheses: best first, each at another place; empty if there is none.
@@ -103,7 +103,7 @@ def find_places(
 
 
 def unknown(usable: int, parameters: LocalisationParameters) -> Localisation:
-    """Return the answer of a map in which there is no hypothesis."""
+    """Return the localization of a map without any hypothesis."""
     if usable < parameters.least_segments:
         reason: Reason = "too-few-segments"
         detail = (
@@ -153,7 +153,7 @@ def judge(
 
 
 def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Float64:
-    """Return each hypothesis' score with what earlier requests add to it, float64 (n,)."""
+    """Return each hypothesis' score plus the support of earlier requests, float64 (n,)."""
     support = [evidence.support(each) if evidence else 0.0 for each in hypotheses]
     return np.array([each.score for each in hypotheses]) + support
 

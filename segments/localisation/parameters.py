@@ -73,13 +73,13 @@ class LocalisationParameters:
     """Share of a segment's belief from which on its counterpart counts in full when two maps are
     compared: five times `unlikely`. How far beyond varies from view to view, and tells nothing."""
     decisive: float = 2.25
-    """Standard deviations by which one map has to fit better than another. Less is a coincidence:
-    two maps that show a robot the same differ by more in one of 80 requests."""
+    """Standard deviations by which one map has to fit better than another. Less may be chance: two
+    maps that show a robot the same differ by more in one of 80 requests."""
     alike: float = 9.0
-    """Odds that a rival in another map shows the robot the same as the best map does: assumed, nine
-    in ten, not measured."""
+    """Prior odds that a rival in another map shows the robot the same as the best map does: nine in
+    ten, assumed, not measured."""
     apart_by: float = 4.0
-    """Standard deviations by which the right map fits better, typically, where the maps differ."""
+    """Standard deviations by which the right map typically fits better, if the maps differ."""
 
     # Evidence of earlier requests.
     memory: float = 10.0
