@@ -1,4 +1,4 @@
-"""`/docs` and `/redoc`: pages of the API's description, from files of the service's own.
+"""API documentation pages `/docs` and `/redoc`, served from local files only.
 
 Robots work where there is no way to a CDN, and a page that runs a CDN's scripts trusts it with the
 keys that a user types. The scripts come with the package `fastapi-offline`.
@@ -18,7 +18,7 @@ FILES = {
     "redoc.standalone.js": "text/javascript",
     "favicon.png": "image/png",
 }
-"""Of the package, and their media types."""
+"""Files of the package and their media types."""
 
 # Addresses are relative to the page, so that they hold behind a proxy's path prefix, too.
 SWAGGER = """<!DOCTYPE html>
@@ -46,7 +46,7 @@ START = """SwaggerUIBundle({
   presets: [SwaggerUIBundle.presets.apis, SwaggerUIBundle.SwaggerUIStandalonePreset],
 });
 """
-"""Without `validatorUrl` the page would show the description to a service of the Internet."""
+"""Template of /docs; without `validatorUrl` the page would send the description to the Internet."""
 
 REDOC = """<!DOCTYPE html>
 <html lang="en">
@@ -77,7 +77,7 @@ CACHED = {"Cache-Control": "public, max-age=3600"}
 
 
 def install(app: FastAPI) -> None:
-    """Serve the pages; they need no key, as the description tells nothing of maps or keys."""
+    """Serve the pages without a key: the description shows no maps or keys."""
     folder = Path(str(files("fastapi_offline"))) / "static"
 
     @app.get("/docs", include_in_schema=False)

@@ -1,4 +1,4 @@
-"""Threads that clients share fairly: none of them can keep all threads from the others."""
+"""Threads that clients share fairly: no client can occupy all threads."""
 
 import asyncio
 import time
@@ -12,18 +12,18 @@ import anyio.to_thread
 Result = TypeVar("Result")
 
 LONG_SECONDS = 0.25
-"""After so long a call no longer keeps a place from those that wait; it goes on beside them."""
+"""Seconds after which a running call lends its place to waiting ones and continues beside them."""
 
 LENT = 4
-"""Calls at once, at most: so many times the places. Of one client: half of them."""
+"""Largest number of calls at once, as a multiple of the places; one client has half of it."""
 
 
 Kind = tuple[str, bool]
-"""A client, and whether its call is a heavy one."""
+"""Client, and whether its call is heavy."""
 
 
 class FairThreads:
-    """Runs blocking calls in threads.
+    """Pool of threads for blocking calls, shared fairly among clients.
 
     Calls that wait are started in turn of their clients, round robin. A client that has no call at
     work may always start one, and a call that takes long lends its place to others; so a small call
@@ -32,7 +32,7 @@ class FairThreads:
     """
 
     def __init__(self, places: int) -> None:
-        """Make the threads.
+        """Create the threads.
 
         Args:
             places: calls that work at once, as long as none takes long.
@@ -44,7 +44,7 @@ class FairThreads:
         self._timer: asyncio.TimerHandle | None = None
 
     async def run(self, client: str, work: Callable[[], Result], heavy: bool = False) -> Result:
-        """Run a call; cancelled while it waits for its turn, it is not started."""
+        """Run a call; a call cancelled before its turn is not started."""
         ticket = await self._turn((client, heavy))
         try:
             return await anyio.to_thread.run_sync(work, limiter=self._threads)
@@ -96,7 +96,7 @@ class FairThreads:
         return short < self._places and own < LENT * self._places // 2
 
     def _start_waiting(self) -> None:
-        """Give free places to those that wait, a client at a time."""
+        """Start waiting calls in free places, one client at a time."""
         turned = True
         while turned:
             turned = False
@@ -113,7 +113,7 @@ class FairThreads:
         self._look_again_later()
 
     def _look_again_later(self) -> None:
-        """When a call that works has become a long one, another may begin."""
+        """Check again when a running call becomes a long one, so that another may start."""
         if self._timer is not None or not self._waiting:
             return
         recent = time.monotonic() - LONG_SECONDS

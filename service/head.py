@@ -1,4 +1,4 @@
-"""HEAD requests: answered as GET, without the content."""
+"""HEAD requests: answered as GET without the content."""
 
 from http import HTTPStatus
 
@@ -7,13 +7,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 
 class Head:
-    """ASGI middleware: HEAD is possible wherever GET is."""
+    """ASGI middleware that answers HEAD wherever GET is possible."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on; of a HEAD, as a GET whose content is dropped."""
+        """Pass the request on; a HEAD becomes a GET whose content is dropped."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

@@ -24,15 +24,15 @@ from service.versions import history_of
 logger = logging.getLogger("placecell")
 
 ALL_SHARE = 0.75
-"""Of the quota of all maps, from which on histories are shortened, the longest first."""
+"""Share of the quota of all maps above which histories are shortened, the longest first."""
 
 WORTH = 0.25
-"""Of the oldest version's bytes, how much history there must be at least to be shortened so."""
+"""Smallest history that is shortened for this, as a share of the oldest version's bytes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """From where on something is done.
+    """Thresholds of maintenance work.
 
     Attributes:
         recent: segments above the base, or gone from it, that are folded in; or
@@ -132,7 +132,7 @@ class Housekeeper:
         release()
 
     def _make_room(self) -> None:
-        """Let go of history where a write was refused for want of room, or all maps are large."""
+        """Drop history if a write was refused for lack of space, or all maps together are large."""
         for name in self._maps.pressed():
             stored = self._maps.find(name)
             if stored is not None and stored.head.commits:
@@ -163,7 +163,7 @@ class Housekeeper:
         return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
     def _shorten(self, stored: StoredMap, most: float) -> None:
-        """Let go of old versions until half as many bytes are left as there may be.
+        """Drop old versions until half of the allowed bytes are left.
 
         So this is not due again at once.
         """

@@ -1,4 +1,4 @@
-"""Which ids a key may write: ids that it reserved or wrote, and new ones near those in use."""
+"""Rules about the ids that a key may write: its own or reserved ones, and new ones near them."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from service.map_store import Head, MapStore
 from service.problems import Problem
 
 SLACK = 1 << 20
-"""Ids above the highest one in use that a robot may choose by itself."""
+"""Number of ids above the highest one in use that a robot may choose without reservation."""
 
 
 def check_new(store: MapStore, holder: Holder, head: Head | None, ids: UInt32) -> None:
@@ -72,7 +72,7 @@ def check_authors(store: MapStore, holder: Holder, head: Head, old: UInt32, new:
 
 
 def check_added(replaced: UInt32) -> None:
-    """Check that an edit that is to add only replaces nothing; 409 if it does."""
+    """Check that an edit which may only add replaces nothing; 409 if it does."""
     if len(replaced):
         raise Problem(
             409,

@@ -35,11 +35,10 @@ class MapFileOut(BaseModel):
 
 
 class CostsOut(BaseModel):
-    """What requests cost: seconds of one core for each unit of work, to be held against limits.
+    """Costs of requests: seconds of one core per unit of work, for comparison with the limits.
 
-    A request for recognition costs the sum of what it does; one that costs more than
-    `limits.cost_seconds` gets a 413, as does an alignment that costs more than
-    `limits.alignment_seconds`.
+    A recognition request costs the sum of its parts. A request above `limits.cost_seconds`, or an
+    alignment above `limits.alignment_seconds`, is refused with a 413.
     """
 
     machine: str = Field(description="That the rates were measured on.")

@@ -1,4 +1,4 @@
-"""The arrays of a JSON request, read by compiled code while other threads run.
+"""Arrays of a JSON request, read by compiled code while other threads run.
 
 A request is nearly all numbers: the points of its segments, or codes and centroids. A parser that
 makes a Python object of each holds the interpreter for the whole body, 140 ms for 11 MB, and no
@@ -27,9 +27,9 @@ from segments.types import Float64, Int8, Int64
 POINTS, CENTROIDS, CODES = 0, 1, 2
 NAMES = ("points", "centroids", "codes")
 STAND_INS = (b"[]", b"[[0,0,0]]", b"[[]]")
-"""Arrays that hold no error, in the place of each kind, where only an error is looked for."""
+"""Valid arrays that replace arrays of each kind while a body is searched for errors."""
 LONGEST_ROW = 1 << 16
-"""Bytes of a point or code that is looked at again to name its error."""
+"""Largest size of a point or code that is parsed again to name its error, bytes."""
 
 # Columns of `spans`, one row for each array.
 BEGIN, END, KIND, FIRST, ROWS, BAD = range(6)
@@ -39,7 +39,7 @@ SPANS, FLOAT_ROWS, POINT_ROWS, INTS, CODE_ROWS, HARD, VALUES, SYNTAX_AT, SYNTAX,
 BAD_ROW, BAD_BEGIN, BAD_END = range(3)
 
 DEEPEST = 200
-"""Lists and objects in each other, at most; pydantic's parser has the same limit."""
+"""Largest depth of nested lists and objects; pydantic's parser has the same limit."""
 
 SYNTAX_ERRORS = {
     1: "EOF while parsing a list",
@@ -50,7 +50,7 @@ SYNTAX_ERRORS = {
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 _part = cast(Callable[[Function], Function], numba.njit(nogil=True))
-"""A function that the compiled one calls."""
+"""Decorator of functions that compiled code calls."""
 
 Bytes = NDArray[np.uint8]
 Words = NDArray[np.uint64]
@@ -59,7 +59,7 @@ SMALLEST_POWER, LARGEST_POWER = -342, 308
 
 
 def _powers_of_five() -> Words:
-    """128 bits of 5^q for each q, the most significant first, as the method asks for them."""
+    """Return 128 bits of 5^q for each q, most significant word first."""
     powers = []
     for q in range(SMALLEST_POWER, LARGEST_POWER + 1):
         power = 5 ** abs(q)
@@ -83,7 +83,7 @@ for _place in range(8):
 
 @dataclass(slots=True)
 class Arrays:
-    """The arrays that were cut out of a body.
+    """Arrays that were cut out of a body.
 
     Attributes:
         body: whole.
@@ -117,7 +117,7 @@ class Arrays:
     _pieces: list[tuple[int, int]] = field(default_factory=list)
 
     def rows(self, value: object, kind: int) -> Float64 | None:
-        """The points or centroids of an array that was cut out, float64 (rows, 3).
+        """Return the points or centroids of an array that was cut out, float64 (rows, 3).
 
         None if this is none, or has an error.
         """
@@ -125,7 +125,7 @@ class Arrays:
         return None if span is None else self.floats[span[0] : sum(span)]
 
     def code_rows(self, value: object) -> Int8 | list[list[int]] | None:
-        """The codes of an array that was cut out; None if this is none.
+        """Return the codes of an array that was cut out; None if this is no such array.
 
         Returns:
             int8 (rows, bytes); a list for each row if they differ in length.
@@ -143,14 +143,14 @@ class Arrays:
         return [each.tolist() for each in np.split(own, np.cumsum(lengths)[:-1])]
 
     def _span(self, value: object, kind: int) -> tuple[int, int] | None:
-        """First row and rows of an array of this kind that has no error."""
+        """Return first row and number of rows of a valid array of this kind; None otherwise."""
         if not isinstance(value, str) or not value.startswith(self.token):
             return None
         _, _, found, first, rows, bad = self.spans[int(value[len(self.token) :])].tolist()
         return None if found != kind or bad else (first, rows)
 
     def named(self) -> bytes:
-        """The body without arrays that have no error, and so short; `place` leads back.
+        """Return the body without its valid arrays; `place` maps positions back.
 
         Raises:
             ValueError: a row with an error is too long to be looked at.
@@ -170,11 +170,11 @@ class Arrays:
         return self._joined(stand_ins)
 
     def row_of(self, kind: int) -> int:
-        """The row that `named` shows in the place of row 0; 0 if it shows none."""
+        """Return the row that `named` shows in the place of row 0; 0 if it shows none."""
         return max(int(self.bad[kind, BAD_ROW]), 0)
 
     def place(self, line: int, column: int, named: bytes) -> tuple[int, int]:
-        """Line and column in the body of a place in `named`."""
+        """Return line and column in the body of a position in `named`."""
         start = 0
         for _ in range(line - 1):
             start = named.find(b"\n", start) + 1
@@ -185,7 +185,7 @@ class Arrays:
         return self.body.count(b"\n", 0, offset) + 1, offset - before
 
     def cut(self) -> None:
-        """Make `text`."""
+        """Cut the arrays out of the body into `text`."""
         self.text = self._joined(
             [
                 (begin, end, f'"{self.token}{number}"'.encode(), begin)
@@ -194,7 +194,7 @@ class Arrays:
         )
 
     def _joined(self, stand_ins: list[tuple[int, int, bytes, int]]) -> bytes:
-        """The body with others in the place of arrays; each has the place that it comes from."""
+        """Return the body with stand-ins for arrays, each with its original position."""
         view, parts, past, length = memoryview(self.body), list[bytes | memoryview](), 0, 0
         self._pieces = [(0, 0)]
         for begin, end, stand_in, source in stand_ins:
@@ -255,7 +255,7 @@ def cut_arrays(body: bytes, *, points: int, segments: int, values: int) -> Array
 
 
 def warm() -> None:
-    """Compile, so that the first request need not wait for it."""
+    """Compile the functions, so that the first request need not wait."""
     cut_arrays(b'{"points":[[0.5,0,0]],"codes":[[1]]}', points=1, segments=1, values=1)
 
 
@@ -272,7 +272,7 @@ def _mark(arrays: Arrays, row: int, place: int) -> None:
 
 
 def moved(message: str, arrays: Arrays, named: bytes) -> str:
-    """A parser's message about `named`, with the place in the body."""
+    """Return a parser's message about `named`, with the position in the body."""
 
     def of_body(match: "re.Match[str]") -> str:
         line, column = arrays.place(int(match[1]), int(match[2]), named)
@@ -290,7 +290,7 @@ def _past_space(data: Bytes, i: int) -> int:
 
 @_part
 def _past_string(data: Bytes, i: int) -> int:
-    """The place after the string that begins at i."""
+    """Return the position after the string that begins at i."""
     i += 1
     while i < len(data) and data[i] != 34:
         i += 2 if data[i] == 92 else 1
@@ -299,7 +299,7 @@ def _past_string(data: Bytes, i: int) -> int:
 
 @_part
 def _past_value(data: Bytes, i: int, comma: bool) -> int:
-    """The place of the bracket that closes what i stands in, or of a comma before it."""
+    """Return the position of the bracket that closes the value at i, or of a comma before it."""
     depth = 0
     while i < len(data):
         c = data[i]
@@ -326,7 +326,7 @@ def _hexadecimal(c: int) -> int:
 
 @_part
 def _kind_of(data: Bytes, begin: int, end: int) -> int:
-    """Which array a key names; -1: none. Letters may be written as escapes."""
+    """Return the kind of array that a key names; -1: none. Letters may be escaped."""
     kinds = 7  # a bit for each that it may be
     names = (b"points", b"centroids", b"codes")
     at = 0
@@ -359,7 +359,7 @@ def _kind_of(data: Bytes, begin: int, end: int) -> int:
 
 @_part
 def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bool]:
-    """The first 19 digits of a number, how many were left out, and whether one of these is not 0.
+    """Return the first 19 digits of a number, how many more there are, and whether any is not 0.
 
     Zeros before the first digit do not count.
     """
@@ -380,7 +380,7 @@ def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bo
 def _number(  # noqa: PLR0912 -- one look at each byte
     data: Bytes, i: int
 ) -> tuple[int, np.uint64, int, bool, bool, bool]:
-    """A number of JSON's grammar that begins at i.
+    """Parse a number of JSON's grammar that begins at i.
 
     Returns:
         the place after it, -1 if there is none; its first 19 digits; the power of ten that they
@@ -442,7 +442,7 @@ def _number(  # noqa: PLR0912 -- one look at each byte
 
 @_part
 def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
-    """128 bits, the most significant first."""
+    """Return the 128 bits of a product, most significant word first."""
     half = np.uint64(32)
     mask = np.uint64(0xFFFFFFFF)
     a0, a1, b0, b1 = a & mask, a >> half, b & mask, b >> half
@@ -454,7 +454,7 @@ def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
 
 @_part
 def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
-    """The bits of the float64 nearest to w * 10^q; and whether that is settled.
+    """Return the bits of the float64 nearest to w * 10^q, and whether they are settled.
 
     w is not 0. Names as in the paper; what is below the normal range is left unsettled.
     """
@@ -495,7 +495,7 @@ def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
 
 @_part
 def _digits(word: np.uint64) -> tuple[np.uint64, int]:
-    """The digits that eight bytes begin with: their value, and how many they are.
+    """Return the value and count of the digits that eight bytes begin with.
 
     All eight are looked at together, with no branch.
     """
@@ -523,7 +523,7 @@ def _coordinate(
     hard: Int64,
     tally: Int64,
 ) -> int:
-    """Read a coordinate into its place; the place after it in the body, -1 if it has an error."""
+    """Read a coordinate into its place; return the position after it, -1 for an error."""
     end, w, q, negative, _, more = _number(data, i)
     if end < 0:
         return -1
@@ -555,7 +555,7 @@ def _coordinate(
 
 @_part
 def _code(data: Bytes, i: int, place: int, codes: Int8) -> int:
-    """Read a code's value into its place; the place after it in the body, -1 if it is none."""
+    """Read a code's value into its place; return the position after it, -1 if it is none."""
     end, w, _, negative, whole, _ = _number(data, i)
     if end < 0 or not whole or w > np.uint64(128) or (w == np.uint64(128) and not negative):
         return -1
@@ -577,7 +577,7 @@ def _row(  # noqa: PLR0911
     hard: Int64,
     tally: Int64,
 ) -> tuple[int, int]:
-    """Read a row; the place after it, -1 if it has an error, and how many values it has."""
+    """Read a row; return the position after it, -1 for an error, and its number of values."""
     n = len(data)
     if i >= n or data[i] != 91:
         return -1, 0
@@ -609,7 +609,7 @@ def _row(  # noqa: PLR0911
 def _usual_rows(  # noqa: PLR0911, PLR0912, PLR0915 -- calls take longer than its work
     data: Bytes, words: Words, i: int, place: int, floats: Float64, bits: Words
 ) -> tuple[int, int]:
-    """Read rows of points in which nothing is unusual, such as [1.5,-0.25,12].
+    """Read rows of points in plain notation, such as [1.5,-0.25,12].
 
     Nothing here is called for each number but what the compiler puts in place: to hand arrays over
     takes longer than to read a number.
@@ -702,7 +702,7 @@ def _scan(  # noqa: PLR0912, PLR0915 -- one look at each byte
     tally: Int64,
     point_arrays: Int64,
 ) -> None:
-    """Fill the arrays of `cut_arrays`, with one look at each byte."""
+    """Fill the arrays of `cut_arrays` in one pass over the bytes."""
     n = len(data)
     i = 0
     while i < n:

@@ -26,9 +26,9 @@ from service.settings import Limits
 Schema = TypeVar("Schema", bound=BaseModel)
 
 CODE_VALUES = 1_000
-"""Values of a code that are kept: no model has as many."""
+"""Largest number of values of a code that are kept; no model has as many."""
 REST_BYTES = 2_048
-"""Of a body, for each segment, outside of its arrays."""
+"""Bytes of a body per segment outside of its arrays."""
 
 
 def _arrays(info: ValidationInfo) -> Arrays:
@@ -92,7 +92,7 @@ CUT: dict[type[BaseModel], type[BaseModel]] = {
 
 
 def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
-    """Read a JSON body by its schema, its arrays as NumPy's.
+    """Parse a JSON body by its schema, with arrays as NumPy arrays.
 
     Raises:
         Problem: 413 if it holds too much, 400 if it is not JSON, 422 if it does not fit the schema.
@@ -123,7 +123,7 @@ def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
 
 
 def _told(schema: type[Schema], arrays: Arrays) -> Schema:
-    """Name what is wrong with a body.
+    """Raise the problem of an invalid body.
 
     Only what may be wrong is read again, so that it takes no time worth mentioning.
 
@@ -150,7 +150,7 @@ def _told(schema: type[Schema], arrays: Arrays) -> Schema:
 
 
 def _moved(place: tuple[int | str, ...], arrays: Arrays) -> tuple[int | str, ...]:
-    """The place in the body of an error in the only row that was shown of an array."""
+    """Return an error's position in the body, if only one row of an array was shown."""
     for kind, name in enumerate(NAMES):
         if name not in place:
             continue
@@ -189,5 +189,5 @@ def _check_amounts(arrays: Arrays, limits: Limits) -> None:
 
 
 def not_json(reason: str) -> Problem:
-    """The problem of a body that is not JSON."""
+    """Return the problem of a body that is not JSON."""
     return Problem(400, "not-json", f"The body is not JSON: {reason}.")

@@ -32,7 +32,7 @@ PREFIX = "placecell_"
 """Of a key, so that whoever finds one knows what it opens."""
 
 GRACE_SECONDS = 60.0
-"""That a key works after it has gone from a file that cannot be read."""
+"""Seconds for which a key that was removed from an unreadable file still works."""
 
 logger = logging.getLogger("placecell")
 
@@ -67,7 +67,7 @@ class Holder:
 
     @property
     def opens_all(self) -> bool:
-        """Whether the key opens every map, those that are yet to come too."""
+        """Return whether the key opens every map, future ones too."""
         return "*" in self.key.maps
 
     def check_write(self, name: str) -> None:
@@ -107,7 +107,7 @@ class Keys:
     """The keys of a file; without a file everyone may do everything."""
 
     def __init__(self, file: Path | None, clock: Callable[[], float] = monotonic) -> None:
-        """Read them.
+        """Read the keys.
 
         Args:
             file: of the keys.
@@ -128,7 +128,7 @@ class Keys:
 
     @property
     def patterns(self) -> tuple[tuple[str, ...], ...]:
-        """The names of maps that keys open, each list of patterns once."""
+        """Return the distinct lists of map name patterns that keys open."""
         return tuple(sorted({holder.key.maps for holder in self._holders}))
 
     def holder(self, authorization: str | None) -> Holder:
@@ -157,7 +157,7 @@ class Keys:
         return found
 
     def is_good(self) -> bool:
-        """Look at the file, if it has changed; whether it can be read."""
+        """Read the file again if it has changed; return whether it is readable."""
         mark = _mark(self._file)
         if self._file is not None and mark != self._mark:
             try:
@@ -180,11 +180,11 @@ class Keys:
         return self._bad_since is None
 
     def any_works(self) -> bool:
-        """Whether a request can be let in at all; see `is_good`."""
+        """Return whether any key can be accepted; see `is_good`."""
         return self._file is None or any(self._works(holder) for holder in self._holders)
 
     def _works(self, holder: Holder) -> bool:
-        """Whether a key of the last file that was good works still."""
+        """Return whether a key of the last readable file still works."""
         if self._bad_since is None or holder.key.sha256 in self._standing:
             return True
         return self._clock() - self._bad_since <= GRACE_SECONDS
@@ -210,7 +210,7 @@ def read_keys(file: Path) -> list[Holder]:
 
 
 def _hashes_in(file: Path) -> frozenset[str]:
-    """The hashes that stand in a file that is no good, but for its comments."""
+    """Return the hashes in a file that cannot be read as keys, without its comments."""
     try:
         text = file.read_bytes().decode(errors="replace")
     except OSError:

@@ -1,4 +1,4 @@
-"""Links between maps: which maps hold the same segments, and how their frames lie to each other.
+"""Links between maps: which maps hold the same segments, and the transform between their frames.
 
 A merged map and its sources hold the same segments; so does a map that was stored twice. A rival in
 such a map is the same place, and no reason to doubt. The segments' provenance tells it: the map
@@ -15,14 +15,14 @@ from service.layers import Layers
 from service.stored_map import StoredMap
 
 SAMPLE = 2_048
-"""Segments of one map that are looked up in the other, at most."""
+"""Largest number of segments of one map that are looked up in the other."""
 
 OFF = 0.5
-"""Metres: segments of linked maps lie closer than this to each other, by their median."""
+"""Largest median distance between segments of linked maps, meters."""
 
 
 def pose_between(one: StoredMap, other: StoredMap) -> Pose | None:
-    """Return the pose of the other map's frame in the one's; None without common segments."""
+    """Return the pose of `other`'s frame in `one`'s; None if they share no segments."""
     rows, others = _common(one, other)
     if not len(rows):
         return None
@@ -34,7 +34,7 @@ def pose_between(one: StoredMap, other: StoredMap) -> Pose | None:
 
 
 def _common(one: StoredMap, other: StoredMap) -> tuple[Int64, Int64]:
-    """Rows of both maps that are the same segments, some of them, int64 (n,) each."""
+    """Return rows of both maps that are the same segments, a sample, int64 (n,) each."""
     if _is_copy(one, other):
         by_id = (_alive(each.layers) for each in (one, other))
         rows, others = (evenly(each, SAMPLE) for each in by_id)
@@ -59,7 +59,7 @@ def _common(one: StoredMap, other: StoredMap) -> tuple[Int64, Int64]:
 
 
 def _is_copy(one: StoredMap, other: StoredMap) -> bool:
-    """Whether both maps hold the same segments, captured at the same moments.
+    """Return whether both maps hold the same segments, captured at the same moments.
 
     Moments tell a copy from a look-alike; where all segments are of one moment, nothing does.
     """
@@ -76,7 +76,7 @@ def _is_copy(one: StoredMap, other: StoredMap) -> bool:
 
 
 def _alive(layers: Layers) -> Int64:
-    """Rows of the map, by id, int64 (n,)."""
+    """Return the rows of the map's live segments, by id, int64 (n,)."""
     rows = np.concatenate(
         [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]
     )
@@ -84,12 +84,12 @@ def _alive(layers: Layers) -> Int64:
 
 
 def _names(stored: StoredMap) -> set[str]:
-    """Names of the maps that its segments may have been written to first."""
+    """Return the names of maps that the segments may have been written to first."""
     return {stored.name, *stored.layers.base.sources, *stored.layers.recent.sources}
 
 
 def _written_to(stored: StoredMap, name: str) -> tuple[UInt32, Int64]:
-    """Segments that were written to the map of this name first: their ids there, and their rows."""
+    """Return ids and rows of the segments that were first written to the map of this name."""
     layers = stored.layers
     ids, rows = [], []
     for layer, first in ((layers.base, 0), (layers.recent, len(layers.base))):
@@ -111,7 +111,7 @@ def _written_to(stored: StoredMap, name: str) -> tuple[UInt32, Int64]:
 
 
 def _of_frames(layers: Layers, column: str, rows: Int64) -> Float64:
-    """Values of a column of the frame table, at rows of the map."""
+    """Return values of a frame table's column, at rows of the map."""
     base, recent = layers.base, layers.recent
     above = rows >= len(base)
     of_base = getattr(base, column)[base.frame_index[rows[~above]]]

@@ -36,10 +36,10 @@ VIEWS = 8
 """Of a thing, at most."""
 
 MOST_COMPARED = 1_024
-"""Stored segments that a new one is compared with; of more within the radius, the latest ones."""
+"""Largest number of stored segments that a new one is compared with; the latest ones if more."""
 
 MOST_VISITED = 4_096
-"""Stored segments about a new one whose distance and moment are looked at, the latest ones."""
+"""Largest number of stored segments near a new one whose distance is checked, the latest ones."""
 
 NO_VIEWS: Mapping[int, int] = MappingProxyType({})
 
@@ -92,7 +92,7 @@ def sighting(
     compared: Bool | None = None,
     views_elsewhere: Mapping[int, int] = NO_VIEWS,
 ) -> Sighting:
-    """Compare an upload with what is stored about there, and with itself, in the order of time.
+    """Compare an upload with the stored segments around it and with itself, in order of time.
 
     Memory is linear in the segments. So is time, but for a logarithm: a segment is compared with a
     bounded number of those that were kept (`MOST_COMPARED`, `MOST_VISITED`).
@@ -167,7 +167,7 @@ def sighting(
 
 
 def count_elsewhere(content: CompactMap, stored: CompactMap) -> dict[int, int]:
-    """Views that a map has of the things of some of its segments, without these, by thing."""
+    """Count the views that a map has of its segments' things, without these segments, by thing."""
     here, there = (_column(_filled(each), "views") for each in (stored, content))
     things, counts = np.unique(here, return_counts=True)
     if not len(things):
@@ -202,7 +202,7 @@ def _column(content: CompactMap, name: str) -> UInt32:
 
 
 def _robots(known: CompactMap, given: CompactMap) -> Int64:
-    """Number the robots of the segments of two maps, int64 (known + given,): equal for one name."""
+    """Number the robots of two maps' segments, int64 (known + given,), one number per name."""
     numbers = {name: number for number, name in enumerate({*known.robots, *given.robots})}
     return np.concatenate(
         [
@@ -237,7 +237,7 @@ def _compare(
     seen: UInt32,
     is_kept: Bool,
 ) -> None:
-    """Decide of each given segment, in order, whether it is kept.
+    """Decide for each given segment, in order, whether it is kept.
 
     Rows are the known segments, then the given ones. What is kept stands in a list of its cell,
     the latest first.
@@ -308,7 +308,7 @@ def _comparable(
     most_visited: int,
     others: Int64,
 ) -> int:
-    """Fill others with what was kept near a row, and return how many these are.
+    """Fill `others` with what was kept near a row; return their number.
 
     What was seen at the same moment, by the same sensor, is something else.
     """
@@ -339,7 +339,7 @@ def _comparable(
 
 @compiled
 def _most_alike(row: int, others: Int64, levels: Int8) -> tuple[int, float]:
-    """Return which of the others looks most like a row, of equal ones the first, and how far off.
+    """Return the segment of `others` most similar to a row, the first of equals, and its distance.
 
     Distances are float32, as those of descriptors are; squares of levels are whole numbers.
     """

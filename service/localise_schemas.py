@@ -80,7 +80,7 @@ class HypothesisOut(BaseModel):
 
 
 class RivalOut(HypothesisOut):
-    """The best place in another map, which is not known to be the same place."""
+    """Best pose in another map that is not known to show the same place."""
 
     map: str
     frame: str = Field(description="Name of that map's frame; the pose leads to it.")
@@ -128,7 +128,7 @@ class UnusableOut(BaseModel):
 
 
 class LocalizeResponse(BaseModel):
-    """What each map says, the likeliest first; equally likely ones by score."""
+    """Answers of all maps, the most probable first; equally probable ones by score."""
 
     model_id: str
     localisations: list[LocalisationOut]

@@ -1,4 +1,4 @@
-"""From queries to the robot's place in one map, or in the best of many."""
+"""Localization of a robot in one map or in many maps."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -77,7 +77,7 @@ def query_in(
     k: int,
     evidence: Evidence | None = None,
 ) -> MapQuery:
-    """Look up the candidates of one map; arguments as of `localise_in`."""
+    """Look up the candidates in one map; arguments as of `localise_in`."""
     found = found_in(codes, model, (stored,), k)
     there = MapSurroundings(codes, model, stored)
     probabilities = found.probabilities
@@ -91,7 +91,7 @@ def query_in(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Group:
-    """The maps of one model, and the query as that model describes it.
+    """Maps of one model, with the query as that model describes it.
 
     Attributes:
         model: that made the maps.
@@ -108,7 +108,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InMap:
-    """One map's part of an answer.
+    """Answer for one map.
 
     Attributes:
         stored: the map.
@@ -133,7 +133,7 @@ def localise_among(
     parts: Callable[[Group], list[Part]],
     evidence: Callable[[StoredMap], Evidence | None],
 ) -> list[InMap]:
-    """Find the robot in any of the maps, the likeliest first.
+    """Localize the robot in any of the maps, the most probable first.
 
     All maps are searched at once where there are more than a few, and those in which most segments
     agree are searched in full and judged together. The work is bounded, however many maps there
@@ -178,7 +178,7 @@ def localise_among(
 
 
 def not_searched(usable: int, parameters: LocalisationParameters, full: int) -> Localisation:
-    """Return the answer of a map that was not searched in full."""
+    """Return the localization of a map that was not searched in full."""
     told = unknown(usable, parameters)
     if told.reason != "inconsistent" or not full:
         return told
@@ -190,7 +190,7 @@ def not_searched(usable: int, parameters: LocalisationParameters, full: int) -> 
 
 
 def _rank(answer: InMap) -> tuple[bool, float, float, str]:
-    """Localized first, then by probability; where that is at its cap by score, never by name.
+    """Return the sort key of an answer: localized first, by probability, then by score.
 
     The name orders what is equal in all, such as maps without any candidate.
     """
@@ -209,7 +209,7 @@ def _chosen(
     parameters: LocalisationParameters,
     parts: Callable[[Group], list[Part]],
 ) -> list[tuple[int, int]]:
-    """Which maps are searched in full, by group and place."""
+    """Choose the maps to search in full, by group and index."""
     every = list(past)
     if len(every) <= FULL:
         return every

@@ -25,7 +25,7 @@ MOST = 1 << 13
 """Rows fetched for the sake of ties: of more that are equally near, some are left out."""
 
 ROWS = 1 << 14
-"""Rows of codes that are made levels at once: as floats they are 4 to 16 times as large."""
+"""Rows of codes converted to levels per step: as floats they are 4 to 16 times as large."""
 
 BLOCK = 1 << 21
 """Bytes of codes that are compared at once: of many ties it would be gigabytes."""
@@ -129,7 +129,7 @@ class FlatIndex(MapIndex):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Nibbles:
-    """The tables of a product quantizer over nibbles: one set for all indexes of one code.
+    """Product quantizer tables over nibbles, one set for all indexes of a code.
 
     Attributes:
         apart: uint16 (65,536,), squared distance of two bytes, at 256 times the one plus the other.
@@ -148,7 +148,7 @@ class Nibbles:
     @classmethod
     @lru_cache(maxsize=len(LEVELS))
     def of(cls, per_byte: int) -> "Nibbles":
-        """Return the tables of codes with 2 or 4 dimensions a byte; they do not depend on the step.
+        """Return the tables of codes with 2 or 4 dimensions per byte, for any step.
 
         A table of 128 kB for each index would be a megabyte for each map, however empty.
         """
@@ -168,7 +168,7 @@ class Nibbles:
         return cls(apart.astype(np.uint16), faiss_bytes, codebook, per_nibble, widest)
 
     def index(self, codes: Int8) -> Any:
-        """Return a FAISS index over codes; while it is made, the codes are held once more."""
+        """Return a FAISS index over codes, which are held a second time while it is built."""
         nibbles = 2 * codes.shape[1]
         plain = faiss.IndexPQ(nibbles * self.per_nibble, nibbles, 4)
         faiss.copy_array_to_vector(np.tile(self.codebook, (nibbles, 1)).ravel(), plain.pq.centroids)
@@ -183,13 +183,13 @@ class Nibbles:
 
 
 class NibbleIndex(MapIndex):
-    """Looks up what each nibble adds to the distance.
+    """Index that adds up the distances of nibbles.
 
     Takes the codes' own bytes a segment in memory, beside the codes. An empty one takes nothing.
     """
 
     def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
-        """Of codes with 2 or 4 dimensions a byte."""
+        """Index codes with 2 or 4 dimensions per byte."""
         super().__init__(codes)
         self._quantiser = quantiser
         self._tables = Nibbles.of(quantiser.per_byte)

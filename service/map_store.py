@@ -20,7 +20,7 @@ Trouble = Literal["full", "read-only", "failing", "busy", "damaged", "moved"]
 
 
 class StoreError(Exception):
-    """The store could not do what it was asked; nothing was changed.
+    """Store could not carry out an operation; nothing was changed.
 
     Attributes:
         kind: what is in the way: a full disk, one that takes no writes, one that fails, another
@@ -42,7 +42,7 @@ class OutOfIdsError(Exception):
 
 
 class TooManyIdsError(Exception):
-    """A key has reserved more ids than it may have without writing them."""
+    """Key has reserved more ids than it may hold unwritten."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class Commit:
-    """A write to a map, as kept.
+    """Stored write to a map.
 
     Attributes:
         sequence: of the version that it led to; they grow by one.
@@ -86,7 +86,7 @@ class Commit:
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """Where a map stands.
+    """Present state of a map in the store.
 
     Attributes:
         name: of the map.
@@ -116,7 +116,7 @@ class Head:
 
     @property
     def bytes(self) -> int:
-        """That the map takes in the store, with its old versions."""
+        """Return the bytes that the map takes in the store, with its old versions."""
         return self.base_bytes + self.log_bytes
 
     @property
@@ -127,7 +127,7 @@ class Head:
 
 @dataclass(frozen=True, slots=True)
 class Owner:
-    """Who wrote or reserved an id last.
+    """Last key that wrote or reserved an id.
 
     Attributes:
         author: name of the key; empty if it is not known.
@@ -140,7 +140,7 @@ class Owner:
 
 @dataclass(frozen=True, slots=True)
 class Ids:
-    """What a commit does to the ids of a map, in runs of first id and end, exclusive, ascending.
+    """Effect of a commit on ids, in ascending runs of first id and exclusive end.
 
     Attributes:
         taken: by segments that are added or replaced.
@@ -151,7 +151,7 @@ class Ids:
     written: tuple[tuple[int, int], ...] = ()
 
     def leave(self, next_id: int, end_id: int) -> tuple[int, int]:
-        """Return the largest run of free ids that is left, of two as large the later one.
+        """Return the largest remaining run of free ids; of equal ones the later.
 
         So one id that somebody chose far from all others takes no others with it.
         """
@@ -228,7 +228,7 @@ class MapStore(Protocol):
         """
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
-        """Reserve ids that nobody has had, and return the first of them.
+        """Reserve ids that no segment ever had; return the first of them.
 
         Args:
             uid: of the map; KeyError if there is none.
@@ -242,10 +242,10 @@ class MapStore(Protocol):
         """
 
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
-        """Return who wrote or reserved each of these ids last; None where nobody did."""
+        """Return the last owner of each of these ids; None for ids without an owner."""
 
     def free_ids(self, uid: str, used: Iterable[int]) -> Head:
-        """Forget who owned ids that are not used, and let the free ones begin after the used.
+        """Forget the owners of unused ids; free ids begin after the used ones.
 
         Args:
             uid: of the map; KeyError if there is none.
@@ -262,7 +262,7 @@ class MapStore(Protocol):
         """Return the room of what was removed to the disk, if it is much."""
 
     def trouble(self) -> str | None:
-        """Say why the store cannot take a write, if so; None if it can."""
+        """Return why the store cannot take a write; None if it can."""
 
 
 def link_of(before: str, sequence: int, blob: bytes) -> str:
@@ -273,7 +273,7 @@ def link_of(before: str, sequence: int, blob: bytes) -> str:
 
 
 def mark_of(link: str, note: Note) -> str:
-    """Return the mark of a commit: a chain of SHA-256, so that one names all that led to it.
+    """Return the mark of a commit: a chain of SHA-256 over all commits that led to it.
 
     Two maps of one name, or a database and its backup after both were written to, count the same
     sequences, but never come to the same mark. The mark covers the note, so an altered author or

@@ -28,7 +28,7 @@ from service.versions import ids_ever
 logger = logging.getLogger("placecell")
 
 TURN_SECONDS = 0.1
-"""How often a write that waits for another looks whether it shall stop."""
+"""Seconds between checks for cancellation while a write waits for another one."""
 
 
 class Maps:
@@ -97,18 +97,18 @@ class Maps:
         return len(self._by_name)
 
     def pressed(self) -> list[str]:
-        """Names of the maps whose writes were refused for want of room, since it was last asked."""
+        """Return and forget the maps whose writes were refused for lack of space."""
         with self._committing:
             pressed, self._pressed = sorted(self._pressed & self._by_name.keys()), set()
         return pressed
 
     @property
     def stored_bytes(self) -> int:
-        """Of all maps in the store, with their old versions."""
+        """Return the bytes of all maps in the store, with their old versions."""
         return self._usage.bytes
 
     def trouble(self) -> str | None:
-        """Say why no map can be stored, if so."""
+        """Return why no map can be stored; None if maps can be."""
         return self.store.trouble()
 
     def all(self) -> list[StoredMap]:
@@ -143,7 +143,7 @@ class Maps:
 
     @contextmanager
     def writing(self, name: str) -> Iterator[None]:
-        """While nobody else writes to the map of this name.
+        """Hold the write lock of the map of this name.
 
         Raises:
             Cancelled: the request became late, or its client left, before its turn.
@@ -184,7 +184,7 @@ class Maps:
         operation: str,
         written: UInt32 | None = None,
     ) -> StoredMap:
-        """The map's next version; on return it is safely on disk. Errors as of `create`.
+        """Store the map's next version; on return it is durable. Raises as `create` does.
 
         Args:
             stored: the map as it is.
@@ -221,7 +221,7 @@ class Maps:
             return self._swap(StoredMap(head, layers, folded, lies_since, index))
 
     def free_ids(self, stored: StoredMap) -> Head:
-        """Make all ids free that no kept version has; `writing` is held."""
+        """Free all ids that no kept version has; the caller holds `writing`."""
         used = ids_ever(self.store, stored)
         with self._committing:
             head = self.store.free_ids(stored.head.uid, used.tolist())
@@ -276,7 +276,7 @@ class Maps:
         return content
 
     def _swap(self, stored: StoredMap) -> StoredMap:
-        """Show a map. A new dictionary, so that a reader in the midst of the old one is well.
+        """Publish a map in a new dictionary, so that readers of the old one are undisturbed.
 
         `_committing` is held.
         """
@@ -296,7 +296,7 @@ class Maps:
 
 
 def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:
-    """Return ids, which ascend, as runs of first id and end, exclusive."""
+    """Convert ascending ids to runs of first id and exclusive end."""
     if not len(ids):
         return ()
     wide = ids.astype(np.int64)

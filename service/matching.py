@@ -134,7 +134,7 @@ def found_in(
     k: int,
     parts: Sequence[Part] | None = None,
 ) -> Found:
-    """The k nearest over all maps.
+    """Return the k nearest candidates over all maps.
 
     Args:
         codes: int8 (q, code bytes), the queries.
@@ -165,7 +165,7 @@ def found_in(
 def _nearest(
     codes: Int8, searched: tuple[StoredMap, ...], part: Part, k: int
 ) -> tuple[Float64, Int64, Int64]:
-    """Of one part: distances in steps, places and rows of the k nearest, (q, up to k) each."""
+    """Search one part: distances in steps, places and rows of the k nearest, (q, up to k) each."""
     if part.shared is None:
         place = int(part.places[0])
         stored = searched[place]
@@ -181,7 +181,7 @@ def _nearest(
 def parts_of(
     maps: Maps, model: Model, searched: Sequence[StoredMap], patterns: Patterns
 ) -> list[Part]:
-    """Return what to search for these maps of one model at once.
+    """Return the parts to search for these maps of one model.
 
     Args:
         patterns: what keys open; maps that are searched together are opened by the same keys.
@@ -191,7 +191,7 @@ def parts_of(
 
 
 def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
-    """Merge one query's candidates of several models, the likeliest first.
+    """Merge one query's candidates of several models, the most probable first.
 
     Distances of two models do not compare. Each probability is calibrated, but on its own model's
     pairs; so equal ones, such as those at a cap, are in the order of their ranks among their own
@@ -205,7 +205,7 @@ def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
 
 
 def _standing(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, int]:
-    """Where a candidate stands among those of several models."""
+    """Return a candidate's sort key among those of several models."""
     probability = candidate["probability"]
     stated = 0.0 if probability is None else probability
     return probability is None, -stated, rank, candidate["map"], candidate["id"]

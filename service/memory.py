@@ -1,4 +1,4 @@
-"""Memory: what the process gives back to the system when large maps come and go."""
+"""Memory allocator settings, so that memory of dropped maps returns to the system."""
 
 import ctypes
 from contextlib import suppress
@@ -7,17 +7,17 @@ _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
 """Parameters of glibc's mallopt, as malloc.h counts them."""
 
 LARGE = 2 << 20
-"""Bytes from which an array is mapped by itself, and so given back as soon as it is freed."""
+"""Size from which an array is mapped by itself and returned as soon as it is freed, bytes."""
 
 KEPT = 16 << 20
-"""Bytes of free memory that an arena keeps for what comes next."""
+"""Free bytes that an arena keeps for later use."""
 
 ARENAS = 4
-"""Of all threads together; each keeps free memory of its own."""
+"""Number of arenas of all threads together; each keeps free memory of its own."""
 
 
 def limit() -> None:
-    """Make the allocator keep little of what is freed.
+    """Limit the free memory that the allocator keeps.
 
     By itself glibc maps ever larger arrays inside its arenas (up to 32 MB, as they are freed), and
     has eight arenas a core: after maps of a million were built anew some times, half of the memory
@@ -34,6 +34,6 @@ def limit() -> None:
 
 
 def release() -> None:
-    """Give free memory inside the arenas back to the system."""
+    """Return free memory inside the arenas to the system."""
     with suppress(OSError, AttributeError):  # another system, or another library
         ctypes.CDLL("libc.so.6").malloc_trim(0)

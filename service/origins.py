@@ -1,4 +1,4 @@
-"""Protection from web pages where there are no keys: which hosts and origins are answered.
+"""Protection from web pages without keys: checks `Host` and `Origin`.
 
 A page that a user opens can send requests to any service on the user's machine, and with a name
 that its owner points to 127.0.0.1 (DNS rebinding) read the answers. A key stops that, for no page
@@ -33,7 +33,7 @@ class OriginGuard:
         self._names = {settings.host.lower(), own, f"{own}.local"}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on, if its host and origin are good."""
+        """Pass the request on if its host and origin are allowed."""
         if scope["type"] == "http" and not self._has_keys:
             problem = self._problem(scope)
             if problem is not None:
@@ -64,7 +64,7 @@ class OriginGuard:
         return None
 
     def _is_known(self, name: str, scope: Scope) -> bool:
-        """Whether a name in `Host` is one of this service."""
+        """Return whether a name in `Host` is one of this service."""
         if _fits(name, self._hosts) or name == "localhost" or name.endswith(".localhost"):
             return True
         address, here = _address(name), (scope.get("server") or ("", 0))[0]
@@ -80,7 +80,7 @@ class OriginGuard:
         return not reached.is_loopback and (address is not None or name in self._names)
 
     def _is_own(self, origin: str, host: tuple[str, int | None] | None) -> bool:
-        """Whether a page's origin is the service itself, or one that the settings allow."""
+        """Return whether a page's origin is the service itself or one that the settings allow."""
         origin = origin.strip().lower()
         if origin in self._origins or "*" in self._origins:
             return True
@@ -98,7 +98,7 @@ def _values(scope: Scope, name: bytes) -> list[str]:
 
 
 def _host(header: str) -> tuple[str, int | None] | None:
-    """The name and port of a `Host`; None if it is none."""
+    """Return name and port of a `Host` header; None if it is invalid."""
     try:
         parts = urlsplit(f"//{header.strip()}")
         name, port = parts.hostname, parts.port
@@ -119,7 +119,7 @@ def _address(name: str) -> Address | None:
 
 
 def _fits(name: str, patterns: Collection[str]) -> bool:
-    """Whether a name is one of these, of which `*.example` stands for all below it."""
+    """Return whether a name matches a pattern; `*.example` matches all names below it."""
     below = [pattern[1:] for pattern in patterns if pattern.startswith("*.")]
     return "*" in patterns or name in patterns or any(name.endswith(each) for each in below)
 

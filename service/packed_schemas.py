@@ -39,7 +39,7 @@ class Pairs:
 
 
 def _points(blob: object) -> Float32:
-    """The points of a blob, float32 (n, 3); some may not be finite, as sensors give them."""
+    """Decode the points of a blob, float32 (n, 3); some may not be finite."""
     return np.asarray(_coordinates(blob, np.dtype("<f4"), infinite=True), np.float32)
 
 
@@ -51,7 +51,7 @@ def _centroids(blob: object) -> Float64:
 def _coordinates(
     blob: object, kind: "np.dtype[np.floating[Any]]", *, infinite: bool = False
 ) -> "NDArray[np.floating[Any]]":
-    """The points of a blob, (n, 3): one look at all, none at each.
+    """Decode the points of a blob, (n, 3), without a check per point.
 
     Args:
         blob: the bytes.

@@ -101,7 +101,7 @@ def title_of(kind: str) -> str:
 
 
 def errors_of(error: ValidationError | RequestValidationError) -> list[dict[str, Any]]:
-    """What is wrong with a request, each with its place."""
+    """Return the errors of a request, each with its place."""
     if isinstance(error, RequestValidationError):
         return list(error.errors())
     found = error.errors(include_url=False, include_context=False, include_input=False)
@@ -111,7 +111,7 @@ def errors_of(error: ValidationError | RequestValidationError) -> list[dict[str,
 def invalid(
     error: ValidationError | RequestValidationError, found: list[dict[str, Any]] | None = None
 ) -> Problem:
-    """The problem of a request that does not fit its schema; 400 if it is not even JSON.
+    """Return the problem of a request that does not fit its schema; 400 if it is not JSON.
 
     Args:
         error: what the schema says.

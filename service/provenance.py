@@ -28,7 +28,7 @@ def shared(one: CompactMap, other: CompactMap) -> tuple[Int64, Int64]:
 
 
 def _keys(one: CompactMap, other: CompactMap) -> list[tuple[Int64, Int64]]:
-    """Of each map the rows that have a source, and a number for source and id there.
+    """Return rows with a source and a number for (source, id), for each of two maps.
 
     The same for both maps. Linear in segments and in sources: a map may name 65,535 of these.
     """

@@ -57,7 +57,7 @@ class Asked:
 
     @property
     def dropped_points(self) -> int:
-        """How many points of the request were not finite and were left out."""
+        """Return the number of the request's points that were not finite and were left out."""
         return self.prepared[0].dropped_points if self.prepared else 0
 
     async def queries(self, timing: Timing) -> list[Queries]:
@@ -145,7 +145,7 @@ def _codes(state: State, given: Int8 | list[list[int]] | None, model: Model) -> 
 
 
 def _rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:
-    """The codes by query, int8 (q, code bytes): of a blob, or of a row for each."""
+    """Return the codes by query, int8 (q, code bytes), from a blob or from rows."""
     if isinstance(given, np.ndarray) and given.ndim == 1:
         if len(given) % code_bytes:
             detail = f"{len(given)} bytes; the model's codes have {code_bytes} each."

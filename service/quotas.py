@@ -1,4 +1,4 @@
-"""Quotas: how many maps, segments, robots and bytes may be stored."""
+"""Quotas: limits on stored maps, segments, robots and bytes."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ CURE = (
 
 
 class OverQuotaError(Problem):
-    """A write that would exceed a quota.
+    """Write would exceed a quota.
 
     Attributes:
         whole: the detail for a key that opens all maps; the detail of the problem itself tells
@@ -28,12 +28,12 @@ class OverQuotaError(Problem):
 
 
 class NoRoomError(OverQuotaError):
-    """A write that would make a map, or all maps, take too many bytes in the store."""
+    """Write would make a map, or all maps, exceed the bytes of the store."""
 
 
 @dataclass(slots=True)
 class Usage:
-    """What is stored, counted as maps come and go, so that no write looks at all maps.
+    """Usage counters that follow each write, so that no write reads all maps.
 
     Attributes:
         maps: how many there are.
@@ -53,7 +53,7 @@ class Usage:
         self._count(head, stored, 1)
 
     def remove(self, head: Head, stored: StoredMap | None = None) -> None:
-        """Count a map no more."""
+        """Stop counting a map."""
         self._count(head, stored, -1)
 
     def _count(self, head: Head, stored: StoredMap | None, sign: int) -> None:
@@ -66,7 +66,7 @@ class Usage:
 
 @dataclass(frozen=True, slots=True)
 class Quotas:
-    """The quotas of the settings.
+    """Quotas from the settings.
 
     Attributes:
         limits: of the settings.
@@ -75,7 +75,7 @@ class Quotas:
     limits: Limits
 
     def check_new(self, usage: Usage, author: str, robots: Counter[str], size: int) -> None:
-        """Check that a map may be made.
+        """Check that a map may be created.
 
         Args:
             usage: before the write.
@@ -100,7 +100,7 @@ class Quotas:
     def check_write(
         self, usage: Usage, old: StoredMap, robots: Counter[str], sources: int, size: int
     ) -> None:
-        """Check that a version may be added. What only removes segments is never refused.
+        """Check that a version may be added; removal of segments is never refused.
 
         Args:
             usage: before the write.
@@ -156,7 +156,7 @@ class Quotas:
 
 
 def _add(counts: Counter[str], name: str, number: int) -> None:
-    """Add to a count; names that count nothing are let go."""
+    """Add to a count; drop names whose count is zero."""
     counts[name] += number
     if not counts[name]:
         del counts[name]

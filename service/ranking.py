@@ -1,4 +1,4 @@
-"""Ranking: in which of many maps candidates agree, at a small part of what a pose costs.
+"""Ranking of maps: choose the few maps in which most candidates agree.
 
 Each segment's nearest descriptors are looked for in all maps at once. A map is worth as many
 segments as one of its candidates agrees with: by distances, as `segments.localisation.consistency`
@@ -20,31 +20,31 @@ from service.shared_index import Part, centred
 from service.stored_map import StoredMap
 
 FULL = 8
-"""Maps that are searched in full, at most."""
+"""Largest number of maps that are searched in full."""
 
 NEAREST = 128
-"""Rows fetched for each segment from an index of several maps."""
+"""Rows fetched per segment from an index of several maps."""
 
 SEGMENTS = 64
-"""Segments of a request that are looked for in all maps; of more, so many, evenly."""
+"""Largest number of a request's segments that are searched in all maps, evenly chosen."""
 
 OWN = 2
-"""Candidates of a segment that count in one map."""
+"""Candidates per segment that count in one map."""
 
 PAIRS = 40_000_000
-"""Pairs of candidates that are compared, in all maps together; of more, fewer of each map's are."""
+"""Largest number of candidate pairs compared in all maps together."""
 
 WORTH = 0.4
-"""A map of fewer votes than this share of the best one's cannot be as good, by far."""
+"""Share of the best map's votes below which a map is not searched in full."""
 
 
 _threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
-"""For all requests together: a search of an idle service takes two cores."""
+"""Threads for all requests together: a search in an idle service takes two cores."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Nearest:
-    """Candidates of several maps, m of them.
+    """Candidates in several maps, m of them.
 
     Attributes:
         places: int64 (m,), indices of the maps.
@@ -66,7 +66,7 @@ def votes_of(
     parts: Sequence[Part],
     parameters: LocalisationParameters,
 ) -> Int64:
-    """Count, for each map, how many segments agree about one place, int64 (maps,).
+    """Count for each map how many segments agree about one place, int64 (maps,).
 
     Args:
         codes: int8 (q, code bytes), of the segments around the robot.
@@ -121,7 +121,7 @@ def votes_of(
 
 
 def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FULL) -> Int64:
-    """Choose the maps that are searched in full, indices, int64 (n,), ascending.
+    """Choose the maps to search in full; indices, int64 (n,), ascending.
 
     Args:
         votes: int64 (maps,).
@@ -137,7 +137,7 @@ def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FU
 
 
 def _nearest(codes: Int8, searched: Sequence[StoredMap], part: Part) -> Nearest:
-    """The candidates of one part."""
+    """Return the candidates of one part."""
     shared = part.shared
     if shared is None:
         place = int(part.places[0])
@@ -171,7 +171,7 @@ def _count(
     flag: Int32,
     votes: Int64,
 ) -> None:
-    """Fill votes: of each map, with how many segments' candidates one candidate agrees, plus 1."""
+    """Fill `votes`: 1 plus the most segments that agree with one candidate of a map."""
     for place in range(len(votes)):
         if is_cancelled(flag):
             return

@@ -1,4 +1,4 @@
-"""Receiving a request's body: its type, its progress, and the memory that bodies may take."""
+"""Receiving request bodies: media type, progress and memory."""
 
 import time
 from collections import Counter
@@ -15,12 +15,12 @@ from service.problems import Problem
 RETRY_SECONDS = 1
 
 SLOWEST_RATE = 1_000
-"""Bytes a second on average, beyond the first `stall_seconds`: a slower body is given up."""
+"""Lowest average rate of a body after the first `stall_seconds`, bytes/s."""
 
 
 @dataclass(frozen=True, slots=True)
 class BodyRules:
-    """How long a body may take.
+    """Time limits of a body.
 
     Attributes:
         seconds: until it must be there.
@@ -32,10 +32,10 @@ class BodyRules:
 
 
 class ByteBudget:
-    """Bytes that clients may hold at once: all together, and each of them."""
+    """Budget of bytes that clients may hold at once, together and each."""
 
     def __init__(self, total: int, share: int, what: str) -> None:
-        """Make a budget.
+        """Create a budget.
 
         Args:
             total: bytes over all clients.
@@ -49,7 +49,7 @@ class ByteBudget:
         self.bytes = 0
 
     def take(self, client: str, count: int) -> None:
-        """Count bytes of a client; 429 if they are too many."""
+        """Count bytes of a client; 429 if they exceed the budget."""
         if self._held[client] + count > self.share:
             raise busy(
                 f"This client has {self._held[client]} bytes of {self._what} under way; "
@@ -63,11 +63,11 @@ class ByteBudget:
         self.bytes += count
 
     def has_room(self, client: str, count: int) -> bool:
-        """Whether that many bytes of a client could be taken."""
+        """Return whether a client could take that many bytes."""
         return self._held[client] + count <= self.share and self.bytes + count <= self.total
 
     def give_back(self, client: str, count: int) -> None:
-        """Count bytes of a client no longer."""
+        """Stop counting bytes of a client."""
         self.bytes -= count
         self._held[client] -= count
         if not self._held[client]:
@@ -75,7 +75,7 @@ class ByteBudget:
 
 
 class Held:
-    """Bytes that one request holds of a budget."""
+    """Bytes of a budget that one request holds."""
 
     def __init__(self, budget: ByteBudget, client: str) -> None:
         self._budget = budget
@@ -83,21 +83,21 @@ class Held:
         self._bytes = 0
 
     def add(self, count: int) -> None:
-        """Hold more; 429 if they are too many."""
+        """Hold more bytes; 429 if they exceed the budget."""
         self._budget.take(self._client, count)
         self._bytes += count
 
     def release(self) -> None:
-        """Hold none."""
+        """Hold no bytes any longer."""
         self._budget.give_back(self._client, self._bytes)
         self._bytes = 0
 
 
 class Receiver:
-    """Receives bodies: so many at once of a client, and so many bytes."""
+    """Receiver of bodies that limits their number and bytes per client."""
 
     def __init__(self, bodies: int, budget: ByteBudget) -> None:
-        """Make a receiver.
+        """Create a receiver.
 
         Args:
             bodies: of one client at once.
@@ -117,7 +117,7 @@ class Receiver:
             held.release()
 
     async def receive(self, request: Request, client: str, rules: BodyRules, held: Held) -> bytes:
-        """The body as it was sent.
+        """Return the body as it was sent.
 
         Raises:
             Problem: 408 if it does not come, 429 if the client sends too much at once.
@@ -172,7 +172,7 @@ def _slow(rules: BodyRules, spent: float, received: int) -> Problem:
 
 
 def check_types(request: Request, media_types: Collection[str]) -> tuple[str, str]:
-    """The body's media type, empty if the request names none, and its coding.
+    """Return the body's media type, empty if the request names none, and its coding.
 
     Raises:
         Problem: 415 for another type or coding.
@@ -198,7 +198,7 @@ def check_types(request: Request, media_types: Collection[str]) -> tuple[str, st
 
 
 def busy(detail: str, closes: bool = False) -> Problem:
-    """The problem of a client that asks for too much at once."""
+    """Return the problem of a client that asks for too much at once."""
     headers = {"Retry-After": str(RETRY_SECONDS)}
     if closes:
         headers["Connection"] = "close"
@@ -206,7 +206,7 @@ def busy(detail: str, closes: bool = False) -> Problem:
 
 
 def form_hint(stated: str, media_types: Collection[str]) -> str:
-    """Name the header to add where a program took the body for a form, as curl does."""
+    """Return the header to add if a program took the body for a form, as curl does."""
     if stated != "application/x-www-form-urlencoded":
         return ""
     wanted = min(media_types)

@@ -1,4 +1,4 @@
-"""The log of refused requests: who was refused, at which address; bounded, whoever floods it."""
+"""Log of refused requests, with a bounded number of lines."""
 
 import ipaddress
 import logging
@@ -12,22 +12,22 @@ from starlette.types import Scope
 logger = logging.getLogger("placecell.refusals")
 
 TOLD = frozenset({401, 403, 429})
-"""Statuses that leave a line: no key, no right, too much."""
+"""Statuses that are logged: no key, no permission, too many requests."""
 
 WINDOW_SECONDS = 60.0
 
 ADDRESS_LINES = 10
-"""A window, of one address; further refusals are counted, and the count is told with the next."""
+"""Lines per window and address; further refusals are counted and reported with the next line."""
 
 ALL_LINES = 100
-"""A window, of all addresses."""
+"""Lines per window over all addresses."""
 
 
 class RefusalLog:
-    """Writes a warning for each refused request, up to a number a minute."""
+    """Logger of refused requests, with a limit of lines per minute."""
 
     def __init__(self, clock: Callable[[], float] = monotonic) -> None:
-        """Begin with nothing told.
+        """Create an empty log.
 
         Args:
             clock: gives seconds that only grow.
@@ -40,7 +40,7 @@ class RefusalLog:
     def tell(
         self, status: int, method: str, route: str, address: str, key: str | None, request_id: str
     ) -> None:
-        """Write a line, or count it.
+        """Log a refusal, or count it.
 
         Args:
             status: of the answer.
@@ -79,7 +79,7 @@ class RefusalLog:
 
 
 def address_of(scope: Scope) -> str:
-    """The client's address, for the log: nothing that could forge a line of it.
+    """Return the client's address for the log, safe against forged lines.
 
     Behind a proxy of `forwarded_allow_ips` it is the one that the proxy states (X-Forwarded-For).
     """

@@ -19,16 +19,16 @@ class HasPoints(Protocol):
 
     @property
     def points(self) -> ArrayLike:
-        """Points, (n, 3)."""
+        """Return the points, (n, 3)."""
 
     @property
     def sensor(self) -> Point:
-        """Where the sensor was."""
+        """Return the sensor position."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scan:
-    """The segments of a request, whichever encoding they came in.
+    """Segments of a request, in any encoding, as float64 arrays.
 
     In float64: a float32 is 0.5 m coarse at map coordinates of 5,000 km.
 
@@ -50,7 +50,7 @@ class Scan:
 
     @classmethod
     def of(cls, segments: Sequence[HasPoints], origin: Point | None) -> Self:
-        """From a request's segments, relative to its origin if it has one.
+        """Build from a request's segments, relative to its origin if it has one.
 
         Raises:
             Problem: 422 if a point or sensor is too far from the frame's origin.
@@ -93,7 +93,7 @@ class Scan:
 
 
 def _check_sums(points: Float64, sensors: Float64, counts: Int64) -> None:
-    """Refuse coordinates that only the origin takes too far.
+    """Refuse coordinates that exceed the limit only with the origin added.
 
     Raises:
         Problem: 422 with the first place.

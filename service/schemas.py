@@ -148,7 +148,7 @@ class CandidateOut(BaseModel):
 
 
 class CandidatesOut(BaseModel):
-    """Candidates of one query, nearest first; of maps of several models by probability."""
+    """Candidates of one query, nearest first; those of several models by probability."""
 
     candidates: list[CandidateOut]
 

@@ -1,4 +1,4 @@
-"""The HTTP server: uvicorn, strict about what is a request, patient with slow networks only."""
+"""HTTP server: uvicorn with strict parsing and limits on slow clients."""
 
 import array
 import asyncio
@@ -30,17 +30,17 @@ HEAD_SECONDS = 15.0
 """In which a client must have sent them, and what is left of the request before."""
 
 RESERVE = 16
-"""Connections that are taken beyond the limits when none can be dropped: for health checks."""
+"""Connections beyond the limit, for health checks, if none can be dropped."""
 
 _BAD_LINE = re.compile(rb"(?<!\r)\n|\r(?!\n)|\n[ \t]")
-"""A bare line feed or carriage return, or a line folded: servers read them differently."""
+"""Bare line feed, bare carriage return or folded line: servers read these differently."""
 
 
 class _StrictBuffer(ReceiveBuffer):
-    """Received bytes; lines of a head must end in CRLF and not be folded."""
+    """Receive buffer whose head lines must end in CRLF and not be folded."""
 
     def maybe_extract_lines(self) -> list[bytearray] | None:
-        """Return the lines of a head, or None if it is not there whole."""
+        """Return the lines of a head; None if the head is incomplete."""
         held = bytes(self)
         lines = super().maybe_extract_lines()
         if lines is not None and _BAD_LINE.search(held[: len(held) - len(self)]):
@@ -49,7 +49,7 @@ class _StrictBuffer(ReceiveBuffer):
 
 
 class _StrictConnection(h11.Connection):
-    """HTTP/1.1 without the forms that servers and proxies read differently (request smuggling)."""
+    """HTTP/1.1 connection without forms that servers and proxies read differently (smuggling)."""
 
     def __init__(self, max_head_bytes: int) -> None:
         super().__init__(h11.SERVER, max_incomplete_event_size=max_head_bytes)
@@ -73,7 +73,7 @@ def _check_framing(request: h11.Request) -> None:
 
 
 class Protocol(H11Protocol):
-    """HTTP/1.1 whose refusals are problems too, and whose clients must make progress.
+    """HTTP/1.1 protocol that answers refusals as problems and drops clients without progress.
 
     A connection ends when a request's head does not come in time, or when for `stall_seconds` no
     byte of an answer has left for the client.
@@ -83,10 +83,10 @@ class Protocol(H11Protocol):
     """Connections at once."""
 
     address_most = 256
-    """Connections of one address at once."""
+    """Largest number of connections of one address."""
 
     stall_seconds = 60.0
-    """In which some of an answer must leave."""
+    """Seconds within which some byte of an answer must leave."""
 
     _impatience: asyncio.TimerHandle | None = None
     _watch: asyncio.TimerHandle | None = None
@@ -121,7 +121,7 @@ class Protocol(H11Protocol):
         self._listen()
 
     def resume_writing(self) -> None:
-        """Most of what was handed over has left."""
+        """Resume sending: most of the bytes handed over have left."""
         self._progress = time.monotonic()
         super().resume_writing()
 
@@ -152,28 +152,28 @@ class Protocol(H11Protocol):
 
     @property
     def client_address(self) -> str:
-        """What the client's address counts as; empty for a Unix socket."""
+        """Return the network of the client's address; empty for a Unix socket."""
         return client_network(self.client[0]) if self.client else ""
 
     @property
     def is_idle(self) -> bool:
-        """Whether no request is at work and no answer is on its way."""
+        """Return whether no request is in progress and no answer is being sent."""
         return (self.cycle is None or self.cycle.response_complete) and not self._pending()
 
     @property
     def is_receiving(self) -> bool:
-        """Whether the body of the request at hand is still on its way."""
+        """Return whether the present request's body is still arriving."""
         return self.cycle is not None and self.cycle.more_body
 
     @property
     def is_stuck(self) -> bool:
-        """Whether nothing of its answer has left for a while, though something should."""
+        """Return whether an answer has bytes to send but none left for a while."""
         quiet = time.monotonic() - self._progress
         return quiet > self.stall_seconds / 4 and self._pending() > 0
 
     @property
     def last_used(self) -> float:
-        """When the client last sent something, or was last answered; of `time.monotonic`."""
+        """Return the time of the last exchange with the client, of `time.monotonic`."""
         return self._used
 
     def _listen(self) -> None:
@@ -188,7 +188,7 @@ class Protocol(H11Protocol):
             self.flow.resume_reading()
 
     def _pending(self) -> int:
-        """Bytes of answers that were handed over and that the client's machine does not have."""
+        """Return the bytes of answers handed over that the client's machine does not have."""
         size = self.transport.get_write_buffer_size()
         sock = self.transport.get_extra_info("socket")
         held = array.array("i", [0])
@@ -199,7 +199,7 @@ class Protocol(H11Protocol):
         return size + held[0]
 
     def _watch_progress(self) -> None:
-        """End the connection if nothing leaves, though something should."""
+        """End the connection if bytes are due but none leave."""
         pending, now = self._pending(), time.monotonic()
         if pending == 0 or pending < self._unsent:
             self._progress = now
@@ -250,7 +250,7 @@ class Protocol(H11Protocol):
 
 
 def _least_useful(connections: list[Protocol]) -> Protocol | None:
-    """The connection that is idle longest; else one whose body has paused, or whose reader has."""
+    """Return the connection idle longest; else one whose body or reader has paused."""
     candidates = (
         [each for each in connections if each.is_idle]
         or [each for each in connections if each.is_receiving]

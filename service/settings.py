@@ -23,7 +23,7 @@ MEBIBYTE = 1 << 20
 GIBIBYTE = 1 << 30
 
 NAMED_MAPS = 1_000
-"""Maps that a request names, at most, whatever the settings say."""
+"""Largest number of maps that a request names, in any settings."""
 
 PREFIX = "PLACECELL_"
 FILE_VARIABLE = PREFIX + "CONFIG"
@@ -36,15 +36,15 @@ OTHER_NAMES = {
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
 }
-"""Names in the environment that are no settings of the service, and what reads them."""
+"""Environment names that are no settings of the service, with the program that reads them."""
 
 SERVICE_LINK = re.compile(
     r"PLACECELL_([A-Z0-9_]+_)?"
     r"(SERVICE_HOST|SERVICE_PORT(_[A-Z0-9_]+)?|PORT_\d+_(TCP|UDP|SCTP)(_(PROTO|PORT|ADDR))?)"
 )
-"""Names that Kubernetes adds to every container for a Service that is called `placecell...`."""
+"""Environment names that Kubernetes adds for a Service called `placecell...`."""
 LINKED_PORT = re.compile(r"(tcp|udp|sctp)://", re.IGNORECASE)
-"""Such as `PLACECELL_PORT=tcp://10.0.0.7:8000`, which is not the port to listen on."""
+"""Pattern of a value that Kubernetes sets, such as `PLACECELL_PORT=tcp://10.0.0.7:8000`."""
 
 
 class Limits(BaseModel):
@@ -309,7 +309,7 @@ class Settings(BaseSettings):
         dotenv_settings: PydanticBaseSettingsSource,
         file_secret_settings: PydanticBaseSettingsSource,
     ) -> tuple[PydanticBaseSettingsSource, ...]:
-        """Take what is given before the environment, and that before the file.
+        """Order the sources: arguments, then the environment, then the file.
 
         Raises:
             ValueError: the environment or the file has a name that is no setting.
@@ -332,7 +332,7 @@ class Settings(BaseSettings):
 
 
 def is_service_link(name: str, value: str) -> bool:
-    """Whether Kubernetes made this name for a Service, and it is none of our settings."""
+    """Return whether Kubernetes set this name for a Service and it is no setting."""
     name = name.upper()
     if SERVICE_LINK.fullmatch(name):
         return True
@@ -344,12 +344,12 @@ def is_service_link(name: str, value: str) -> bool:
 
 
 def is_group(kind: object) -> TypeGuard[type[BaseModel]]:
-    """Whether a setting is a group of others."""
+    """Return whether a setting is a group of settings."""
     return isinstance(kind, type) and issubclass(kind, BaseModel)
 
 
 def variables(model: type[BaseModel], inside: str = PREFIX) -> Iterator[str]:
-    """Names in the environment of all settings, groups among them."""
+    """Yield the environment names of all settings and groups."""
     for name, field in model.model_fields.items():
         yield inside + name.upper()
         if is_group(field.annotation):
@@ -357,7 +357,7 @@ def variables(model: type[BaseModel], inside: str = PREFIX) -> Iterator[str]:
 
 
 def check_environment(model: type[BaseModel], environment: Mapping[str, str]) -> None:
-    """Refuse names that begin as our settings do and are none: a typo must not go unnoticed.
+    """Refuse names that begin with the prefix but are no settings, so that typos are noticed.
 
     Raises:
         ValueError: such a name, and the nearest setting.
@@ -389,7 +389,7 @@ def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -
 def unknown_keys(
     model: type[BaseModel], content: Mapping[str, Any], inside: str = ""
 ) -> Iterator[str]:
-    """Keys that are no settings, each with the nearest one."""
+    """Yield the keys that are no settings, each with the nearest setting."""
     for name, value in content.items():
         field = model.model_fields.get(name)
         if field is None:
@@ -399,7 +399,7 @@ def unknown_keys(
 
 
 def nearest(name: str, known: list[str]) -> str:
-    """Ask whether the most similar known name was meant; empty if none is similar."""
+    """Return a question that suggests the most similar name; empty if none is similar."""
 
     def bare(text: str) -> str:
         return re.sub(r"[^a-z0-9]", "", text.lower())
@@ -410,7 +410,7 @@ def nearest(name: str, known: list[str]) -> str:
 
 
 def read_settings(file: Path) -> dict[str, Any]:
-    """Content of the settings' file; empty if there is none.
+    """Return the content of the settings file; empty if there is none.
 
     Raises:
         ValueError: it cannot be read, or is no TOML.

@@ -1,4 +1,4 @@
-"""Shared indexes: many small maps in one search.
+"""Shared indexes: search many small maps at once.
 
 A search costs more per map than per segment: a thousand maps of a thousand segments are searched
 one by one in a second, and in one index in some hundredths of it. So small maps share indexes of
@@ -21,35 +21,35 @@ from service.map_index import MapIndex, index_of
 from service.stored_map import StoredMap
 
 SMALL = 8_192
-"""Segments of a map that shares an index, at most."""
+"""Largest number of segments of a map in a shared index."""
 
 ROOM = 65_536
-"""Segments in a shared index, at most."""
+"""Largest number of segments in a shared index."""
 
 MEMBERS = 512
-"""Maps in a shared index, at most."""
+"""Largest number of maps in a shared index."""
 
 STALE = 1 / 8
-"""Share of an index' maps that may have changed before it is made anew."""
+"""Share of changed maps above which an index is rebuilt."""
 
 LOOSE = 16
-"""Small maps without a shared index that are searched one by one; of more, one is made."""
+"""Largest number of small maps searched one by one; more get a shared index."""
 
 Patterns = tuple[tuple[str, ...], ...]
-"""Of all keys, the names of maps that they open, with * and ?; the same ones once."""
+"""Map name patterns with * and ? that keys open, each distinct list once."""
 
 Key = tuple[str, int, int]
-"""Names what a map held: its uid, its sequence, and the sequence of its base."""
+"""Content of a map: its uid, its sequence, and the sequence of its base."""
 
 
 def key_of(stored: StoredMap) -> Key:
-    """Name what the map holds and how its rows are numbered."""
+    """Return the key of a map's content and row numbers."""
     return stored.head.uid, stored.head.sequence, stored.folded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shared:
-    """One index over several maps, whose rows are in the order of the maps' names and the ids.
+    """Index over several maps; rows are ordered by map name and id.
 
     Attributes:
         keys: what each map held.
@@ -67,12 +67,12 @@ class Shared:
 
     @property
     def has_room(self) -> bool:
-        """Whether it is less than half full."""
+        """Return whether it is less than half full."""
         return 2 * len(self.rows) < ROOM and 2 * len(self.keys) < MEMBERS
 
     @classmethod
     def of(cls, maps: Sequence[StoredMap], quantiser: Quantiser) -> "Shared":
-        """Over these maps, which are of one model."""
+        """Build the index of these maps of one model."""
         maps = sorted(maps, key=lambda each: each.name)
         rows = [alive(each.layers) for each in maps]
         codes = [each.layers.column("codes", own) for each, own in zip(maps, rows, strict=True)]
@@ -92,7 +92,7 @@ class Shared:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
-    """What is searched at once: one map by its own index, or several by a shared one.
+    """Part of a search: one map by its own index, or several by a shared one.
 
     Attributes:
         places: int64 (maps,), indices of the maps in what was asked about; -1: not asked about.
@@ -104,7 +104,7 @@ class Part:
 
     @property
     def hidden(self) -> Bool | None:
-        """Of each row of the shared index, whether it is not to be found; None: all are."""
+        """Return which rows of the shared index are excluded; None: none are."""
         assert self.shared is not None
         if (self.places >= 0).all():
             return None
@@ -127,7 +127,7 @@ class SharedIndexes:
         quantiser: Quantiser,
         patterns: Patterns,
     ) -> list[Part]:
-        """Return what to search for these maps, each map in one part.
+        """Return the parts to search for these maps, each map in one part.
 
         Args:
             searched: maps with an index, of one model.
@@ -147,7 +147,7 @@ class SharedIndexes:
     def _renewed(
         self, maps: Sequence[StoredMap], before: Sequence[Shared], quantiser: Quantiser
     ) -> list[Shared]:
-        """Keep the indexes that are good; make anew those of which too much has changed."""
+        """Keep the valid indexes; rebuild those with too many changed maps."""
         small = {key_of(each): each for each in maps if 0 < len(each) <= SMALL}
         by_uid = {each.head.uid: each for each in small.values()}
         kept, covered = [], set()
@@ -185,7 +185,7 @@ class SharedIndexes:
         return made
 
     def _openers(self, name: str) -> tuple[int, ...]:
-        """Which keys' patterns open a map of this name."""
+        """Return the indices of the keys' patterns that open a map of this name."""
         return tuple(
             number
             for number, patterns in enumerate(self._patterns)
@@ -211,7 +211,7 @@ def _parts_of(searched: Sequence[StoredMap], indexes: Sequence[Shared]) -> list[
 
 
 def alive(layers: Layers) -> Int64:
-    """Return the rows of a map's segments, by id, int64 (n,)."""
+    """Return the rows of a map's live segments, by id, int64 (n,)."""
     rows = np.concatenate(
         [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]
     )
@@ -219,6 +219,6 @@ def alive(layers: Layers) -> Int64:
 
 
 def centred(centroids: "np.ndarray") -> Float32:
-    """Return centroids about their middle, float32: a map may lie a thousand kilometres off."""
+    """Return centroids about their mean, float32, as maps may lie 1,000 km off."""
     middle = np.median(centroids, axis=0) if len(centroids) else 0.0
     return np.asarray(centroids - middle, np.float32)

@@ -24,7 +24,7 @@ ROUNDED = 0.02
 """Metres: two centroids that are the same but for their rounding, before a turn and after it."""
 
 ROUNDS = 20
-"""Of joining, at most; two or three are usual."""
+"""Largest number of merge rounds; two or three are usual."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -168,7 +168,7 @@ def join_settled(
     same: SameView | None,
     parameters: AlignmentParameters,
 ) -> tuple[CompactMap, list[Share]]:
-    """The site with the parts in it, such that joining them again changes nothing.
+    """Merge the parts into the map until merging them again changes nothing.
 
     What one part adds may show a segment of another one from a new side; so the parts are joined
     until nothing changes, each as the next merge would lay it. The arguments are those of `join`.
@@ -197,7 +197,7 @@ def join_settled(
 
 
 def as_laid(site: CompactMap, part: Part, parameters: AlignmentParameters) -> Part:
-    """A part as it lies in a site that it was merged into; as it is if that is unclear."""
+    """Return a part as it lies in the map that it was merged into; unchanged if unclear."""
     pose = laid_before(site, part.content, parameters)
     return part if pose is None else replace(part, pose=pose, slack=ROUNDED)
 

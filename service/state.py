@@ -30,10 +30,10 @@ from service.timing import Timing
 from service.writer import Writer
 
 READ_THREADS = 2
-"""That read stored maps at once; they hold maps whole, so more would take much memory."""
+"""Threads that read stored maps; they hold maps whole, so more would take much memory."""
 
 WRITE_THREADS = 4
-"""That edit maps at once."""
+"""Threads that edit maps."""
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -45,7 +45,7 @@ class StartError(Exception):
 
 @dataclass(slots=True)
 class State:
-    """The parts of a running service.
+    """Components of a running service.
 
     Attributes:
         settings: as started.
@@ -90,7 +90,7 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do blocking work (NumPy, FAISS, SQLite) in the threads of the request's lane, in turn.
+        """Run blocking work (NumPy, FAISS, SQLite) in the threads of the request's lane, in turn.
 
         A request without a lane takes those of recognition.
         """
@@ -105,7 +105,7 @@ class State:
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Do the same; a request without a lane takes the threads of edits."""
+        """Run blocking work as `run` does; a request without a lane takes the threads of edits."""
         here = admitted()
         if here is not None:
             return await here.run(lambda: work(*args, **kwargs))
@@ -203,7 +203,7 @@ BEARER = HTTPBearer(
     auto_error=False,
     description="A key, made with `placecell keys`. A service without keys needs none.",
 )
-"""For the API's description; the header is read by `Keys`."""
+"""Security scheme of the API description; `Keys` reads the header."""
 
 
 async def holder_of(

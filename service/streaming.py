@@ -1,4 +1,4 @@
-"""Answers sent in pieces as the client takes them, from a file on disk if they are large.
+"""Streaming: answers sent in pieces as the client takes them, from disk if they are large.
 
 A large answer is written once to a file without a name, is shared by all that ask for it meanwhile,
 and is gone with the last of them, or with the process.
@@ -25,26 +25,26 @@ from service.receiving import ByteBudget
 Result = TypeVar("Result")
 
 SMALL_BYTES = 64 << 10
-"""Answers up to this size are sent at once."""
+"""Largest size of an answer that is sent at once, bytes."""
 
 PIECE_BYTES = 128 << 10
-"""Of an answer in memory beside what the socket holds."""
+"""Bytes of an answer in memory beside those in the socket."""
 
 MEMORY_BYTES = 32 << 20
-"""Answers in memory, over all; beyond that, they are written to disk. A client has half of it."""
+"""Bytes of all answers in memory; more go to disk. One client has half of it."""
 
 READERS = 4
-"""Threads that read answers from disk."""
+"""Number of threads that read answers from disk."""
 
 Piece = Callable[[int], Awaitable[bytes]]
 Run = Callable[[Callable[[], bytes]], Awaitable[bytes]]
 
 
 class Answers:
-    """Sends answers, and bounds how many bytes of them are under way. Belongs to one event loop."""
+    """Sender of answers that bounds their bytes in progress. Belongs to one event loop."""
 
     def __init__(self, folder: Path, total: int, seconds: float) -> None:
-        """Make it.
+        """Create the sender.
 
         Args:
             folder: where files are made, of no name.
@@ -62,7 +62,7 @@ class Answers:
 
     @property
     def under_way(self) -> int:
-        """Bytes of large answers that are being sent; what is shared counts once."""
+        """Return the bytes of large answers being sent; shared content counts once."""
         return self._memory.bytes + self._disk.bytes
 
     async def respond(
@@ -72,7 +72,7 @@ class Answers:
         media_type: str,
         headers: Mapping[str, str] | None = None,
     ) -> Response:
-        """Answer with a content of one client; 429 if too much is under way."""
+        """Answer with the content of one client; 429 if too many bytes are in progress."""
         if len(content) <= SMALL_BYTES:
             return Response(content, media_type=media_type, headers=headers)
         if self._memory.has_room(client, len(content)):
@@ -91,7 +91,7 @@ class Answers:
         media_type: str,
         headers: Mapping[str, str] | None = None,
     ) -> Response:
-        """Answer with what a name stands for, which is made once for all that ask meanwhile.
+        """Answer with named content, which is made once for all concurrent requests.
 
         Args:
             name: of the content; the same name is the same content.
@@ -131,13 +131,13 @@ class Answers:
         )
 
     def use(self, file: "_File", client: str) -> None:
-        """Count one more answer of a file; 429 if its client has too much under way."""
+        """Count one more answer of a file; 429 if its client has too many bytes in progress."""
         if not file.users[client]:
             self._own.take(client, file.size)
         file.users[client] += 1
 
     def unuse(self, file: "_File", client: str) -> None:
-        """Count one answer less; a file that nobody uses is gone."""
+        """Count one answer less; drop a file without answers."""
         file.users[client] -= 1
         if not file.users[client]:
             del file.users[client]
@@ -145,7 +145,7 @@ class Answers:
         self.drop_unused(file)
 
     def drop_unused(self, file: "_File") -> None:
-        """Close a file that nobody uses."""
+        """Close a file that no answer uses."""
         if not file.users and not file.handle.closed:
             if file.name is not None and self._shared.get(file.name) is file:
                 del self._shared[file.name]
@@ -202,7 +202,7 @@ class _File:
 
 
 class _Making:
-    """Those that want the same content: one makes it, the others wait."""
+    """Requests for the same content: one makes it, the others wait."""
 
     def __init__(self) -> None:
         self.lock = asyncio.Lock()
@@ -211,7 +211,7 @@ class _Making:
 
 
 class _Source:
-    """Where the pieces of an answer come from."""
+    """Source of an answer's pieces."""
 
     size: int
 
@@ -258,7 +258,7 @@ class _OnDisk(_Source):
 
 
 class Streamed(Response):
-    """An answer in pieces: the next one is taken when the socket has room for it."""
+    """Answer in pieces: the next one is read when the socket has space."""
 
     def __init__(
         self,
@@ -273,7 +273,7 @@ class Streamed(Response):
         self._seconds = seconds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send it; what it holds is let go however that ends."""
+        """Send the answer; release what it holds, however sending ends."""
         try:
             with anyio.fail_after(self._seconds), anyio.CancelScope() as gone:
 
@@ -307,7 +307,7 @@ class Streamed(Response):
         await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     def release(self) -> None:
-        """Let go of what the answer holds."""
+        """Release what the answer holds."""
         source, self._source = self._source, None
         if source is not None:
             source.release()

@@ -31,7 +31,7 @@ def commits_of(store: MapStore, stored: StoredMap) -> list[Commit]:
 
 
 def robots_ever(store: MapStore, stored: StoredMap) -> set[str]:
-    """Return the robots whose segments any version has that is still kept."""
+    """Return the robots with segments in any kept version."""
     with history_of(store, stored) as history:
         robots = {*robots_of(decode(history.base()))}
         for _, blob in history.blobs(history.head.oldest, history.head.sequence):
@@ -40,7 +40,7 @@ def robots_ever(store: MapStore, stored: StoredMap) -> set[str]:
 
 
 def ids_ever(store: MapStore, stored: StoredMap) -> UInt32:
-    """Return the ids of all segments that any version has that is still kept, ascending."""
+    """Return the ids of all segments in any kept version, ascending."""
     with history_of(store, stored) as history:
         ids = [decode(history.base()).ids]
         for _, blob in history.blobs(history.head.oldest, history.head.sequence):
@@ -74,7 +74,7 @@ def version_file(store: MapStore, stored: StoredMap, sequence: int) -> tuple[byt
 
 
 def version_tag(store: MapStore, stored: StoredMap, sequence: int) -> str:
-    """The tag of one version; errors as of `version`."""
+    """Return the tag of one version; raises as `version` does."""
     if sequence == stored.head.sequence:
         return stored.tag
     with history_of(store, stored) as history:

@@ -1,4 +1,4 @@
-"""What a key may learn of other maps and other keys: nothing, their names neither.
+"""Visibility: hides names of maps and keys that a key may not know.
 
 A merged map keeps of each segment the name of the map that it came from. A key that does not open
 that map sees a pseudonym in its place: always the same one within a map, so that copies and changes
@@ -18,29 +18,29 @@ from service.problems import Problem
 from service.stored_map import StoredMap
 
 HIDDEN_AUTHOR = "another key"
-"""In place of the name of another key."""
+"""Text that replaces another key's name."""
 
 PSEUDONYM = "hidden:"
-"""Begins a pseudonym; no map can be named so."""
+"""Prefix of a pseudonym; no map can have such a name."""
 
 
 def author_for(holder: Holder, author: str) -> str:
-    """Return a version's author, as a key may know it: its own name, or all if it opens all."""
+    """Return a version's author as a key may see it: its own name, or any if it opens all maps."""
     return author if holder.opens_all or author == holder.name else HIDDEN_AUTHOR
 
 
 def sources_for(holder: Holder, sources: Counter[str]) -> dict[str, int]:
-    """Return the sources of a map that a key may know, by name."""
+    """Return the sources of a map that a key may see, by name."""
     return {name: count for name, count in sorted(sources.items()) if holder.opens(name)}
 
 
 def is_hidden_from(holder: Holder, layers: Layers) -> bool:
-    """Whether a map has sources that a key may not know."""
+    """Return whether a map has sources that a key may not see."""
     return not holder.opens_all and not all(map(holder.opens, layers.sources))
 
 
 def content_for(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
-    """Return segments of a map with pseudonyms in place of names that a key may not know.
+    """Replace names that a key may not see by pseudonyms in a map's segments.
 
     Args:
         holder: of the key.
@@ -54,12 +54,12 @@ def content_for(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
 
 
 def delta_for(holder: Holder, uid: str, delta: Delta) -> Delta:
-    """Return a delta of a map with pseudonyms; see `content_for`."""
+    """Replace names by pseudonyms in a map's delta; see `content_for`."""
     return replace(delta, changed=content_for(holder, uid, delta.changed))
 
 
 def written_by(holder: Holder, stored: StoredMap | None, content: CompactMap) -> CompactMap:
-    """Return what a key writes to a map, with names in place of the pseudonyms that it was shown.
+    """Replace pseudonyms by names in what a key writes.
 
     Args:
         holder: of the key.

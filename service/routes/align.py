@@ -139,7 +139,7 @@ async def merge(
 
 
 def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
-    """Return how many segments the maps of a merge have, in the order in which they are aligned."""
+    """Return the numbers of segments of a merge's maps, in the order of their alignment."""
     stored = [state.maps.find(name), *map(state.maps.get, asked.maps)]
     return [len(each) for each in stored if each is not None]
 

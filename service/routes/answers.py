@@ -14,7 +14,7 @@ from service.writer import Written
 
 
 def summary_of(stored: StoredMap, holder: Holder) -> MapOut:
-    """A map in short, as a key may know it; looks at all of it, so not for the event loop."""
+    """Summarize a map as a key may see it; reads all of it, so not for the event loop."""
     head, layers = stored.head, stored.layers
     return MapOut(
         name=stored.name,
@@ -46,7 +46,7 @@ def outcome_of(written: Written) -> WrittenOut:
 
 
 def version_of(commit: Commit, holder: Holder) -> VersionOut:
-    """A version, as it stands in the history and a key may know it."""
+    """Return a version of the history as a key may see it."""
     note = commit.note
     return VersionOut(
         sequence=commit.sequence,

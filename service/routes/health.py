@@ -35,9 +35,10 @@ async def livez() -> HealthResponse:
     response_model_exclude_none=True,
 )
 async def readyz(state: StateOf) -> HealthResponse:
-    """The model and the maps are loaded, and maps can be stored; send no requests if this fails.
+    """Readiness: model and maps are loaded and maps can be stored; send no requests if not.
 
-    `warnings` tells what works on, but needs somebody: such as a file of keys that is no good.
+    `warnings` lists problems that need an operator although the service still works, such as an
+    unreadable key file.
     """
     if state.draining:
         raise Problem(503, "not-ready", "The service is about to stop.")

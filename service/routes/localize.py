@@ -43,7 +43,7 @@ Told = dict[str, Any]
 async def localize(
     request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
 ) -> Response:
-    """Return the pose of the robot's frame in each map's, or why there is none; likeliest first.
+    """Return the robot's pose in each map's frame, or the reason for none; most probable first.
 
     Send all segments around the robot, in one frame. Candidates of all segments are searched in
     all maps at once, and those that agree with each other give the pose. The maps are judged

@@ -106,10 +106,10 @@ async def get_map(
         Query(ge=1, le=1 << 53, description="Sequence of a version; the newest unless said."),
     ] = None,
 ) -> Response:
-    """In its canonical form: equal maps are equal files, byte by byte.
+    """Return the map in canonical form: equal maps are equal files, byte by byte.
 
-    Where the key does not open a map that segments were merged from, a pseudonym stands for its
-    name; written to this map again, it becomes the name.
+    If the key does not open a source map of the segments, a pseudonym replaces that map's name.
+    Writing the file to this map restores the name.
     """
     holder.check_map(name)
     stored = state.maps.get(name)
@@ -155,7 +155,7 @@ async def delete_map(
 def _file(
     state: State, holder: Holder, stored: StoredMap, sequence: int, tag: str
 ) -> tuple[str, Callable[[], bytes]]:
-    """The name of a version's file, for keys that see the same, and how it is made."""
+    """Return a name for a version's file, equal for keys that see the same, and its maker."""
     name, store, uid = f"{stored.head.uid} {tag}", state.maps.store, stored.head.uid
     newest = sequence == stored.head.sequence
     if holder.opens_all or (newest and not is_hidden_from(holder, stored.layers)):

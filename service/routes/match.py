@@ -28,13 +28,13 @@ router = APIRouter(tags=["recognition"])
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
 async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
-    """One result a query, in order: its candidates, nearest first, or why it could not be used.
+    """Return one result per query, in order: its candidates, nearest first, or its error.
 
     Queries are rounded to codes before the search, as the maps' descriptors are. Each map is
-    searched with the model that made it. Maps whose model is not loaded are skipped, and listed; a
-    409 if the request names one. Candidates of several models are sorted by probability, which is
-    that of the candidate's `model_id`; probabilities of two models were not calibrated against each
-    other.
+    searched with the model that made it. Maps whose model is not loaded are listed as skipped; a
+    request that names one gets a 409. Candidates of several models are sorted by probability. The
+    model named by `model_id` gives a candidate's probability; probabilities of different models
+    are not calibrated against each other.
     """
     answer = answer_type(request)
     async with state.recognition.admit(request, ENCODINGS, timing) as body:

@@ -84,13 +84,13 @@ async def edit_segments(
         ),
     ] = False,
 ) -> Response:
-    """All of them or none; when the answer comes, they are on disk and survive a power cut.
+    """Add, replace and remove segments, all or none; the answer confirms that they are on disk.
 
-    The body is a delta file whose `since` and `until` are 0. Sent again it changes nothing. A
-    segment of another robot is neither replaced nor removed, nor is one that another key wrote,
-    and no id is taken that another key reserved: that is a 409 which lists the ids, and nothing is
-    done. It is with `If-Match: "ETAG"`, which says that you have seen that segment. A key that is
-    not for administration writes new ids up to 1,048,576 above those in use; others it reserves.
+    The body is a delta file whose `since` and `until` are 0. Sending it again changes nothing. An
+    edit that replaces or removes another robot's segment, or uses an id that another key wrote or
+    reserved, is refused with a 409 that lists the ids. To confirm such an edit, send
+    `If-Match: "ETAG"`. A key without administration rights writes new ids up to 1,048,576 above
+    the highest id in use; it must reserve higher ids.
     """
     holder.check_write(name)
     async with state.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
@@ -151,9 +151,10 @@ async def reserve_ids(
     writer: WriterOf,
     count: Annotated[int, Query(ge=1, le=1_000_000, description="How many.")],
 ) -> IdsOut:
-    """That no segment of the map ever had, and that nobody else is given.
+    """Reserve ids that no segment of the map ever had; no other key is given them.
 
-    A key may have `limits.reserved_ids` of a map that it reserved within a week and did not write.
+    A key may hold at most `limits.reserved_ids` ids of a map that it reserved within the last week
+    and has not written.
     """
     holder.check_write(name)
     most = state.settings.limits.reserved_ids
@@ -171,11 +172,11 @@ async def reserve_ids(
 async def reset_ids(
     name: Name, request: Request, state: StateOf, holder: HolderOf, writer: WriterOf
 ) -> IdsOut:
-    """For administrators: ids that no version of the map has, as far back as is kept, are free.
+    """Free the ids that no kept version of the map has; for administrators.
 
-    The answer tells the first of them, and how many follow it. Reservations are given up: robots
-    that still hold reserved ids may then write ids that others are given. Compact the map first to
-    free ids of removed segments.
+    The answer contains the first free id and the number of free ids from there on. Reservations
+    are deleted: robots that still hold reserved ids may then write ids that are given to others.
+    To free the ids of removed segments, compact the map first.
     """
     holder.check_write(name)
     async with state.edits.enter(request):
