@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal, TypeGuard
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_settings import (
     BaseSettings,
     EnvSettingsSource,
@@ -57,7 +57,7 @@ class Limits(BaseModel):
         default=40 * MEBIBYTE,
         ge=1,
         description="Bytes of a request's body for recognition as JSON: as many points as in "
-        "msgpack, each number with all its digits.",
+        "msgpack, each number with all its digits. As body_bytes where only that one is set.",
     )
     map_bytes: int = Field(
         default=64 * MEBIBYTE, ge=1, description="Bytes of an uploaded map file."
@@ -231,6 +231,14 @@ class Limits(BaseModel):
         ge=1,
         description="Connections of one address at once, likewise; allow a proxy more.",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bound_json(cls, given: object) -> object:
+        """Let `body_bytes` bound JSON, too, as it did before `json_bytes` came."""
+        if isinstance(given, dict) and "body_bytes" in given and "json_bytes" not in given:
+            return {**given, "json_bytes": given["body_bytes"]}
+        return given
 
 
 class Settings(BaseSettings):

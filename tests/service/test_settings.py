@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cli import app
-from service.settings import Settings
+from service.settings import Limits, Settings
 
 
 @pytest.fixture(autouse=True)
@@ -98,3 +98,9 @@ def test_B5_an_unknown_key_of_the_file_is_refused(text: str, said: str, elsewher
 def test_B16_a_file_with_a_byte_order_mark_is_read(elsewhere: Path) -> None:
     (elsewhere / "placecell.toml").write_bytes(b"\xef\xbb\xbfport = 9000\r\n[limits]\r\nk = 7\r\n")
     assert (Settings().port, Settings().limits.k) == (9000, 7)
+
+
+def test_body_bytes_alone_bounds_json_too() -> None:
+    assert Limits(body_bytes=1_000).json_bytes == 1_000
+    assert Limits(body_bytes=1_000, json_bytes=2_000).json_bytes == 2_000
+    assert Limits().json_bytes > Limits().body_bytes
