@@ -9,7 +9,6 @@ from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
 from segments.manifest import ModelError
-from service import json_arrays
 from service.admission import Lane, admitted
 from service.changes import Changes
 from service.housekeeping import Bounds, Housekeeper
@@ -27,6 +26,7 @@ from service.settings import Settings
 from service.sqlite_store import SqliteMapStore
 from service.streaming import Answers
 from service.timing import Timing
+from service.warming import warm
 from service.writer import Writer
 
 READ_THREADS = 2
@@ -123,7 +123,7 @@ def open_state(settings: Settings) -> Iterator[State]:
     try:
         keys = Keys(settings.keys_file)
         models = Models(settings, metrics)
-        json_arrays.warm()
+        warm(models, settings.limits)
     except ModelError as error:
         raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
     except ValueError as error:

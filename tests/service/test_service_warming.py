@@ -1,0 +1,34 @@
+"""No loop is compiled in a request: all are compiled at the start."""
+
+from collections.abc import Callable
+from typing import Any
+
+from placecell_client import encode
+
+from segments.localisation import clique, consistency, correspondences
+from service import json_arrays, ranking
+from tests.service.service_builders import cloud, map_of, random_codes, request_of
+
+
+def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: Any) -> None:
+    loops = {
+        each
+        for module in (json_arrays, ranking, clique, consistency, correspondences)
+        for each in vars(module).values()
+        if hasattr(each, "nopython_signatures")
+    }
+    with start() as client:
+        before = {each: len(each.nopython_signatures) for each in loops}
+        assert before[ranking._count]
+        assert before[correspondences._lead]
+        yard = encode(map_of(random_codes(50), manifest.model_id))
+        for name in ("a", "b", "c"):
+            assert client.put(f"/maps/{name}", content=yard).status_code == 201
+        clouds = [cloud(seed) + 10 * seed for seed in range(8)]
+        assert client.post("/localize", json=request_of(clouds)).status_code == 200
+        assert {each: len(each.nopython_signatures) for each in loops} == before
+
+
+def test_limits_that_refuse_the_scan_do_not_stop_the_start(start: Callable[..., Any]) -> None:
+    with start(limits={"segments": 1, "points": 10}) as client:
+        assert client.get("/readyz").status_code == 200
