@@ -19,7 +19,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
             typer.Option(
                 metavar="NAMES",
                 help="Columns of a .bin scan: their number, or names such as "
-                "x,y,z,intensity,ring. (default: found from the values; KITTI has 4)",
+                "x,y,z,intensity,ring. (default: inferred from the values; KITTI has 4)",
                 rich_help_panel=PANEL,
             ),
         ],
@@ -29,7 +29,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
         Annotated[
             DType | None,
             typer.Option(
-                help="Type of a scan's values. (default: found from the values)",
+                help="Type of a scan's values. (default: inferred from the values)",
                 rich_help_panel=PANEL,
             ),
         ],
@@ -39,7 +39,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
         Annotated[
             Order,
             typer.Option(
-                help="rows: a point's values follow each other; columns: all x come first.",
+                help="Order of a scan's values: rows (point by point) or columns (all x first).",
                 rich_help_panel=PANEL,
             ),
         ],

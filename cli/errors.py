@@ -69,7 +69,7 @@ def _plain_os_error(error: OSError) -> str:
         errno.ENOENT: "no such file or folder",
         errno.EISDIR: "is a folder, expected a file",
         errno.ENOTDIR: "a part of the path is a file, expected a folder",
-        errno.EEXIST: "is there already",
+        errno.EEXIST: "already exists",
         errno.ENOSPC: "no space left on the disk",
         errno.EDQUOT: "no space left in the quota of the disk",
         errno.EROFS: "the file system is read-only",
@@ -145,7 +145,7 @@ class Commands(TyperGroup):
         try:
             status = super().main(*words, False, windows_expand_args, **extra)
         except typer.Abort:
-            typer.echo("placecell: nothing was done", err=True)
+            typer.echo("placecell: aborted; nothing was changed", err=True)
             status = FAILED
         except Exception as error:
             # Words that cannot be understood: a wrong option, a missing argument.

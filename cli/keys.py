@@ -19,7 +19,9 @@ def keys(
         Path, typer.Option("--file", "-f", help="The service's file of keys; is added to.")
     ] = Path("keys.toml"),
     write: Annotated[bool, typer.Option("--write", help="May change maps.")] = False,
-    admin: Annotated[bool, typer.Option("--admin", help="May reload models and free ids.")] = False,
+    admin: Annotated[
+        bool, typer.Option("--admin", help="Let the key reload models and free ids.")
+    ] = False,
     maps: Annotated[
         list[str] | None,
         typer.Option("--map", help="Only maps of such names, with * and ?; may be repeated."),

@@ -39,20 +39,20 @@ def serve(
         Path | None, typer.Option(help="TOML file of keys; 'placecell keys' makes them.")
     ] = None,
     unix_socket: Annotated[
-        Path | None, typer.Option(help="Unix socket to listen on, instead of host and port.")
+        Path | None, typer.Option(help="Unix socket to listen on instead of host and port.")
     ] = None,
     root_path: Annotated[
         str | None,
-        typer.Option(help="Path prefix under which a proxy shows the service. (default: none)"),
+        typer.Option(help="Path prefix that a proxy puts before all paths. (default: none)"),
     ] = None,
     keep_alive_seconds: Annotated[
         int | None,
-        typer.Option(help="Seconds that a connection is kept between requests. (default: 5)"),
+        typer.Option(help="Seconds that an idle connection stays open. (default: 5)"),
     ] = None,
     forwarded_allow_ip: Annotated[
         list[str] | None,
         typer.Option(
-            help="Address or network of a proxy whose X-Forwarded-For is believed; repeatable."
+            help="Address or network of a proxy whose X-Forwarded-For is trusted; repeatable."
         ),
     ] = None,
     cors_origin: Annotated[

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-JsonFlag = Annotated[bool, typer.Option("--json", help="Print JSON in place of text.")]
+JsonFlag = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 JsonFile = Annotated[
-    Path | None, typer.Option("--json", metavar="FILE", help="Write the figures here as JSON.")
+    Path | None, typer.Option("--json", metavar="FILE", help="File for the figures as JSON.")
 ]
 
 UNBOUNDED = 1_000_000

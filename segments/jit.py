@@ -111,7 +111,7 @@ def tell_once(kind: str, detail: str) -> None:
         _told.add(kind)
     logger.log(
         logging.WARNING if first else logging.DEBUG,
-        "cache of compiled code is %s, compiling again: %s",
+        "the cache of compiled code is %s; the code is compiled again: %s",
         kind,
         detail,
     )

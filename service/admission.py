@@ -193,7 +193,7 @@ class Lane:
         share = max(self._most // len(self._asked), 1)
         if own >= share or (own and total >= self._most) or total >= 2 * self._most:
             raise busy(
-                f"{own} requests of this client are at work or waiting, of {total} in all; "
+                f"This client has {own} requests running or waiting, all clients have {total}; "
                 f"the limits are {share} and {self._most}."
             )
 

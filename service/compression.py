@@ -59,7 +59,7 @@ class _Output:
             raise Problem(
                 413,
                 "body-too-large",
-                f"The body holds more than {self._limit} bytes, the limit; see /info.",
+                f"The decompressed body exceeds the limit of {self._limit} bytes; see /info.",
             )
         if part:
             self._parts.append(part)
@@ -71,7 +71,7 @@ class _Output:
                 413,
                 "too-many-members",
                 f"The compressed body has more than {MEMBERS} members, the limit. "
-                "Compress it as one.",
+                "Compress it as a single member.",
             )
 
     @property

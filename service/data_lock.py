@@ -45,7 +45,7 @@ class DataLock:
             return None
         return (
             f"The file {self.file.name} in the data directory was removed or replaced while the "
-            "service ran, so it is not certain that it alone owns the directory. Restart it."
+            "service ran, so another service may use the directory. Restart this service."
         )
 
 

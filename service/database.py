@@ -102,7 +102,7 @@ class Database:
                 self.origin = "made"
             elif not path.stat().st_size:
                 # SQLite would take it for a new one, and throw the log beside it away.
-                raise StoreError("damaged", f"{path} is empty: it was cut; {ADVICE}")
+                raise StoreError("damaged", f"{path} is empty because it was cut; {ADVICE}")
         try:
             self._connection = self._opened(layout)
         except StoreError as error:
@@ -195,7 +195,7 @@ class Database:
         if not self._reserve.hold() or free < least:
             return (
                 f"The disk is full: {free:,} bytes are free, and {self._reserve.size:,} are kept "
-                "for deletions. Delete or compact maps, or make room on the disk."
+                "for deletions. Delete or compact maps, or free disk space."
             )
         if is_full:
             self._failed = None
@@ -301,8 +301,8 @@ class Database:
         if (free := self._reserve.free_bytes()) < needed:
             raise StoreError(
                 "full",
-                f"{self.path} is of version {found}. To make version {layout.version} of it "
-                f"{needed:,} bytes must be free on the disk; {free:,} are. It was not changed.",
+                f"{self.path} has version {found}. A migration to version {layout.version} needs "
+                f"{needed:,} free bytes; the disk has {free:,}. The file was not changed.",
             )
         connection.execute("BEGIN IMMEDIATE")
         try:
@@ -333,9 +333,9 @@ class Database:
         if found != layout.version and found not in layout.migrations:
             raise StoreError(
                 "damaged",
-                f"{self.path} is of version {found}; this program reads version {layout.version} "
-                f"and earlier ones, from {min(layout.migrations, default=layout.version)} on. Use "
-                "the program that wrote it, or a later one",
+                f"{self.path} has version {found}; this program reads versions "
+                f"{min(layout.migrations, default=layout.version)} to {layout.version}. Use the "
+                "program that wrote it, or a later one",
             )
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()

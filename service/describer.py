@@ -147,10 +147,10 @@ class Describer:
         )
         for index, (count, dropped, reach) in enumerate(measured):
             if count < limits.min_points:
-                left_out = f", besides {dropped} that are not finite" if dropped else ""
+                left_out = f" besides {dropped} non-finite ones" if dropped else ""
                 failures[index] = _failed(
                     "too-few-points",
-                    f"{count} points{left_out}; a segment has {limits.min_points} or more.",
+                    f"{count} points{left_out}; a segment needs {limits.min_points} or more.",
                 )
             elif count > limits.max_points:
                 failures[index] = _failed(

@@ -33,8 +33,8 @@ def check_new(store: MapStore, holder: Holder, head: Head | None, ids: UInt32) -
         raise Problem(
             409,
             "id-not-reserved",
-            f"{len(far)} ids were not reserved and are far above those in use, such as "
-            f"{int(far[-1])}. Reserve ids (POST /maps/MAP/ids), or use ids below {limit}.",
+            f"{len(far)} ids, such as {int(far[-1])}, are not reserved and far above those in use. "
+            f"Reserve ids (POST /maps/MAP/ids), or use ids below {limit}.",
             ids=far.tolist(),
         )
 
@@ -77,7 +77,7 @@ def check_added(replaced: UInt32) -> None:
         raise Problem(
             409,
             "id-taken",
-            f"{len(replaced)} ids are of segments that the map has, and only_new was asked for. "
-            "Use other ids (POST /maps/MAP/ids), or leave only_new out to replace these segments.",
+            f"The map already has segments with {len(replaced)} of the ids, and only_new is set. "
+            "Use other ids (POST /maps/MAP/ids), or omit only_new to replace these segments.",
             ids=replaced.tolist(),
         )

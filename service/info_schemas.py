@@ -41,16 +41,18 @@ class CostsOut(BaseModel):
     alignment above `limits.alignment_seconds`, is refused with a 413.
     """
 
-    machine: str = Field(description="That the rates were measured on.")
-    point: float = Field(description="Of each point of a segment.")
-    segment: float = Field(description="Of each segment that is described.")
+    machine: str = Field(description="Machine on which the rates were measured.")
+    point: float = Field(description="Seconds per point of a segment.")
+    segment: float = Field(description="Seconds per described segment.")
     near_voxel: float = Field(
-        description="Of each pair of a segment and a voxel of another one within 40 m, where the "
-        "model takes in the other segments."
+        description="Seconds per pair of a segment and another segment's voxel within 40 m, if "
+        "the model uses the neighborhood."
     )
-    compared: float = Field(description="Of each pair of a query and a segment of a map.")
-    compared_k: float = Field(description="The same, once more for each candidate wanted (k).")
-    candidate: float = Field(description="Of each candidate of a query.")
+    compared: float = Field(description="Seconds per pair of a query and a map segment.")
+    compared_k: float = Field(
+        description="Seconds per pair of a query and a map segment, for each candidate (k)."
+    )
+    candidate: float = Field(description="Seconds per candidate of a query.")
 
 
 class InfoResponse(BaseModel):
@@ -78,5 +80,5 @@ class HealthResponse(BaseModel):
     status: Literal["alive", "ready"]
     warnings: list[str] | None = Field(
         default=None,
-        description="What somebody should look at though the service works; not there: none.",
+        description="Problems that need an operator although the service works; absent if none.",
     )

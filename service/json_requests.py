@@ -176,15 +176,15 @@ def _check_amounts(arrays: Arrays, limits: Limits) -> None:
         raise Problem(
             413,
             "too-many-values",
-            f"The body holds more values in its points, codes and centroids than {limits.points} "
-            f"points in {limits.segments} segments have.",
+            "The body holds too many values in its points, codes and centroids. The limit is what "
+            f"{limits.points} points in {limits.segments} segments need.",
         )
     if arrays.values > limit:
         raise Problem(
             413,
             "too-many-values",
             f"The body holds {arrays.values} lists, objects and values outside of its points and "
-            f"codes. The limit is {limit}: {limits.segments} segments have fewer.",
+            f"codes; the limit is {limit}. {limits.segments} segments need fewer.",
         )
 
 

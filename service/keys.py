@@ -167,14 +167,14 @@ class Keys:
                     self._bad_since = self._clock()
                 self._standing = _hashes_in(self._file)
                 logger.error(
-                    "%s; the keys of before work on where their hash still stands in the file, "
-                    "all others for %g s",
+                    "%s; keys whose hash is still in the file keep working, all others work for "
+                    "%g s more",
                     error,
                     GRACE_SECONDS,
                 )
             else:
                 if self._bad_since is not None:
-                    logger.warning("the file of keys is good again")
+                    logger.warning("the key file can be read again")
                 self._bad_since = None
             self._mark = mark
         return self._bad_since is None

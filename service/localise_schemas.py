@@ -83,7 +83,7 @@ class RivalOut(HypothesisOut):
     """Best pose in another map that is not known to show the same place."""
 
     map: str
-    frame: str = Field(description="Name of that map's frame; the pose leads to it.")
+    frame: str = Field(description="Name of the other map's frame, in which the pose is given.")
 
 
 class LocalisationOut(BaseModel):
@@ -95,8 +95,8 @@ class LocalisationOut(BaseModel):
     reason: Reason | None = Field(description="Why the robot is not localised; null if it is.")
     detail: str = Field(description="The reason in words; empty if there is none.")
     probability: float = Field(
-        description="That the best hypothesis is right: within 1 m and 3 degrees, and in the right "
-        "map. All maps of the request are judged together."
+        description="Probability that the best hypothesis is right: within 1 m and 3 degrees, in "
+        "the right map. All maps of the request are judged together."
     )
     pose: PoseOut | None = Field(
         description="Of the request's frame in the map's; null if the robot is not localised."
@@ -107,16 +107,16 @@ class LocalisationOut(BaseModel):
         "x, y, z. It is of the frame's origin: large where the robot is far from that."
     )
     score: float = Field(
-        description="Evidence for the pose, summed over what agrees with it. Comparable between "
-        "maps of one model in one answer."
+        description="Evidence for the pose: the sum over its inliers. Scores are comparable "
+        "between maps of one model in one answer."
     )
     inliers: list[InlierOut]
     others: list[HypothesisOut] = Field(
         description="Second-best hypothesis; the best one first where the robot is not localised."
     )
     rival: RivalOut | None = Field(
-        description="The best place in another map of the request. Null if no other map has one, "
-        "or only maps that hold the same segments: a merged map and its sources are one place."
+        description="Best pose in another map of the request. Null if no other map has one. Maps "
+        "with the same segments are no rivals: a merged map and its sources are one place."
     )
 
 
@@ -134,6 +134,6 @@ class LocalizeResponse(BaseModel):
     localisations: list[LocalisationOut]
     unusable: list[UnusableOut]
     dropped_points: int = Field(
-        default=0, description="Points that were not finite, in msgpack, and were left out."
+        default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
     skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")

@@ -15,8 +15,8 @@ class MapOut(BaseModel):
     frame: str = Field(description="Name of its coordinate frame.")
     robots: dict[str, int] = Field(description="How many segments each has in it.")
     sources: dict[str, int] = Field(
-        description="How many segments were merged from each map, as far as that is known and the "
-        "key opens it."
+        description="Number of segments merged from each source map that is known and that the "
+        "key opens."
     )
     time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
     optional: list[str] = Field(description="Names of the optional columns that it has.")
@@ -58,7 +58,7 @@ class VersionOut(BaseModel):
     etag: str
     time: float = Field(description="When it was written, Unix seconds of the service's clock.")
     author: str = Field(
-        description="Name of the key; `another key` to a key that opens some maps alone."
+        description="Name of the key; a key that does not open all maps sees `another key`."
     )
     operation: str = Field(examples=["put", "edit", "restore", "age"])
     changed: int = Field(description="Segments added or replaced.")

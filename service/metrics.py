@@ -49,7 +49,7 @@ class Metrics:
         self.map_segments = Gauge("placecell_map_segments", "Segments in all maps.", registry=of)
         self.keys_file_good = Gauge(
             "placecell_keys_file_good",
-            "1 if the file of keys can be read, or there is none; 0: see /readyz.",
+            "1 if the key file can be read or none is set; 0 otherwise, see /readyz.",
             registry=of,
         )
         self.models = Gauge(

@@ -49,9 +49,9 @@ class OriginGuard:
         if len(named) > 1 or (named and (host is None or not self._is_known(host[0], scope))):
             return _refusal(
                 "foreign-host",
-                f"Host {named[0]!r:.80} is not one of this service, which has no keys and answers "
-                "to loopback names alone. Name further ones in PLACECELL_ALLOWED_HOSTS, or make "
-                "keys (placecell keys).",
+                f"Host {named[0]!r:.80} is not allowed. A service without keys accepts loopback "
+                "names only. Add the name to PLACECELL_ALLOWED_HOSTS, or make keys (placecell "
+                "keys).",
             )
         for origin in _values(scope, b"origin"):
             if not self._is_own(origin, host):
@@ -127,8 +127,8 @@ def _fits(name: str, patterns: Collection[str]) -> bool:
 def _foreign_origin(origin: str) -> Problem:
     return _refusal(
         "foreign-origin",
-        f"The request comes from a web page of another origin: {origin!r:.80}. Without keys the "
-        "service answers to pages of its own alone; see PLACECELL_CORS_ORIGINS.",
+        f"The request comes from a web page of another origin: {origin!r:.80}. A service without "
+        "keys answers only its own pages. Add the origin to PLACECELL_CORS_ORIGINS.",
     )
 
 

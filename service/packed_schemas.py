@@ -134,8 +134,8 @@ class PackedSegment(PackedRequest):
     """A segment: the points of one object, and where it was seen from."""
 
     points: PointsBlob = Field(
-        description="float32, little-endian: x, y, z of the first point in metres, of the next, "
-        "...; points with NaN or infinity are left out, and counted in the answer."
+        description="float32, little-endian: x, y, z of the first point in meters, then of the "
+        "next. Points with NaN or infinity are left out and counted in the answer."
     )
     sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
 

@@ -92,7 +92,7 @@ def read_query(
         raise invalid("/k", f"k is {query.k}; the limit is {limit}.")
     named = state.settings.limits.named_maps
     if query.maps is not None and len(query.maps) > named:
-        raise invalid("/maps", f"{len(query.maps)} names; the limit is {named}.")
+        raise invalid("/maps", f"The request names {len(query.maps)} maps; the limit is {named}.")
     own = None if query.model_id is None else state.models.named(query.model_id)
     codes = None if own is None else _codes(state, query.codes, own)
     scope = scope_of(state.maps, state.models, query.maps, own, holder)

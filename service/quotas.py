@@ -9,8 +9,8 @@ from service.settings import Limits
 from service.stored_map import StoredMap
 
 CURE = (
-    "Delete maps, or let go of old versions (POST /maps/MAP/compact); both are always possible. "
-    "The service also lets go of old versions by itself, in seconds."
+    "Delete maps, or drop old versions (POST /maps/MAP/compact); both are always possible. "
+    "The service also drops old versions by itself within seconds."
 )
 
 
@@ -88,11 +88,13 @@ class Quotas:
         """
         limits = self.limits
         if usage.maps >= limits.maps:
-            raise OverQuotaError(f"The service holds {limits.maps} maps, the limit. Delete some.")
+            raise OverQuotaError(
+                f"The service holds {usage.maps} maps; the limit is {limits.maps}. Delete maps."
+            )
         if usage.by_key[author] >= limits.key_maps:
             raise OverQuotaError(
-                f"This key has made {limits.key_maps} maps, its limit. Delete some, or write to "
-                "one that is there."
+                f"This key has created {usage.by_key[author]} maps; the limit is "
+                f"{limits.key_maps}. Delete some, or write to an existing map."
             )
         self._check_robots(usage, Counter(), robots)
         self._check_bytes(usage, 0, size)
@@ -121,7 +123,7 @@ class Quotas:
         limits = self.limits
         if new.total() > max(limits.map_segments, before.total()):
             raise OverQuotaError(
-                f"The map would have {new.total()} segments; {limits.map_segments} is the limit."
+                f"The map would have {new.total()} segments; the limit is {limits.map_segments}."
             )
         self._check_names("robots", len(before), len(new))
         for robot in new:
@@ -129,7 +131,7 @@ class Quotas:
                 continue
             total = usage.robots[robot] - before[robot] + new[robot]
             if total > limits.robot_segments:
-                limit = f"{limits.robot_segments} is the limit."
+                limit = f"the limit is {limits.robot_segments}."
                 raise OverQuotaError(
                     f"{robot!r:.80} would have too many segments in all maps; {limit}",
                     f"{robot!r:.80} would have {total} segments in all maps; {limit}",
@@ -138,17 +140,17 @@ class Quotas:
     def _check_names(self, what: str, before: int, new: int) -> None:
         limit = self.limits.map_robots
         if new > max(limit, before):
-            raise OverQuotaError(f"The map would have {new} {what}; {limit} is the limit.")
+            raise OverQuotaError(f"The map would have {new} {what}; the limit is {limit}.")
 
     def _check_bytes(self, usage: Usage, before: int, size: int) -> None:
         limits = self.limits
         if before + size > limits.map_stored_bytes:
             raise NoRoomError(
                 f"The map would take {before + size} bytes in the store, with its old versions; "
-                f"{limits.map_stored_bytes} is the limit. {CURE}"
+                f"the limit is {limits.map_stored_bytes}. {CURE}"
             )
         if usage.bytes + size > limits.stored_bytes:
-            limit = f"{limits.stored_bytes} bytes is the limit. {CURE}"
+            limit = f"the limit is {limits.stored_bytes} bytes. {CURE}"
             raise NoRoomError(
                 f"The store would hold too much, with old versions; {limit}",
                 f"The store would hold {usage.bytes + size} bytes, with old versions; {limit}",

@@ -52,12 +52,12 @@ class ByteBudget:
         """Count bytes of a client; 429 if they exceed the budget."""
         if self._held[client] + count > self.share:
             raise busy(
-                f"This client has {self._held[client]} bytes of {self._what} under way; "
+                f"This client has {self._held[client]} bytes of {self._what} in progress; "
                 f"the limit is {self.share}."
             )
         if self.bytes + count > self.total:
             raise busy(
-                f"{self.bytes} bytes of {self._what} are under way; the limit is {self.total}."
+                f"{self.bytes} bytes of {self._what} are in progress; the limit is {self.total}."
             )
         self._held[client] += count
         self.bytes += count
@@ -123,7 +123,11 @@ class Receiver:
             Problem: 408 if it does not come, 429 if the client sends too much at once.
         """
         if self._receiving[client] >= self._bodies:
-            raise busy(f"This client sends {self._bodies} bodies already, the limit.", closes=True)
+            raise busy(
+                f"This client already sends {self._receiving[client]} bodies; the limit is "
+                f"{self._bodies}.",
+                closes=True,
+            )
         self._receiving[client] += 1
         try:
             return await _receive(request, rules, held)
@@ -162,11 +166,11 @@ async def _receive(request: Request, rules: BodyRules, held: Held) -> bytes:
 
 def _slow(rules: BodyRules, spent: float, received: int) -> Problem:
     if spent >= rules.seconds:
-        why = f"The body did not come within {rules.seconds:g} s."
+        why = f"The body did not arrive within {rules.seconds:g} s."
     else:
         why = (
-            f"The body came too slowly: {received} bytes in {spent:.3g} s. It must not pause for "
-            f"{rules.stall_seconds:g} s."
+            f"The body arrived too slowly: {received} bytes in {spent:.3g} s. Send it without "
+            f"pauses of {rules.stall_seconds:g} s."
         )
     return Problem(408, "slow-body", why, headers={"Connection": "close"})
 
@@ -182,7 +186,7 @@ def check_types(request: Request, media_types: Collection[str]) -> tuple[str, st
         raise Problem(
             415,
             "unsupported-media-type",
-            f"The body is {stated!r:.80}; {' or '.join(sorted(media_types))} is needed."
+            f"The body is {stated!r:.80}; expected {' or '.join(sorted(media_types))}."
             + form_hint(stated, media_types),
             headers={"Accept": ", ".join(sorted(media_types))},
         )
@@ -191,7 +195,7 @@ def check_types(request: Request, media_types: Collection[str]) -> tuple[str, st
         raise Problem(
             415,
             "unsupported-content-encoding",
-            f"The body is coded as {coding!r:.80}; {' and '.join(CODINGS)} are understood.",
+            f"The body is coded as {coding!r:.80}; expected {' or '.join(CODINGS)}.",
             headers={"Accept-Encoding": ", ".join(CODINGS)},
         )
     return stated, coding
@@ -210,4 +214,4 @@ def form_hint(stated: str, media_types: Collection[str]) -> str:
     if stated != "application/x-www-form-urlencoded":
         return ""
     wanted = min(media_types)
-    return f" curl calls every body a form: add -H 'Content-Type: {wanted}'."
+    return f" curl labels every body a form: add -H 'Content-Type: {wanted}'."

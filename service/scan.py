@@ -112,8 +112,8 @@ def _check_sums(points: Float64, sensors: Float64, counts: Int64) -> None:
 
 def _too_far(pointer: str, value: float) -> Problem:
     detail = (
-        f"With the origin added it is {value:g}. The limit is {COORDINATE_LIMIT:g} m: "
-        "does the origin belong to these coordinates?"
+        f"The coordinate plus the origin is {value:g} m; the limit is {COORDINATE_LIMIT:g} m. "
+        "Check that the origin belongs to these coordinates."
     )
     return Problem(
         422,

@@ -61,7 +61,7 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
     maps: Annotated[list[Name], Field(fail_fast=True, max_length=NAMED_MAPS)] | None = Field(
         None,
         min_length=1,
-        description=f"Names, {NAMED_MAPS:,} at most; all maps that can be searched unless said.",
+        description=f"Names of at most {NAMED_MAPS:,} maps; default: all maps of loaded models.",
     )
     k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
 
@@ -142,8 +142,8 @@ class CandidateOut(BaseModel):
     centroid: Point = Field(description="Metres, in the map's frame.")
     frame: str = Field(description="Name of the map's frame.")
     model_id: str = Field(
-        description="Of the model that made the map: the probability is by its pair classifier, "
-        "the distance between its descriptors. Neither was calibrated against another model's."
+        description="Model that made the map. Its pair classifier gives the probability and its "
+        "descriptors the distance; neither is calibrated against another model's."
     )
 
 

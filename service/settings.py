@@ -56,8 +56,8 @@ class Limits(BaseModel):
     json_bytes: int = Field(
         default=40 * MEBIBYTE,
         ge=1,
-        description="Bytes of a request's body for recognition as JSON: as many points as in "
-        "msgpack, each number with all its digits. As body_bytes where only that one is set.",
+        description="Largest JSON body of a recognition request, bytes. The default holds "
+        "`points` points with all their digits. If only body_bytes is set, its value applies.",
     )
     map_bytes: int = Field(
         default=64 * MEBIBYTE, ge=1, description="Bytes of an uploaded map file."
@@ -90,8 +90,8 @@ class Limits(BaseModel):
     requests: int = Field(
         default=32,
         ge=1,
-        description="Requests for recognition at work or waiting, at most; the others get a 429. "
-        "Clients (keys, or addresses without keys) that ask at the same time share them.",
+        description="Largest number of recognition requests running or waiting; further ones get "
+        "a 429. Clients (keys, or addresses without keys) share this number fairly.",
     )
     deadline: float = Field(
         default=10.0,
@@ -103,8 +103,8 @@ class Limits(BaseModel):
         default=8.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds of one core that a request for recognition may cost by estimate; the "
-        "others get a 413. /info tells the rates.",
+        description="Largest estimated cost of a recognition request, seconds of one core; more "
+        "gets a 413. /info lists the rates.",
     )
     body_seconds: float = Field(
         default=8.0,
@@ -115,53 +115,56 @@ class Limits(BaseModel):
     uploads: int = Field(
         default=4,
         ge=1,
-        description="Uploaded maps that are stored or wait, at most; the others get a 429.",
+        description="Largest number of map uploads running or waiting; further ones get a 429.",
     )
     edits: int = Field(
         default=16,
         ge=1,
-        description="Edits of maps at work or waiting, at most; the others get a 429.",
+        description="Largest number of map edits running or waiting; further ones get a 429.",
     )
     reads: int = Field(
         default=64,
         ge=1,
-        description="Reads of stored maps, versions, changes and lists at work or waiting, at "
-        "most; the others get a 429.",
+        description="Largest number of reads of stored maps, versions, changes and lists running "
+        "or waiting; further ones get a 429.",
     )
     read_seconds: float = Field(
         default=60.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds in which such an answer must be ready to be sent.",
+        description="Seconds within which the answer to a read must be ready to send.",
     )
     bodies: int = Field(
-        default=64, ge=1, description="Bodies that one client sends at once, at most."
+        default=64, ge=1, description="Largest number of bodies that one client sends at once."
     )
     held_bytes: int = Field(
         default=256 * MEBIBYTE,
         ge=1,
-        description="Bytes of bodies in memory, at most; of one client, half of them.",
+        description="Largest size of all bodies in memory, bytes; one client may use half.",
     )
     answer_bytes: int = Field(
         default=1024 * MEBIBYTE,
         ge=1,
-        description="Bytes of large answers under way, on disk, at most; of one client, half of "
-        "them.",
+        description="Largest size of all large answers in progress, on disk, bytes; one client "
+        "may use half.",
     )
     stall_seconds: float = Field(
         default=60.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds without progress of a body or an answer, until it is given up.",
+        description="Seconds without progress after which a body or an answer is dropped.",
     )
     transfer_seconds: float = Field(
         default=3_600.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds in which a map, an edit or an answer must have been transferred.",
+        description="Seconds within which a map, an edit or an answer must be transferred.",
     )
     named_maps: int = Field(
-        default=NAMED_MAPS, ge=1, le=NAMED_MAPS, description="Maps that a request names, at most."
+        default=NAMED_MAPS,
+        ge=1,
+        le=NAMED_MAPS,
+        description="Largest number of maps that a request names.",
     )
     robot_segments: int = Field(
         default=2_000_000, ge=1, description="Segments of one robot over all maps, at most."
@@ -170,37 +173,39 @@ class Limits(BaseModel):
     map_robots: int = Field(
         default=1_000,
         ge=1,
-        description="Robots whose segments a map holds, at most; as many maps that segments were "
-        "merged from.",
+        description="Largest number of robots with segments in a map, and of source maps of a "
+        "merged map.",
     )
-    maps: int = Field(default=20_000, ge=1, description="Maps, at most.")
+    maps: int = Field(default=20_000, ge=1, description="Largest number of stored maps.")
     key_maps: int = Field(
         default=15_000,
         ge=1,
-        description="Maps that one key has made, at most; without keys all maps are of one key.",
+        description="Largest number of maps that one key creates; without keys, all maps count "
+        "for one key.",
     )
     map_stored_bytes: int = Field(
         default=4 * GIBIBYTE,
         ge=1,
-        description="Bytes of a map in the store, with its old versions, at most. From half of it "
-        "on the service lets go of old versions.",
+        description="Largest size of a map in the store with its old versions, bytes. Above half "
+        "of it, the service drops old versions.",
     )
     stored_bytes: int = Field(
         default=64 * GIBIBYTE,
         ge=1,
-        description="Bytes of all maps in the store, with their old versions, at most. From "
-        "three quarters on the service lets go of old versions.",
+        description="Largest size of all maps in the store with their old versions, bytes. Above "
+        "three quarters of it, the service drops old versions.",
     )
     reserved_ids: int = Field(
         default=2_000_000,
         ge=1,
-        description="Ids of a map that a key has reserved within a week and not written, at most.",
+        description="Largest number of ids of a map that a key reserved within a week and has not "
+        "written.",
     )
     upload_seconds: float = Field(
         default=120.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds in which a map or an edit must be stored once it has come.",
+        description="Seconds within which a map or an edit must be stored after its last byte.",
     )
     alignments: int = Field(
         default=2, ge=1, description="Maps aligned or merged at once; the others get a 429."
@@ -217,19 +222,19 @@ class Limits(BaseModel):
     sessions: int = Field(
         default=10_000,
         ge=1,
-        description="Sessions of `/localize` that are remembered, for seconds. Of more, the key "
-        "that has most of them loses the one that was silent longest.",
+        description="Largest number of `/localize` sessions in memory. Beyond it, the key with "
+        "the most sessions loses its longest idle one.",
     )
     connections: int = Field(
         default=1_000,
         ge=1,
-        description="Connections at once. For a further one, the one that is idle longest is "
-        "closed.",
+        description="Largest number of connections. A further one closes the connection that is "
+        "idle longest.",
     )
     address_connections: int = Field(
         default=256,
         ge=1,
-        description="Connections of one address at once, likewise; allow a proxy more.",
+        description="Largest number of connections from one address; raise it behind a proxy.",
     )
 
     @model_validator(mode="before")
@@ -268,20 +273,20 @@ class Settings(BaseSettings):
         default=8000, ge=0, le=65_535, description="Port to listen on; 0: any free one."
     )
     unix_socket: Path | None = Field(
-        default=None, description="Unix socket to listen on, instead of host and port."
+        default=None, description="Path of a Unix socket to listen on instead of host and port."
     )
     root_path: str = Field(
         default="",
         pattern=r"^(/[A-Za-z0-9._~-]+)*$",
-        description="Path prefix under which a proxy shows the service, such as /placecell.",
+        description="Path prefix that a proxy puts before the service's paths, such as /placecell.",
     )
     forwarded_allow_ips: tuple[str, ...] = Field(
         default=(),
-        description="Addresses or networks of proxies whose X-Forwarded-For and -Proto are "
-        "believed, as a JSON list.",
+        description="Addresses or networks of proxies whose X-Forwarded-For and -Proto headers "
+        "the service trusts, as a JSON list.",
     )
     keep_alive_seconds: int = Field(
-        default=5, ge=1, description="Seconds that a connection is kept between two requests."
+        default=5, ge=1, description="Seconds that an idle connection stays open between requests."
     )
     cors_origins: tuple[str, ...] = Field(
         default=(),
@@ -290,8 +295,8 @@ class Settings(BaseSettings):
     )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
-        description="Without keys: names in Host that are answered beside those of loopback, as a "
-        "JSON list; *.example stands for all below it, * for all.",
+        description="Host names that a service without keys accepts beside loopback names, as a "
+        "JSON list; *.example matches all names below it, * matches all.",
     )
     docs: bool = Field(
         default=True, description="Serve the API's description: /docs, /redoc and /openapi.json."
@@ -378,7 +383,7 @@ def check_environment(model: type[BaseModel], environment: Mapping[str, str]) ->
     ]
     if wrong:
         raise ValueError(
-            f"the environment has what is no setting: {', '.join(wrong)}. "
+            f"the environment has names that are no settings: {', '.join(wrong)}. "
             "'placecell config' lists all settings; unset the others"
         )
 
@@ -391,7 +396,7 @@ def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -
     """
     wrong = list(unknown_keys(model, content))
     if wrong:
-        raise ValueError(f"{file}: no setting is called {', '.join(wrong)}")
+        raise ValueError(f"{file}: unknown settings {', '.join(wrong)}; see 'placecell config'")
 
 
 def unknown_keys(
@@ -430,7 +435,7 @@ def read_settings(file: Path) -> dict[str, Any]:
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{file}: is no TOML ({error})") from error
+        raise ValueError(f"{file}: is not valid TOML ({error})") from error
 
 
 def settings_file() -> Path:

@@ -195,8 +195,8 @@ class SqliteMapStore:
             reserved = owners.reserved(author, now - RESERVED_SECONDS)
             if reserved + count > most:
                 raise TooManyIdsError(
-                    f"{reserved:,} ids are reserved by this key and not written; at most {most:,} "
-                    "may be"
+                    f"this key has {reserved:,} reserved ids that it has not written; the limit is "
+                    f"{most:,}"
                 )
             if head.next_id + count > head.end_id:
                 # Around an id that somebody chose far from the others there may be more.
@@ -204,7 +204,7 @@ class SqliteMapStore:
                 if end - first < max(count, head.end_id - head.next_id):
                     first, end = head.next_id, head.end_id
                 if first + count > end:
-                    raise OutOfIdsError(f"{max(end - first, 0)} ids are left")
+                    raise OutOfIdsError(f"only {max(end - first, 0)} ids are left")
                 head = replace(head, next_id=first, end_id=end)
                 self._ledger.forget(uid)
             first = head.next_id
@@ -298,8 +298,8 @@ class SqliteMapStore:
         behind = {uid: next_id for uid, next_id in behind.items() if next_id}
         if skipped and heads:
             logger.warning(
-                "%s is not the file that was written here last: the maps may have come back from a "
-                "backup. %d ids of each map are left out, so that none is given out twice.",
+                "%s is not the file that the service wrote last: the maps may come from a backup. "
+                "The service skips %d ids of each map, so that no id is given out twice.",
                 *(self._folder / LEDGER, SKIPPED),
             )
         if behind:

@@ -187,7 +187,8 @@ class Answers:
             raise Problem(
                 503,
                 "no-room-for-answer",
-                "The answer is too large for memory, and no disk takes it. Try again later.",
+                "The answer is too large for memory and cannot be written to disk. Free disk "
+                "space, or try again later.",
                 headers={"Retry-After": "5"},
             ) from error
         raise error

@@ -77,7 +77,7 @@ def written_by(holder: Holder, stored: StoredMap | None, content: CompactMap) ->
             raise Problem(
                 403,
                 "forbidden",
-                f"The segments name the source {name!r:.80}, a map that this key does not open.",
+                f"Segments name the source map {name!r:.80}, which this key does not open.",
             )
     if stored is None:
         return content

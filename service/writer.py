@@ -209,9 +209,8 @@ class Writer:
             raise Problem(
                 409,
                 "too-many-ids",
-                f"Map {name!r:.80}: {error}. Write segments with these ids first. A week after "
-                "they were reserved ids no longer count; POST /maps/MAP/ids/reset gives up all of "
-                "them.",
+                f"Map {name!r:.80}: {error}. Write segments with these ids first. Reserved ids "
+                "stop counting after a week; POST /maps/MAP/ids/reset frees all of them.",
             ) from error
         except KeyError as error:
             raise unknown(name) from error

@@ -14,19 +14,19 @@ def attack(
         typer.Option(
             "--case",
             metavar="ID",
-            help="Run only this case, such as A4; may be repeated. (default: all cases)",
+            help="Case to run, such as A4; repeatable. (default: all cases)",
         ),
     ] = None,
     short: Annotated[
-        bool, typer.Option("--short", help="Smaller sizes and shorter times, for CI.")
+        bool, typer.Option("--short", help="Use smaller sizes and shorter times, for CI.")
     ] = False,
     memory_limit_mb: Annotated[
         float,
-        typer.Option(min=100, help="Resident memory of the service in MB; above it, it is killed."),
+        typer.Option(min=100, help="Resident memory above which the service is killed, MB."),
     ] = 1_000.0,
     victim_seconds: Annotated[
         float,
-        typer.Option(min=0.01, help="Seconds that another key's small request may wait."),
+        typer.Option(min=0.01, help="Longest wait of another key's small request, seconds."),
     ] = 1.0,
     json_file: JsonFile = None,
     seed: Drawn = 0,

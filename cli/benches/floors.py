@@ -13,7 +13,7 @@ from cli.tables import new_table, print_tables
 def floors(
     segments: Source = None,
     trials: Annotated[
-        int, typer.Option(min=1, help="Robots that ask once each, evenly over all cases.")
+        int, typer.Option(min=1, help="Number of /localize requests, spread over all cases.")
     ] = 500,
     json_file: JsonFile = None,
     output: Kept = Path("out/bench"),

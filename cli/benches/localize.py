@@ -20,10 +20,10 @@ def localize(
     maps: Annotated[
         int,
         typer.Option(
-            min=0, help="Maps to search together, by requests that name none; 0: not measured."
+            min=0, help="Number of maps searched by requests that name none; 0: not measured."
         ),
     ] = 0,
-    map_size: Annotated[int, typer.Option(min=200, help="Segments of each of those maps.")] = 300,
+    map_size: Annotated[int, typer.Option(min=200, help="Segments per map of --maps.")] = 300,
     seconds: Annotated[float, typer.Option(min=1.0, help="Of each map.")] = 30.0,
     json_file: JsonFile = None,
     output: Kept = Path("out/bench"),

@@ -40,7 +40,7 @@ def service(url: str) -> Iterator["Client"]:
             fail(error)
         except httpx.TransportError as error:
             if may_be_done(error):
-                fail(f"{url} did not answer: {error} What you asked for may be done all the same.")
+                fail(f"{url} did not answer: {error} The request may still have been carried out.")
             fail(f"{url} cannot be reached: {error}")
 
 

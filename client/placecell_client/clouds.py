@@ -48,9 +48,9 @@ class Clouds:
             dropped += int(len(points) - finite.sum())
         if any(_is_coarse(points) for points in clouds):
             warnings.warn(
-                f"Coordinates beyond {COARSE_METERS:,.0f} m as float32 are more than 1 cm coarse, "
-                "and segments lose their shape. Subtract an origin near the robot in float64, "
-                "before the points become float32; or give float64 points.",
+                f"float32 coordinates beyond {COARSE_METERS:,.0f} m have steps of more than 1 cm, "
+                "so segments lose their shape. Subtract an origin near the robot in float64 "
+                "before converting to float32, or pass float64 points.",
                 PrecisionWarning,
                 stacklevel=5,
             )

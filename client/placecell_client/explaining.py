@@ -73,17 +73,17 @@ def _hint(  # noqa: PLR0911 -- a table of cases
         return f"The port does not speak TLS. Use http://{url.host}{port}"
     if "CERTIFICATE_VERIFY_FAILED" in text or isinstance(error.__context__, ssl.SSLError):
         return (
-            f"The certificate of {url.host} is not trusted. Name the file of its authority in "
-            "SSL_CERT_FILE, and use the host name that the certificate has"
+            f"The certificate of {url.host} is not trusted. Set SSL_CERT_FILE to the file of its "
+            "authority, and use the host name in the certificate"
         )
     if isinstance(error, httpx.RemoteProtocolError) and url.scheme == "http":
         return f"If the port speaks TLS, use https://{url.host}{port}"
     if isinstance(error, httpx.ConnectTimeout):
         return f"Nothing answered at {url.host}{port}. Check the host, the port and the firewall"
     if isinstance(error, httpx.ReadTimeout | httpx.WriteTimeout):
-        return "The service was reached, and did not answer in time. Set a longer timeout"
+        return "The service was reached but did not answer in time. Set a longer timeout"
     if "Name or service not known" in text or "nodename nor servname" in text:
-        return f"No host is named {url.host}"
+        return f"The host name {url.host} is unknown. Check its spelling and the DNS"
     if isinstance(error, httpx.ConnectError):
         return f"Check that the service runs (placecell serve) and listens at {url.host}{port}"
     return ""

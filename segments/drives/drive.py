@@ -138,7 +138,7 @@ class Drive(ABC):
         if 2 * len(skipped) > len(scans):
             raise DriveError(
                 f"{self.folder}: {self.told(scans)}. More than half of the scans cannot be used: "
-                "the folder is incomplete, or the scans are laid out otherwise (--columns, --dtype)"
+                "the folder is incomplete, or the scans have another layout (--columns, --dtype)"
             )
 
     def told(self, scans: range) -> str:
@@ -201,7 +201,9 @@ def usable_points(points: Float32, file: Path) -> Float32:
     if not len(usable):
         raise DriveError(f"{file}: all {len(points)} points are not finite (NaN or infinity)")
     if implausible(usable) > 0.4:
-        raise DriveError(f"{file}: most values are no coordinates, damaged or of another kind")
+        raise DriveError(
+            f"{file}: most values are not coordinates; the file is damaged or of another kind"
+        )
     return usable
 
 
@@ -300,8 +302,8 @@ def check_rotations(poses: Float64, file: Path) -> None:
     mirrored = (off <= 1e-3) & (np.linalg.det(rotation) < 0)
     if mirrored.any():
         raise DriveError(
-            f"{file}, pose {int(mirrored.argmax())}: its left 3x3 block is no rotation but a "
-            "reflection (determinant -1): its axes are left-handed. Turn one axis around"
+            f"{file}, pose {int(mirrored.argmax())}: its left 3x3 block is a reflection "
+            "(determinant -1), expected a rotation: its axes are left-handed. Invert one axis"
         )
     off = np.maximum(off, np.where(np.linalg.det(rotation) > 0, 0.0, 2.0))
     if (off > 1e-3).any():
@@ -330,8 +332,8 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
             unit = "ms"
         name = {"ns": "nanoseconds", "us": "microseconds", "ms": "milliseconds"}[unit]
         raise DriveError(
-            f"{time_file}: {wait:,.6g} between two scans (median), so these are no seconds but "
-            f"likely {name}. State it with --time-unit {unit}, or convert the file to seconds"
+            f"{time_file}: {wait:,.6g} between two scans (median), so the times are likely {name}, "
+            f"not seconds. State --time-unit {unit}, or convert the file to seconds"
         )
     remarks = []
     moving = steps > 0.02
@@ -345,12 +347,12 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
             )
     if (waits < 0).any():
         first = int((waits < 0).argmax()) + 1
-        remarks.append(f"{time_file}: time runs backwards at scan {first}")
+        remarks.append(f"{time_file}: time decreases at scan {first}")
     climbed = float(np.abs(np.diff(poses[:, 2, 3])).sum())
     if steps.sum() > 10 and climbed > 0.7 * steps.sum():
         remarks.append(
-            f"{pose_file}: the drive moves up or down more than ahead, so the world's z may not be "
-            "up: are the poses a camera's, without the Tr that moves them to the sensor?"
+            f"{pose_file}: the drive moves more vertically than horizontally, so the world's z may "
+            "not be up. Check whether these are camera poses without the Tr to the sensor"
         )
     return remarks
 

@@ -85,7 +85,7 @@ class PointLayout:
         if len(content) % self.point_bytes:
             raise DriveError(
                 f"{file}: {len(content)} bytes is no whole number of points "
-                f"({self.point_bytes} bytes each: {self}); it is cut short or of another kind"
+                f"({self.point_bytes} bytes each: {self}); the file is cut short or of another kind"
             )
         values = np.frombuffer(content, TYPES[self.dtype])
         table = self.as_table(values)
@@ -136,7 +136,7 @@ def find_layout(files: Sequence[Path], sizes: Sequence[int], reading: Reading) -
         if divisible(whole, layout.point_bytes) < 0.5:
             raise DriveError(
                 f"{folder}: {count_of(whole, layout.point_bytes)} have no whole number of points "
-                f"of {layout}; the layout that was given does not fit"
+                f"of {layout}; the stated layout does not fit"
             )
     else:
         layout = told_by_content(folder, whole, sampled, METERS[reading.unit])
@@ -182,8 +182,8 @@ def told_by_content(
     found = f"{folder}: the scans are not float32 x, y, z, reflectance"
     if dtype is None:
         raise DriveError(
-            f"{found}: most values are no coordinates as float32 or float64 (text, integers, "
-            f"big-endian or compressed data?). Convert them to little-endian float32"
+            f"{found}: most values are not coordinates as float32 or float64 (text, integers, "
+            "big-endian or compressed data?). Convert them to little-endian float32"
         )
     values = [as_values(content, dtype) for content in sampled]
     fits = {
@@ -199,8 +199,8 @@ def told_by_content(
         if fits_kitti and (best is None or bits[len(NAMES)] - bits[best] < CONTRADICTED):
             return PointLayout(scale=scale)
         raise DriveError(
-            f"{found}: {sizes_told(sizes, fits, dtype)}, and {points} points a scan are too few "
-            f"to tell by their values. {STATE_IT}"
+            f"{found}: {sizes_told(sizes, fits, dtype)}, and {points} points per scan are too few "
+            f"to infer the layout from values. {STATE_IT}"
         )
     if best is None or pooled - bits[best] < MARGIN:
         if is_column_major(values, pooled):
@@ -229,7 +229,7 @@ def told_by_content(
 def sizes_told(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) -> str:
     """Return which numbers of columns the sizes of all files allow, as text."""
     if not fits:
-        return f"their sizes (one is {sizes[0]} bytes) fit 3 to 10 columns of {dtype} in no way"
+        return f"their sizes (one is {sizes[0]} bytes) fit no 3 to 10 columns of {dtype}"
     return (
         f"their sizes (one is {sizes[0]} bytes) fit {', '.join(map(str, fits))} columns of {dtype}"
     )

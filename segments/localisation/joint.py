@@ -286,8 +286,8 @@ def _against(
         other = queries[rival.map].name
         reason = "ambiguous"
         detail = (
-            f"Map {other!r:.80}, of another model, fits too, and scores of different models "
-            f"cannot be compared. {ADVICE}"
+            f"Map {other!r:.80} of another model fits too, and scores of different models cannot "
+            f"be compared. {ADVICE}"
         )
         probability = min(probability, 0.5)
     else:
@@ -295,8 +295,8 @@ def _against(
         if reason is None and probability < parameters.least_probability:
             reason = "inconsistent"
             detail = (
-                f"The best place, where {len(own.best)} of {usable} segments agree, is hardly "
-                f"likely: map {other!r:.80} fits nearly as well."
+                f"The best pose, with {len(own.best)} of {usable} segments as inliers, is "
+                f"unlikely to be right: map {other!r:.80} fits nearly as well."
             )
     told = replace(own, reason=reason, detail=detail, probability=probability, features=features)
     return told, rival

@@ -17,8 +17,8 @@ from service.state import HolderOf, StateOf
 router = APIRouter(tags=["health"])
 
 BAD_KEYS = (
-    "The file of keys is missing or cannot be read, and the log says why. Until it is mended no "
-    "new key works, and keys that it no longer holds are refused after a minute."
+    "The key file is missing or cannot be read; see the log for the reason. Until you repair it, "
+    "no new key works, and keys that it no longer holds are refused after a minute."
 )
 
 
@@ -49,7 +49,7 @@ async def readyz(state: StateOf) -> HealthResponse:
     if state.keys.is_good():
         return HealthResponse(status="ready")
     if not state.keys.any_works():
-        raise Problem(503, "not-ready", f"{BAD_KEYS} No key works any more.")
+        raise Problem(503, "not-ready", f"{BAD_KEYS} No key works now.")
     return HealthResponse(status="ready", warnings=[BAD_KEYS])
 
 

@@ -79,8 +79,8 @@ async def edit_segments(
     only_new: Annotated[
         bool,
         Query(
-            description="Refuse to replace a segment (409), whoever wrote it: for a robot whose "
-            "ids are all new. Segments that are there as they are do not count."
+            description="Refuse to replace any segment (409), for a robot whose ids are all new. "
+            "Segments that the map already holds unchanged do not count."
         ),
     ] = False,
 ) -> Response:

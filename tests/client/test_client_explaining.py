@@ -120,7 +120,7 @@ def test_B16_time_that_is_over() -> None:
     url = httpx.URL("http://robot:8000")
     assert "firewall" in explained(httpx.ConnectTimeout("timed out"), url)
     assert "longer timeout" in explained(httpx.ReadTimeout("timed out"), url)
-    assert "No host is named robot" in explained(
+    assert "The host name robot is unknown" in explained(
         httpx.ConnectError("[Errno -2] Name or service not known"), url
     )
 

@@ -154,7 +154,7 @@ def test_B2_full_disk_leaves_the_cache_unwritten(
         assert doubles(cached())
         assert doubles(cached())
     assert [record.getMessage()[:40] for record in caplog.records] == [
-        "cache of compiled code is unwritable, co"
+        "the cache of compiled code is unwritable"
     ]
 
 

@@ -102,8 +102,8 @@ def test_B4_columns_and_type_are_told_by_content(
     [
         (lambda s: s.T, "column after column"),
         (lambda s: s[:, :3].T, "column after column"),
-        (lambda s: s.astype(">f4"), "no coordinates"),
-        (lambda s: (s * 100).astype("<i2"), "no coordinates"),
+        (lambda s: s.astype(">f4"), "not coordinates"),
+        (lambda s: (s * 100).astype("<i2"), "not coordinates"),
         (lambda s: s * np.array([1000, 1000, 1000, 1], np.float32), "millimeters"),
         (lambda s: s + np.array([450_000, 5_400_000, 0, 0], np.float32), "map's frame"),
         (lambda s: f4(ring(s), s[:, :3]), "column 1 holds whole numbers"),

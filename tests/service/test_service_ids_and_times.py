@@ -116,7 +116,7 @@ def test_A8_a_key_reserves_only_so_many_ids_ahead(
     with start(keys_file=file, limits={"reserved_ids": 100}) as service:
         assert edited(service, edit_of(random_codes(1), manifest.model_id, 0), ann).is_success
         assert reserved(service, 60, ann).json()["first"] == 1
-        assert_problem(reserved(service, 41, ann), 409, "too-many-ids", "60 ids are reserved")
+        assert_problem(reserved(service, 41, ann), 409, "too-many-ids", "60 reserved ids")
         assert reserved(service, 40, ann).json()["first"] == 61
         assert_problem(reserved(service, 1, ann), 409, "too-many-ids", "Write segments")
         # Another key has its own, and what is written counts no more.

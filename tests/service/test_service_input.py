@@ -33,11 +33,11 @@ def test_A15_a_sum_with_the_origin_that_is_too_large_is_refused(
         "origin": [0.0, 0.0, sign * LIMIT],
     }
     told = service.post(path, json=body)
-    assert_problem(told, 422, "invalid-request", "/segments/1/points/0/2: With the origin added")
+    assert_problem(told, 422, "invalid-request", "/segments/1/points/0/2: The coordinate plus")
     assert post_packed(service, path, packed(body)).json() == told.json()
     body["segments"][1]["points"] = near.tolist()
     told = service.post(path, json=body)
-    assert_problem(told, 422, "invalid-request", "/segments/1/sensor/2: With the origin added")
+    assert_problem(told, 422, "invalid-request", "/segments/1/sensor/2: The coordinate plus")
 
 
 @pytest.mark.parametrize("path", PATHS)
@@ -78,7 +78,7 @@ def test_B10_a_segment_without_a_finite_point_is_an_error_of_its_own(service: An
     assert told.status_code == 200
     error = unpacked(told)["descriptors"][0]["error"]
     assert error["type"].endswith("too-few-points")
-    assert "0 points, besides 40 that are not finite" in error["detail"]
+    assert "0 points besides 40 non-finite ones" in error["detail"]
     assert unpacked(told)["dropped_points"] == 40
     told = post_packed(service, "/describe", {"segments": body["segments"][:1]})
     assert_problem(told, 422, "no-usable-segment", "40 that are not finite")

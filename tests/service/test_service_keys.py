@@ -292,7 +292,7 @@ def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
         # It is told by whoever asks, before any key is used; and robots go on.
         told = service.get("/readyz")
         assert told.status_code == 200
-        assert "file of keys" in told.json()["warnings"][0]
+        assert "key file" in told.json()["warnings"][0]
         assert str(file) not in told.text
         assert good(service) == 0
         assert any(one.levelname == "ERROR" and str(file) in one.message for one in caplog.records)

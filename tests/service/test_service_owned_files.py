@@ -246,7 +246,7 @@ def test_A28_a_migration_without_room_changes_nothing(
     shutil.copytree(OLD, data_dir)
     with monkeypatch.context() as full:
         full.setattr("service.disk_reserve.DiskReserve.free_bytes", lambda _: 1_000)
-        with pytest.raises(StoreError, match="bytes must be free") as raised:
+        with pytest.raises(StoreError, match="free bytes") as raised:
             SqliteMapStore(data_dir)
         assert raised.value.kind == "full"
     with closing(sqlite3.connect(data_dir / FILE)) as connection:
@@ -348,7 +348,7 @@ def test_A22_a_lock_that_is_removed_lets_no_second_service_in(
             service.delete("/maps/yard"),
             service.post("/maps/yard/ids?count=1"),
         ):
-            assert_problem(refused, 503, "store-unavailable", "Restart it")
+            assert_problem(refused, 503, "store-unavailable", "Restart this service")
         assert_problem(service.get("/readyz"), 503, "not-ready", "lock")
         assert service.get("/maps/yard?version=1").content == file
     with start() as service:

@@ -96,7 +96,7 @@ def test_A2_no_more_maps_than_the_limit(start: Any, manifest: Manifest) -> None:
             service.put("/maps/d", content=file),
             service.post("/maps/d/segments?create=true", content=edit),
         ):
-            assert_problem(response, 507, "quota-exceeded", "3 maps, the limit")
+            assert_problem(response, 507, "quota-exceeded", "3 maps; the limit is 3")
         # What is there can be written to, and one that goes makes room.
         assert service.post("/maps/a/segments", content=edit).status_code == 200
         assert service.delete("/maps/b").status_code == 204
@@ -141,7 +141,7 @@ def test_A2_robots_of_a_map_are_limited(start: Any, manifest: Manifest) -> None:
             assert service.post("/maps/a/segments?create=1", content=edit).is_success
         more = edit_of(random_codes(1), manifest.model_id, 9, "robot 9")
         refused = service.post("/maps/a/segments", content=more)
-        assert_problem(refused, 507, "quota-exceeded", "4 robots; 3 is the limit")
+        assert_problem(refused, 507, "quota-exceeded", "4 robots; the limit is 3")
         again = edit_of(random_codes(1, 5), manifest.model_id, 10, "robot 0")
         assert service.post("/maps/a/segments", content=again).status_code == 200
 
@@ -199,7 +199,7 @@ def test_A17_all_maps_together_have_a_quota(
         step = 0
         while (response := grow(service, manifest, step := step + 1)).status_code == 200:
             assert step < 100
-        assert_problem(response, 507, "quota-exceeded", "60000 bytes is the limit")
+        assert_problem(response, 507, "quota-exceeded", "the limit is 60000 bytes")
         assert_problem(service.put("/maps/new", content=file), 507, "quota-exceeded")
         keeper_of(service, data_dir, Bounds(all_bytes=60_000)).look()
         assert sum(each["bytes"] for each in service.get("/maps").json()["maps"]) < 45_000

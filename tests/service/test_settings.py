@@ -85,7 +85,7 @@ def test_B5_kubernetes_links_do_not_stop_the_start(monkeypatch: pytest.MonkeyPat
         ("Port = 9000", "Port (did you mean port?)"),
         ("[limits]\ndeadlin = 5", "limits.deadlin (did you mean deadline?)"),
         ("[limit]\nk = 5", "limit (did you mean limits?)"),
-        ("port = ", "is no TOML"),
+        ("port = ", "is not valid TOML"),
     ],
 )
 def test_B5_an_unknown_key_of_the_file_is_refused(text: str, said: str, elsewhere: Path) -> None:
