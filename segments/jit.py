@@ -43,6 +43,16 @@ def compiled(function: Function) -> Function:
     return result
 
 
+def compiled_part(function: Function) -> Function:
+    """Compile a function that only compiled functions of its file call.
+
+    Its machine code is part of theirs, so it needs no cache of its own.
+    """
+    dispatcher: Any = numba.njit(nogil=True)(function)
+    result: Function = dispatcher
+    return result
+
+
 class CheckedCacheFile(IndexDataCacheFile):
     """Numba cache files with a checksum, because damaged machine code would end the process."""
 

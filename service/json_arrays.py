@@ -12,16 +12,13 @@ neither settles are left to `float`.
 
 import re
 import secrets
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, TypeVar, cast
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from placecell_client.compact_map import COORDINATE_LIMIT
 
-from segments.jit import compiled
+from segments.jit import compiled, compiled_part
 from segments.types import Float64, Int8, Int64
 
 POINTS, CENTROIDS, CODES = 0, 1, 2
@@ -47,10 +44,6 @@ SYNTAX_ERRORS = {
     3: "expected `,` or `]`",
     4: "recursion limit exceeded",
 }
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-_part = cast(Callable[[Function], Function], numba.njit(nogil=True))
-"""Decorator of functions that compiled code calls."""
 
 Bytes = NDArray[np.uint8]
 Words = NDArray[np.uint64]
@@ -281,14 +274,14 @@ def moved(message: str, arrays: Arrays, named: bytes) -> str:
     return re.sub(r" at line (\d+) column (\d+)", of_body, message)
 
 
-@_part
+@compiled_part
 def _past_space(data: Bytes, i: int) -> int:
     while i < len(data) and (data[i] == 32 or data[i] == 10 or data[i] == 13 or data[i] == 9):
         i += 1
     return i
 
 
-@_part
+@compiled_part
 def _past_string(data: Bytes, i: int) -> int:
     """Return the position after the string that begins at i."""
     i += 1
@@ -297,7 +290,7 @@ def _past_string(data: Bytes, i: int) -> int:
     return min(i + 1, len(data))
 
 
-@_part
+@compiled_part
 def _past_value(data: Bytes, i: int, comma: bool) -> int:
     """Return the position of the bracket that closes the value at i, or of a comma before it."""
     depth = 0
@@ -316,7 +309,7 @@ def _past_value(data: Bytes, i: int, comma: bool) -> int:
     return len(data)
 
 
-@_part
+@compiled_part
 def _hexadecimal(c: int) -> int:
     if 48 <= c <= 57:
         return c - 48
@@ -324,7 +317,7 @@ def _hexadecimal(c: int) -> int:
     return c - 87 if 97 <= c <= 102 else -1
 
 
-@_part
+@compiled_part
 def _kind_of(data: Bytes, begin: int, end: int) -> int:
     """Return the kind of array that a key names; -1: none. Letters may be escaped."""
     kinds = 7  # a bit for each that it may be
@@ -357,7 +350,7 @@ def _kind_of(data: Bytes, begin: int, end: int) -> int:
     return -1
 
 
-@_part
+@compiled_part
 def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bool]:
     """Return the first 19 digits of a number, how many more there are, and whether any is not 0.
 
@@ -376,7 +369,7 @@ def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bo
     return digits, left, more
 
 
-@_part
+@compiled_part
 def _number(  # noqa: PLR0912 -- one look at each byte
     data: Bytes, i: int
 ) -> tuple[int, np.uint64, int, bool, bool, bool]:
@@ -440,7 +433,7 @@ def _number(  # noqa: PLR0912 -- one look at each byte
     return i, digits, power, negative, whole, more
 
 
-@_part
+@compiled_part
 def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
     """Return the 128 bits of a product, most significant word first."""
     half = np.uint64(32)
@@ -452,7 +445,7 @@ def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
     return a1 * b1 + (mid >> half) + (other >> half), (other << half) | (low & mask)
 
 
-@_part
+@compiled_part
 def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
     """Return the bits of the float64 nearest to w * 10^q, and whether they are settled.
 
@@ -493,7 +486,7 @@ def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
     return mantissa | (np.uint64(exponent) << np.uint64(52)), True
 
 
-@_part
+@compiled_part
 def _digits(word: np.uint64) -> tuple[np.uint64, int]:
     """Return the value and count of the digits that eight bytes begin with.
 
@@ -513,7 +506,7 @@ def _digits(word: np.uint64) -> tuple[np.uint64, int]:
     return (low + high) >> np.uint64(32), count
 
 
-@_part
+@compiled_part
 def _coordinate(
     data: Bytes,
     i: int,
@@ -553,7 +546,7 @@ def _coordinate(
     return end
 
 
-@_part
+@compiled_part
 def _code(data: Bytes, i: int, place: int, codes: Int8) -> int:
     """Read a code's value into its place; return the position after it, -1 if it is none."""
     end, w, _, negative, whole, _ = _number(data, i)
@@ -565,7 +558,7 @@ def _code(data: Bytes, i: int, place: int, codes: Int8) -> int:
     return end
 
 
-@_part
+@compiled_part
 def _row(  # noqa: PLR0911
     data: Bytes,
     i: int,
@@ -605,7 +598,7 @@ def _row(  # noqa: PLR0911
         i = _past_space(data, i + 1)
 
 
-@_part
+@compiled_part
 def _usual_rows(  # noqa: PLR0911, PLR0912, PLR0915 -- calls take longer than its work
     data: Bytes, words: Words, i: int, place: int, floats: Float64, bits: Words
 ) -> tuple[int, int]:
