@@ -2,7 +2,7 @@
 
 A floor is a set of things, each with a descriptor and a place. Another floor has the same things in
 the same places, but for a share that is replaced by others. Each map sees each thing anew: its
-descriptors differ as two views of one real segment do (`map_content`), its centroids by decimetres.
+descriptors differ as two views of one real segment do (`map_content`), its centroids by decimeters.
 The robot sees a part of one floor, in a frame of its own, and asks in all maps at once, by the code
 that answers `/localize`.
 """

@@ -49,7 +49,7 @@ class Nearest:
     Attributes:
         places: int64 (m,), indices of the maps.
         queries: int64 (m,).
-        targets: float32 (m, 3), centroids about the middle of their map, metres.
+        targets: float32 (m, 3), centroids about the middle of their map, meters.
         distances: float32 (m,), squared, in steps, rounded.
     """
 
@@ -70,7 +70,7 @@ def votes_of(
 
     Args:
         codes: int8 (q, code bytes), of the segments around the robot.
-        centroids: float64 (q, 3), theirs, metres.
+        centroids: float64 (q, 3), theirs, meters.
         searched: maps of one model.
         parts: that cover them.
         parameters: say when two candidates agree.

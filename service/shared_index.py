@@ -55,7 +55,7 @@ class Shared:
         keys: what each map held.
         starts: int64 (maps + 1,), where the rows of each begin.
         rows: int64 (n,), of each segment in its map's layers.
-        centroids: float32 (n, 3), metres, about the middle of each map.
+        centroids: float32 (n, 3), meters, about the middle of each map.
         index: over the descriptors.
     """
 
