@@ -129,9 +129,10 @@ def localise_jointly(
 
 
 FEW, LOOSER = 20, 2.0
-"""Of so few segments noise of the centroids may leave none to agree in the right map, while by
-chance enough agree in a look-alike. So where a map has no hypothesis, it is looked at again with
-tolerances so many times as wide. What is found then is no place to tell, but a reason to doubt."""
+"""Segment count up to which a map without any hypothesis is searched again, and the factor by which
+the tolerances then grow. With few segments, noise of the centroids may leave no inliers in the
+right map, while chance gives enough in a look-alike. What is found then is a reason for doubt,
+not a pose."""
 
 
 def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:

@@ -1,4 +1,4 @@
-"""The standing attack in its short form, and that it sees what is wrong."""
+"""The standing attack in its short form, and its ability to find faults."""
 
 import json
 from pathlib import Path
@@ -19,7 +19,7 @@ PLAN = AttackPlan(short=True)
 
 
 def run_attack(attack: Any, plan: AttackPlan = PLAN) -> dict[str, Any]:
-    """Run a case that does this; its part of the report."""
+    """Run a case with this attack and return its part of the report."""
     return run_case(Case("A0", attack, "It holds."), plan)
 
 

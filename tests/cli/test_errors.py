@@ -23,7 +23,7 @@ from cli.errors import plain
 def leaves(
     command: Any = None, path: tuple[str, ...] = ()
 ) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Every subcommand and the words that lead to it."""
+    """Yield every subcommand with the words that lead to it."""
     command = typer.main.get_command(app) if command is None else command
     if hasattr(command, "commands"):
         for name, each in command.commands.items():

@@ -1,4 +1,4 @@
-"""Run by other Pythons than the tests' own: both clients against a server of the standard library.
+"""Smoke run of both clients on other Pythons, against a server of the standard library.
 
 Prints `good` and the version of Python at the end. No pytest here: it is not installed there.
 """
@@ -17,7 +17,7 @@ from placecell_client.retries import Retries
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Answers `/describe`, and refuses everything else."""
+    """Handler that answers `/describe` and refuses everything else."""
 
     def log_message(self, *_: Any) -> None:
         """Say nothing."""
@@ -45,7 +45,7 @@ class Handler(BaseHTTPRequestHandler):
 
 
 def main() -> None:
-    """Use what a robot uses."""
+    """Call both clients as a robot does."""
     server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     url = f"http://127.0.0.1:{server.server_address[1]}"

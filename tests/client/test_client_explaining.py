@@ -1,4 +1,4 @@
-"""Why a service cannot be reached is told, with what to do."""
+"""Explanations of connection errors, with what to do."""
 
 import socket
 import ssl
@@ -17,7 +17,7 @@ ONCE = Retries(attempts=1)
 
 @contextmanager
 def answering(content: bytes) -> Iterator[int]:
-    """A port that answers these bytes to whatever comes."""
+    """Serve these bytes as the answer to any request; yield the port."""
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def serve() -> None:

@@ -1,4 +1,4 @@
-"""What the client takes of a robot's arrays, and how it refuses the others."""
+"""Arrays that the client accepts, and errors for the others."""
 
 import json
 import warnings
@@ -18,7 +18,7 @@ UTM = np.array([5e5, 5.4e6, 300.0])
 
 
 def sent(points: Any, encoding: Encoding = "json") -> Any:
-    """The points of a request's only segment."""
+    """Return the points of a request's only segment."""
     body, _ = segments_of([points], SENSOR, encoding)
     given = body["segments"][0]["points"]
     if encoding == "json":

@@ -140,7 +140,7 @@ def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> N
 
 
 def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
-    """As a service answers that is older than the joint judgement."""
+    """The answer is that of a service without joint judgment."""
     old = {name: value for name, value in PLACE.items() if name != "rival"}
     places = [old | {"map": "a", "score": 73.0}, old | {"map": "z", "score": 129.0}]
     with client_of(lambda _: packed(LOCALISED | {"localisations": places})) as client:

@@ -1,4 +1,4 @@
-"""The client on the oldest Python that it says, and on the newest that is installed here."""
+"""The client on the oldest Python that it supports and on the newest one installed here."""
 
 import os
 import re
@@ -16,7 +16,7 @@ OLDEST = (3, 10)
 
 
 def version_of(python: str | Path) -> tuple[int, int] | None:
-    """Of an interpreter; None if it does not run."""
+    """Return an interpreter's version; None if it does not run."""
     asked = [str(python), "-c", "import sys; print(*sys.version_info[:2])"]
     try:
         done = subprocess.run(asked, capture_output=True, text=True, timeout=10, check=True)
@@ -27,7 +27,7 @@ def version_of(python: str | Path) -> tuple[int, int] | None:
 
 
 def interpreters() -> dict[tuple[int, int], str]:
-    """Those on PATH and those that pyenv keeps, by version."""
+    """Find interpreters on PATH and in pyenv, by version."""
     pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"))
     found: list[str | Path] = [*sorted(pyenv.glob("versions/3.*/bin/python3"))]
     for minor in range(OLDEST[1], 30):
@@ -38,7 +38,7 @@ def interpreters() -> dict[tuple[int, int], str]:
 
 
 def smoke(python: str, folder: Path) -> str:
-    """What the smoke run prints, with the client installed as a robot installs it."""
+    """Run the smoke test with the client installed as a robot installs it; return its output."""
     venv: list[str | Path] = [python, "-m", "venv", "--without-pip", folder]
     subprocess.run(venv, check=True, timeout=60, capture_output=True)
     pip: list[str | Path] = [

@@ -1,4 +1,4 @@
-"""What is installed is what was pinned: by version and hash; images by digest."""
+"""Installed packages match the pins, by version and hash; images match by digest."""
 
 import re
 import shutil
@@ -24,14 +24,14 @@ UNHASHED = {"torch", "pytorch-metric-learning"}
 
 
 def pins(file: Path) -> dict[str, str]:
-    """Versions by name, of a file of constraints or requirements."""
+    """Return versions by name from a file of constraints or requirements."""
     lines = [line for line in file.read_text().splitlines() if re.match(r"[A-Za-z0-9]", line)]
     found = [Requirement(line.rstrip("\\ ")) for line in lines]
     return {canonicalize_name(each.name): str(each.specifier) for each in found}
 
 
 def closure(extras: list[str]) -> set[str]:
-    """All that is needed here, by what the installed packages say."""
+    """Return all packages needed here, according to the installed packages."""
     wanted = [Requirement(each) for each in (*PROJECT["dependencies"], *CLIENT["dependencies"])]
     for extra in extras:
         wanted += [Requirement(each) for each in PROJECT["optional-dependencies"][extra]]

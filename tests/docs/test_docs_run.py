@@ -98,7 +98,7 @@ def blocks_of(file: Path) -> Iterator[Block]:
 
 
 def in_list(lines: list[str], at: int) -> bool:
-    """Whether an indented line goes on with an item of a list."""
+    """Return whether an indented line continues a list item."""
     before = [line for line in lines[:at] if line.strip()]
     while before and before[-1].startswith(" "):
         before.pop()
@@ -224,7 +224,7 @@ def test_B8_curl_commands_are_answered(block: Block, address: str, tmp_path: Pat
 
 
 def given(address: str, tmp_path: Path) -> dict[str, Any]:
-    """Names that the snippets take for granted."""
+    """Return the names that the snippets take for granted."""
     random = np.random.default_rng(0)
     clouds = [random.normal(size=(200, 3)) + [12, 5 * n, 0] for n in range(6)]
     old, new = made("ann"), take(made("ann"), np.arange(2, 300))
@@ -261,7 +261,7 @@ def given(address: str, tmp_path: Path) -> dict[str, Any]:
 
 @pytest.fixture
 def maps(address: str) -> None:
-    """Maps that the snippets name; those of other snippets are gone."""
+    """Store the maps that the snippets name; remove those of other snippets."""
     with Client(address) as client:
         for one in list(client.maps()):
             client.delete_map(one.name)

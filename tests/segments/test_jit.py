@@ -35,7 +35,7 @@ def _nothing_told(monkeypatch: pytest.MonkeyPatch) -> None:
 def cached(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, _nothing_told: None
 ) -> Iterator[Callable[[], Any]]:
-    """Loads the compiled function anew, as another process would, from the same cache."""
+    """Return a loader of the compiled function, as another process, from the same cache."""
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "cache"))
     file = tmp_path / "doubling.py"
     file.write_text(SOURCE)
@@ -54,7 +54,7 @@ def cached(
 
 
 def doubles(function: Any) -> bool:
-    """Whether it works; the count of cache hits is that of its statistics."""
+    """Return whether the function works."""
     values = np.arange(4)
     function(values)
     return values.tolist() == [0, 2, 4, 6]

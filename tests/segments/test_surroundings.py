@@ -138,7 +138,7 @@ def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
 
 
 def all_pairs(segments: Segments, parameters: SurroundingsParameters) -> np.ndarray:
-    """The same by the plainest way: each voxel held against each centroid."""
+    """Reference: each voxel compared with each centroid."""
     voxels, owners = voxels_by_owner(segments, parameters.voxel)
     rings, reach = parameters.ring_of_metre(), parameters.rings[-1]
     logarithms = np.log1p(np.arange(len(voxels) + 1))
@@ -194,7 +194,7 @@ def test_A4_cells_give_what_all_pairs_give_bit_for_bit(segments: Segments) -> No
 
 
 def colliding(count: int) -> np.ndarray:
-    """Voxels, (count, 3), that the hash of before, without a seed, put into one slot."""
+    """Return voxels, (count, 3), that the former unseeded hash put into one slot."""
     slots = 1
     while slots < 2 * count:
         slots *= 2

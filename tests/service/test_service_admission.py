@@ -44,7 +44,7 @@ def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
 
 
 def value(service: Any, name: str) -> float:
-    """Of a metric, its labels part of the name."""
+    """Return a metric's value, with its labels as part of the name."""
     lines = service.get("/metrics").text.splitlines()
     return next((float(line.split()[-1]) for line in lines if line.startswith(name + " ")), 0.0)
 

@@ -17,7 +17,7 @@ from service.streaming import Answers
 Served = tuple[str, int]
 SECONDS = 60
 CLIENTS: list[asyncio.StreamWriter] = []
-"""Of a test, closed at its end."""
+"""Open clients of a test, closed at its end."""
 
 
 @asynccontextmanager

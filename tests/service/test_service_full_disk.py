@@ -86,7 +86,7 @@ def freed(client: Any, way: str) -> None:
 def test_A18_the_disk_is_written_again_once_maps_are_deleted(
     start: Any, tmp_path: Path, manifest: Manifest
 ) -> None:
-    """What a deletion frees is enough to go on; the reserve is there again."""
+    """A deletion frees enough space to continue and restores the reserve."""
     large = [encode(map_of(random_codes(20_000, seed), manifest.model_id)) for seed in range(2)]
     data_dir = tmp_path / "disk"
     with small_disk(data_dir, "24m"), start(data_dir=data_dir) as client:

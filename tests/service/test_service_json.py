@@ -33,7 +33,7 @@ BODIES = (
 
 
 def plain(value: Any) -> Any:
-    """A value with its arrays as lists."""
+    """Convert a value's arrays to lists."""
     if isinstance(value, BaseModel):
         return {key: plain(getattr(value, key)) for key in type(value).model_fields}
     if isinstance(value, np.ndarray):
@@ -44,7 +44,7 @@ def plain(value: Any) -> Any:
 
 
 def read(schema: type[BaseModel], body: bytes) -> Any:
-    """What is read, or the status and the places of what is wrong."""
+    """Return the parsed request, or the status and the places of its errors."""
     try:
         return plain(read_json(schema, body, LIMITS))
     except Problem as problem:
@@ -52,7 +52,7 @@ def read(schema: type[BaseModel], body: bytes) -> Any:
 
 
 def expected(schema: type[BaseModel], body: bytes) -> Any:
-    """The same of the schema alone."""
+    """Return the same from the plain schema."""
     try:
         return plain(schema.model_validate_json(body))
     except ValidationError as error:

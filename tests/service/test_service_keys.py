@@ -238,7 +238,7 @@ def test_a_key_s_rights_changed_in_place_are_noticed(start: Any, file: Path) -> 
 
 
 def good(service: Any) -> float:
-    """What the metric says of the file."""
+    """Return the metric of the key file."""
     (line,) = [
         line for line in service.get("/metrics").text.splitlines()
         if line.startswith("placecell_keys_file_good")
@@ -248,7 +248,7 @@ def good(service: Any) -> float:
 
 @pytest.fixture
 def seconds(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """A clock that keys go by; it stands still until it is set."""
+    """Clock of the keys, which stands still until it is set."""
     now = [100.0]
     made = keys_module.Keys.__init__
     monkeypatch.setattr(

@@ -1,4 +1,4 @@
-"""Where and how the service listens: IPv4 and IPv6, Unix sockets, a proxy's prefix, HEAD, CORS."""
+"""Listening: IPv4 and IPv6, Unix sockets, a proxy's prefix, HEAD, CORS."""
 
 import socket
 from collections.abc import Iterator

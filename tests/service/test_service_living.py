@@ -277,7 +277,7 @@ def test_a_part_of_a_map_is_enough(manifest: Manifest) -> None:
 def compared_with_all(
     upload: CompactMap, stored: CompactMap, same: SameView, itself: bool
 ) -> Sighting:
-    """The same by the plainest way: each segment held against all others near it."""
+    """Reference: each segment compared with all others near it."""
     stored, given = (with_optional(each, ["views", "seen"]) for each in (stored, upload))
     known = take(stored, ~np.isin(stored.ids, given.ids))
     given = take(given, np.lexsort((given.ids, given.frame_times[given.frame_index])))

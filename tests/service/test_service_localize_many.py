@@ -1,4 +1,4 @@
-"""`/localize` and `/match` over many maps: one search, one judgement (rows B1 and B13)."""
+"""`/localize` and `/match` over many maps: one search, one judgment (rows B1 and B13)."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -31,7 +31,7 @@ REVISIT = 0.6
 
 
 def seen_again(content: CompactMap, seed: int, robot: str = "bob") -> CompactMap:
-    """The same things as another robot maps them, at another time."""
+    """Return the same things mapped by another robot at another time."""
     random = np.random.default_rng(seed)
     noise = random.normal(scale=REVISIT, size=content.codes.shape)
     return replace(
@@ -44,7 +44,7 @@ def seen_again(content: CompactMap, seed: int, robot: str = "bob") -> CompactMap
 
 
 def changed(content: CompactMap, share: float, seed: int) -> CompactMap:
-    """The same, but for a share of the things, which are replaced by others."""
+    """Return the content with a share of the things replaced by others."""
     random = np.random.default_rng([seed, 1])
     rows = random.choice(len(content), round(share * len(content)), replace=False)
     codes, centroids = content.codes.copy(), content.centroids.copy()
@@ -72,7 +72,7 @@ def floor(manifest: Manifest) -> CompactMap:
 
 @pytest.fixture
 def body(manifest: Manifest, floor: CompactMap) -> dict[str, Any]:
-    """What a robot sees that visits the floor once more."""
+    """Return the request of a robot that visits the floor again."""
     return by_codes(manifest, *seen_in(seen_again(floor, 77)))
 
 
@@ -162,7 +162,7 @@ def test_B1_a_map_that_took_a_source_s_name_is_another_place(
 
 
 def with_moments(content: CompactMap) -> CompactMap:
-    """Captured at two moments."""
+    """Return the content captured at two moments."""
     return replace(
         content,
         frame_index=(np.arange(len(content)) >= len(content) // 2).astype(np.uint32),
@@ -274,7 +274,7 @@ def test_B13_forty_equal_floors_are_ambiguous_and_the_work_is_bounded(
 
 
 def match_by_hand(maps: dict[str, CompactMap], query: Any, k: int) -> list[tuple[int, str, int]]:
-    """Squared distance, map, id of the nearest."""
+    """Return squared distance, map and id of the nearest candidates."""
     found = []
     for name, content in maps.items():
         squared = ((content.codes.astype(int) - query.astype(int)) ** 2).sum(axis=1)

@@ -71,7 +71,7 @@ OWN: list[dict[str, str]] = [
 def status_at(
     settings: Settings, server: tuple[str, int | None] | None, headers: list[tuple[str, str]]
 ) -> int:
-    """How a request that came to this address is answered."""
+    """Return the status of a request to this address."""
     sent: list[Any] = []
 
     async def app(scope: Any, receive: Any, send: Any) -> None:

@@ -28,7 +28,7 @@ from tests.service.service_builders import assert_problem, edit_of, map_of, rand
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 ANY = {"If-Match": "*"}
 OLD = Path(__file__).resolve().parents[1] / "fixtures" / "user-version-1"
-"""Of a service of version 1 of the tables that was killed, with its log."""
+"""Database of a killed service with tables of version 1, with its log."""
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def file(manifest: Manifest) -> bytes:
 
 
 def flipped(value: Any) -> list[Any]:
-    """The values that one flipped bit makes of this one, some of them."""
+    """Return some values that differ from this one by one flipped bit."""
     if isinstance(value, int):
         return [value ^ 1, value ^ 4, value ^ (1 << 33)]
     if isinstance(value, float):
@@ -66,7 +66,7 @@ def flipped(value: Any) -> list[Any]:
 
 
 def told_by(folder: Path) -> Any:
-    """All that the store tells, or how it tells that something was altered."""
+    """Return all content of the store, or its error for altered bytes."""
     try:
         store = SqliteMapStore(folder)
     except StoreError as error:

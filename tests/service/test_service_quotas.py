@@ -1,4 +1,4 @@
-"""How many maps, robots and bytes may be stored, and what a map costs in memory."""
+"""Quotas of maps, robots and bytes, and the memory of a map."""
 
 import gc
 import time
@@ -35,7 +35,7 @@ def keeper_of(service: Any, data_dir: Path, bounds: Bounds) -> Housekeeper:
 
 
 def traced(make: Any) -> tuple[Any, int, int]:
-    """What is made, the bytes that it holds, and those held at most while it was made."""
+    """Return what `make` makes, the bytes it holds, and the peak bytes while it was made."""
     gc.collect()
     tracemalloc.start()
     try:

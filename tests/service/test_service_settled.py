@@ -20,7 +20,7 @@ NAMES = ("a", "b", "c")
 
 
 def drawn(random: np.random.Generator, name: str, things: np.ndarray, looks: np.ndarray) -> Part:
-    """What a robot maps: things from many sides, more than a map keeps, a moment each stand."""
+    """Return a map of things seen from more sides than a map keeps, one moment per position."""
     count = int(random.integers(40, 120))
     which = random.integers(0, len(things), count)
     moments = random.integers(0, 30, count)
@@ -55,7 +55,7 @@ def parts_of(seed: int) -> list[Part]:
 def merged(
     parts: Sequence[Part], same: SameView | None, site: CompactMap | None = None
 ) -> tuple[CompactMap, list[Share]]:
-    """As a request merges them: what is in the site already lies as it lay."""
+    """Merge as a request does: parts already in the map keep their alignment."""
     if site is None:
         site = empty("tiny-0123456789abcdef", "1", "site", 16)
     first_id = int(site.ids.max()) + 1 if len(site) else 0

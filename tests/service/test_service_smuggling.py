@@ -14,7 +14,7 @@ SMUGGLED = b"GET /smuggled HTTP/1.1\r\nHost: x\r\n\r\n"
 
 
 class Noting(App):
-    """Notes the paths that it is asked for, and takes bodies."""
+    """Application that records the paths it is asked for and reads bodies."""
 
     def __init__(self) -> None:
         super().__init__("/none")

@@ -16,7 +16,7 @@ from tests.service.service_builders import assert_problem, cloud, map_of, random
 from tests.service.test_service_keys import made
 
 FOREIGN = ("secret", "boss")
-"""In names of maps and of a key that the key under test may not learn."""
+"""Parts of map and key names that the key under test may not learn."""
 
 
 def merged(manifest: Manifest, count: int, first_id: int, robot: str = "ann") -> CompactMap:
@@ -40,7 +40,7 @@ def edit(content: CompactMap) -> bytes:
 
 @pytest.fixture
 def hall(start: Any, tmp_path: Path, manifest: Manifest) -> Iterator[Any]:
-    """A service full of another key's maps, and the headers of both keys."""
+    """Start a service full of another key's maps; yield it and the headers of both keys."""
     keys = tmp_path / "keys.toml"
     boss = made(keys, "boss of all", "--write", "--admin")
     ann = made(keys, "ann", "--write", "--map", "hall-*")
