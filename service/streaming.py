@@ -48,7 +48,7 @@ class Answers:
 
         Args:
             folder: where files are made, of no name.
-            total: bytes of answers under way, over all clients; each of them may have half.
+            total: bytes of answers in progress, over all clients; each may have half.
             seconds: that an answer may take to be sent.
         """
         self._folder = folder
@@ -102,7 +102,7 @@ class Answers:
             headers: of the answer.
 
         Raises:
-            Problem: 429 if too many bytes are under way, and what `make` raises.
+            Problem: 429 if too many bytes are in progress, and what `make` raises.
         """
         making = self._locks.setdefault(name, _Making())
         making.users += 1

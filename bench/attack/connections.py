@@ -342,12 +342,18 @@ CASES = (
     Case(
         "A3",
         slow_download,
-        "A download over a slow link that goes on arrives whole.",
+        "A download over a slow link arrives whole.",
         in_short=False,
     ),
-    Case("A5", reads_of_old_versions, "Reads of stored maps delay nobody's writes."),
-    Case("A6", trickled_bodies, "A request counts when its body is there."),
-    Case("A7", unread_answers, "Bytes of answers under way are bounded."),
-    Case("A11", idle_connections, "Idle connections shut out neither health checks nor others."),
-    Case("A27", smuggled_requests, "A request whose length is told twice is a 400, and closed."),
+    Case("A5", reads_of_old_versions, "Reads of stored maps delay no client's writes."),
+    Case("A6", trickled_bodies, "A request takes a place only when its body is complete."),
+    Case("A7", unread_answers, "The bytes of answers in progress are bounded."),
+    Case(
+        "A11", idle_connections, "Idle connections block neither health checks nor other clients."
+    ),
+    Case(
+        "A27",
+        smuggled_requests,
+        "A request that states its length twice gets a 400, and its connection is closed.",
+    ),
 )

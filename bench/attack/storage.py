@@ -553,12 +553,16 @@ def _with_ids(stage: Stage, kind: Kind, robot: str, ids: list[int]) -> CompactMa
 
 
 CASES = (
-    Case("A2", empty_maps, "Maps are limited, and empty ones cost next to nothing."),
+    Case("A2", empty_maps, "The number of maps is limited, and empty maps take little memory."),
     Case("A8", all_ids, "No key can take all ids of a map."),
-    Case("A10", moved_database, "A database that was moved away is a 503, and loses nothing."),
-    Case("A16", seen_in_the_future, "A segment was seen now at the latest."),
+    Case(
+        "A10",
+        moved_database,
+        "With its database moved away, the service answers 503 and loses nothing.",
+    ),
+    Case("A16", seen_in_the_future, "No segment is last seen in the future."),
     Case("A17", long_history, "The bytes that a key stores are limited, history included."),
-    Case("A18", full_disk, "A full disk can be freed, and /readyz tells that it is full."),
+    Case("A18", full_disk, "Deletions free a full disk, and /readyz reports that it is full."),
     Case("A22", removed_lock, "A service whose lock was removed refuses writes.", in_short=False),
     Case(
         "A23",
@@ -567,5 +571,5 @@ CASES = (
         in_short=False,
     ),
     Case("A24", delete_of_shared_map, "A robot's key cannot delete others' history."),
-    Case("A28", flipped_bits, "Changed notes of a commit are told.", in_short=False),
+    Case("A28", flipped_bits, "The service reports changed commit notes.", in_short=False),
 )

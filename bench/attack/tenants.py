@@ -374,11 +374,11 @@ def _ids(first: int, count: int) -> UInt32:
 
 
 CASES = (
-    Case("A9", foreign_pages, "Without keys no foreign page reads or changes maps."),
-    Case("A12", broken_key_file, "/readyz and a metric tell that the file of keys is not good."),
+    Case("A9", foreign_pages, "Without keys, no foreign page reads or changes maps."),
+    Case("A12", broken_key_file, "/readyz and a metric report an unreadable key file."),
     Case("A19", foreign_names, "A key learns nothing of maps and keys that are not its own."),
-    Case("A20", docs_pages, "The pages of the documentation need nothing from elsewhere."),
-    Case("A21", unknown_keys, "The log tells refused keys, with the client's address."),
-    Case("A25", many_sessions, "One key's sessions push out nobody else's."),
-    Case("A26", pinned_builds, "Builds take what was pinned, by hash."),
+    Case("A20", docs_pages, "The documentation pages load nothing from other hosts."),
+    Case("A21", unknown_keys, "The log records refused requests with the client's address."),
+    Case("A25", many_sessions, "One key's sessions displace no other key's."),
+    Case("A26", pinned_builds, "Builds install pinned versions only, by hash."),
 )

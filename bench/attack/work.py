@@ -293,8 +293,8 @@ def _expect_growth(stage: Stage, target: Target, before: float, most: float, wha
 
 CASES = (
     Case("A1", coincident, "Memory and time are linear in the segments of an edit."),
-    Case("A4", crafted_points, "No points make recognition hold up another robot's request."),
-    Case("A13", long_line, "Alignment and merge end at their limit of time."),
-    Case("A14", bombs, "A body that holds nothing is refused at once."),
-    Case("A15", far_origin, "Coordinates whose sum is beyond the limit are a 422."),
+    Case("A4", crafted_points, "No points let recognition delay another robot's request."),
+    Case("A13", long_line, "Alignment and merge end at their time limit."),
+    Case("A14", bombs, "A body without content is refused at once."),
+    Case("A15", far_origin, "Coordinates whose sum exceeds the limit get a 422."),
 )
