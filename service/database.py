@@ -109,17 +109,25 @@ class Database:
             if error.kind != "full":
                 raise
             # Its files need a little room on a disk that has none.
-            self._reserve.release()
-            self._connection = self._opened(layout)
+            self._reserve.lend(self._reserve.size // 4)
+            try:
+                self._connection = self._opened(layout)
+            except StoreError:
+                self._reserve.hold()
+                raise
         with _translated_os(path):
             self._file = _inode_of(path)
             self._log = _inode_of(self._log_path)
-        self._reserve.hold()
+            with _translated(path):
+                self._reserve.hold_for_log(self._log_growth())
 
     def close(self) -> None:
         """Let go of the file; what the log holds goes into it."""
         with self._writing:
+            self._reserve.release(self._reserve.size)
             self._connection.close()
+        # On a full disk, the room that the log had is for the next start.
+        self._reserve.hold_for_log(0)
 
     @contextmanager
     def transaction(self, frees: bool = False) -> Iterator[sqlite3.Connection]:
@@ -134,17 +142,35 @@ class Database:
         with self._writing, self._noted(), _translated(self.path):
             if told := self._misplaced() or self._lock_trouble():
                 raise StoreError("moved", told)
-            if not frees and not self._reserve.hold():
+            if not frees and not self._holds_reserve():
                 raise StoreError("full", f"{self.path}: the disk is full")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
+                if not frees and not self._reserve.hold_for_log(self._log_growth()):
+                    raise StoreError("full", f"{self.path}: the disk is full")
                 self._connection.execute("COMMIT")
             except BaseException:
                 # Some errors have ended the transaction already.
                 if self._connection.in_transaction:
                     self._connection.rollback()
                 raise
+            if not frees and self._reserve.log_bytes:
+                self._reserve.hold_for_log(self._log_growth())
+
+    def _holds_reserve(self) -> bool:
+        """Allocate the reserve with room for what the log holds; the caller holds the lock."""
+        if self._reserve.hold() or self._reserve.hold_for_log(self._log_growth()):
+            return True
+        # What has room in the database needs none beside it.
+        self._move_log("RESTART")
+        return self._reserve.hold_for_log(self._log_growth())
+
+    def _log_growth(self) -> int:
+        """Return by how many bytes the file grows when the log moves into it."""
+        (pages,) = self._connection.execute("PRAGMA page_count").fetchone()
+        (page_bytes,) = self._connection.execute("PRAGMA page_size").fetchone()
+        return int(pages) * int(page_bytes) - self.path.stat().st_size
 
     def freeing(self, work: Callable[[sqlite3.Connection], Result], share: float = 1.0) -> Result:
         """Run writes that free the disk; a full disk lends them its reserve.
@@ -155,19 +181,34 @@ class Database:
         """
         try:
             with self.transaction(frees=True) as connection:
-                return work(connection)
+                done = work(connection)
+            is_short = self._reserve.free_bytes() < self._reserve.size // 4
+            if is_short or not self._reserve.is_held():
+                self._give_back_all(self._reserve.release_share(share))
+            return done
         except StoreError as error:
             if error.kind != "full":
                 raise
-        self._reserve.release(int(self._reserve.size * (1.0 - share)))
+        left = self._reserve.release_share(share)
+        # A log that begins anew is written over: that takes no room, if there is no reserve either.
+        self._empty_log("RESTART")
         try:
             with self.transaction(frees=True) as connection:
                 done = work(connection)
         except StoreError:
             self._reserve.hold()
             raise
-        self.give_back()
+        self._give_back_all(left)
         return done
+
+    def _give_back_all(self, bytes_left: int) -> None:
+        """Return freed pages to a full disk; `bytes_left` of the reserve stay."""
+        self._reserve.release(bytes_left)
+        try:
+            self.give_back()
+        except StoreError as error:
+            # The work is done. What it freed is given back as soon as there is room to do that.
+            logger.warning("freed room was not given back to the disk: %s", error)
 
     @contextmanager
     def snapshot(self) -> Iterator[sqlite3.Connection]:
@@ -192,7 +233,15 @@ class Database:
         free, failed = self._reserve.free_bytes(), self._failed
         is_full = failed is not None and failed.kind == "full"
         least = self._reserve.size if is_full else self._reserve.size // 4
-        if not self._reserve.hold() or free < least:
+        if not self._reserve.hold() and self._writing.acquire(blocking=False):
+            try:
+                with _translated(self.path):
+                    self._holds_reserve()
+            except (OSError, StoreError) as error:
+                return str(error)
+            finally:
+                self._writing.release()
+        if not self._reserve.is_held() or free < least:
             return (
                 f"The disk is full: {free:,} bytes are free, and {self._reserve.size:,} are kept "
                 "for deletions. Delete or compact maps, or free disk space."
@@ -222,6 +271,8 @@ class Database:
         before, free = 0, self._free_pages()
         step, least = VACUUM_PAGES, VACUUM_PAGES
         if not self._reserve.is_held():
+            # A shorter database needs less room when the log moves into it, so an error here may be
+            # one that does not last.
             self._empty_log()
             step, least = FULL_DISK_PAGES, 0
         while free > least and free != before:
@@ -230,12 +281,28 @@ class Database:
             if step == FULL_DISK_PAGES:
                 self._empty_log()
             before, free = free, self._free_pages()
-        self._reserve.hold()
+        with self._writing, _translated_os(self.path), _translated(self.path):
+            self._reserve.hold_for_log(self._log_growth())
 
-    def _empty_log(self) -> None:
-        """Move the log into the database and return its space to the disk."""
-        with self._writing, _translated(self.path):
-            self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchall()
+    def _empty_log(self, mode: Literal["TRUNCATE", "RESTART"] = "TRUNCATE") -> bool:
+        """Move the log into the database; return its space to the disk, or reuse it.
+
+        Returns:
+            Whether it was moved; false if the disk is full or somebody reads.
+        """
+        with self._writing:
+            return self._move_log(mode)
+
+    def _move_log(self, mode: Literal["TRUNCATE", "RESTART"]) -> bool:
+        try:
+            with _translated(self.path):
+                pragma = f"PRAGMA wal_checkpoint({mode})"
+                (busy, *_), *_ = self._connection.execute(pragma).fetchall()
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+            return False
+        return not busy
 
     def _free_pages(self) -> int:
         with self._writing, _translated(self.path):

@@ -10,6 +10,9 @@ RESERVE_BYTES = 8 << 20
 DISK_SHARE = 16
 """Divisor of a small disk's size that gives its reserve."""
 
+STEP = 1 << 18
+"""Step in which room for the log is kept, bytes."""
+
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
@@ -17,23 +20,26 @@ class DiskReserve:
     """Reserve file `DATA_DIR/reserve`, which is cut while a full disk is being freed.
 
     Attributes:
-        size: bytes that are kept.
+        size: bytes that are kept for deletions.
+        log_bytes: bytes that are kept beside those, for what the log still has to move into the
+            database. A log that cannot be moved grows with each write and is never written over.
     """
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / "reserve"
         disk = os.statvfs(folder)
         self.size = min(RESERVE_BYTES, disk.f_blocks * disk.f_frsize // DISK_SHARE)
+        self.log_bytes = 0
 
     def is_held(self) -> bool:
         """Return whether the whole reserve is on the disk."""
         try:
-            return self._path.stat().st_size >= self.size
+            return self._path.stat().st_size >= self._wanted
         except OSError:
             return False
 
     def hold(self) -> bool:
-        """Allocate the reserve unless it is held; return whether it is held now."""
+        """Allocate the reserve, or a part if the disk is full; return whether all of it is held."""
         if self.is_held():
             return True
         try:
@@ -41,20 +47,55 @@ class DiskReserve:
         except OSError:
             return False
         try:
-            _allocate(descriptor, self.size)
+            before = os.fstat(descriptor).st_size
+            missing = self._wanted - before
+            for part in (missing, missing // 2, missing // 4):
+                try:
+                    _allocate(descriptor, before + part)
+                    return part == missing
+                except OSError:
+                    # What looks like a reserve must be one.
+                    os.ftruncate(descriptor, before)
+            return False
         except OSError:
-            # Half of a reserve would look like all of it.
-            os.ftruncate(descriptor, 0)
             return False
         finally:
             os.close(descriptor)
+
+    def hold_for_log(self, log_bytes: int) -> bool:
+        """Keep so many bytes for the log beside it, no more; return whether all of it is held."""
+        self.log_bytes = -(-max(log_bytes, 0) // STEP) * STEP
+        if not self.hold():
+            return False
+        self.release(self._wanted)
         return True
+
+    @property
+    def _wanted(self) -> int:
+        return self.size + self.log_bytes
 
     def release(self, bytes_left: int = 0) -> None:
         """Free the reserve except for `bytes_left`."""
         try:
             if self._path.stat().st_size > bytes_left:
                 os.truncate(self._path, bytes_left)
+        except OSError:
+            return
+
+    def release_share(self, share: float) -> int:
+        """Free a share of it and all that is kept for the log; return the bytes that are left."""
+        try:
+            held = self._path.stat().st_size
+        except OSError:
+            return 0
+        left = int(min(held, self.size) * (1.0 - share))
+        self.release(left)
+        return left
+
+    def lend(self, bytes_: int) -> None:
+        """Free so many bytes of the reserve."""
+        try:
+            self.release(max(self._path.stat().st_size - bytes_, 0))
         except OSError:
             return
 

@@ -72,7 +72,7 @@ def reads_of_old_versions(stage: Stage) -> None:
     with stage.service(own=False) as target:
         kind = kind_of(target)
         _put_map(stage, target, kind, "history", stage.size(100_000, 30_000))
-        client = target.client(OWNER)
+        client = target.client(ROBOT)
         for number in range(versions):
             ids = np.arange(number * 100, number * 100 + 100, dtype=np.uint32) + 1
             client.edit_map("history", Delta(kind.made(ROBOT, ids, stage.random), NONE))

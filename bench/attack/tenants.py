@@ -1,6 +1,10 @@
 """Attacks on what one key learns or takes from another: A9, A12, A19, A20, A21, A25, A26."""
 
+import os
 import re
+import shutil
+import subprocess
+import tempfile
 import time
 from pathlib import Path
 from urllib.parse import urljoin
@@ -314,8 +318,20 @@ def pinned_builds(stage: Stage) -> None:
     images = re.findall(r"^FROM\s+(\S+)", dockerfile, flags=re.MULTILINE)
     stages = set(re.findall(r"^FROM\s+\S+\s+AS\s+(\S+)", dockerfile, flags=re.MULTILINE | re.I))
     by_tag = [each for each in images if "@sha256:" not in each and each not in stages]
-    stage.expect(not by_tag, f"The Dockerfile takes images by tag: {', '.join(by_tag)}.")
-    stage.expect("--require-hashes" in dockerfile, "The Dockerfile installs without hashes.")
+    # Where no registry can be asked, no digest is known: a release is pinned by the script.
+    stage.note("pinned at release", by_tag)
+    unpinned = _unpinned(by_tag)
+    stage.expect(
+        not unpinned,
+        "deploy/pin-images.sh, which writes digests at release, leaves these images by tag: "
+        f"{', '.join(unpinned)}.",
+    )
+    commands = dockerfile.replace("\\\n", " ")
+    installs = re.findall(r"pip (?:install|wheel|download)\b[^&;|\n]*", commands)
+    stage.note("installs", len(installs))
+    # What does not ask an index takes what was built and checked before.
+    bare = [each.strip() for each in installs if not re.search("--require-hashes|--no-index", each)]
+    stage.expect(bool(installs) and not bare, f"Installed without hashes: {', '.join(bare)}.")
     stage.expect(
         "PIP_BUILD_CONSTRAINT" in dockerfile
         or "--build-constraint" in dockerfile
@@ -323,10 +339,7 @@ def pinned_builds(stage: Stage) -> None:
         "No pins hold for what builds the packages.",
     )
     names = re.findall(r"(?:--requirement|-r)[ =](\S+)", dockerfile)
-    files = [ROOT / Path(name).name for name in names]
-    files = [file for file in files if file.exists()] or [
-        file for file in ROOT.rglob("*.txt") if "--hash=sha256:" in file.read_text()
-    ]
+    files = [ROOT / name for name in names]
     stage.note("files with hashes", [file.name for file in files])
     if stage.expect(bool(files), "No file of pins has hashes."):
         for file in files:
@@ -337,6 +350,25 @@ def pinned_builds(stage: Stage) -> None:
                 if re.match(r"[A-Za-z0-9]", line) and "--hash=sha256:" not in line
             ]
             stage.expect(not bare, f"{file.name} has no hash for {', '.join(bare[:5])}.")
+
+
+def _unpinned(images: list[str]) -> list[str]:
+    """Run pin-images.sh on a copy with a made-up registry; return the images it leaves by tag."""
+    with tempfile.TemporaryDirectory(prefix="placecell-attack-") as name:
+        copy = Path(name)
+        (copy / "deploy").mkdir()
+        for file in ("Dockerfile", "deploy/pin-images.sh", "deploy/compose.yaml",
+                     "deploy/kubernetes.yaml"):  # fmt: skip
+            shutil.copyfile(ROOT / file, copy / file)
+        docker = copy / "docker"
+        docker.write_text(f"#!/bin/sh\necho sha256:{'0' * 64}\n")
+        docker.chmod(0o755)
+        path = f"{copy}{os.pathsep}{os.environ['PATH']}"
+        command = ["sh", str(copy / "deploy/pin-images.sh")]
+        environment = os.environ | {"PATH": path}
+        subprocess.run(command, env=environment, check=True, capture_output=True, timeout=60)
+        pinned = (copy / "Dockerfile").read_text()
+    return [image for image in images if f"FROM {image}@sha256:" not in pinned]
 
 
 def score_of(answer: dict[str, object]) -> float:

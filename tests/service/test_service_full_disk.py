@@ -10,7 +10,7 @@ from placecell_client import encode
 from segments.manifest import Manifest
 from service.database import Database
 from service.disk_reserve import DiskReserve
-from service.map_store import Note, StoreError
+from service.map_store import Head, Note, StoreError
 from service.sqlite_store import SqliteMapStore
 from tests.service.faulty_disk import small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
@@ -147,3 +147,64 @@ def test_A18_only_what_frees_may_use_the_room(
         allowed[0] = True
         assert store.trouble() is None
         store.create("hall", b"", NOTE, 0)
+
+
+def appended(store: SqliteMapStore, head: Head, size: int) -> Head | None:
+    """Add a commit of so many bytes; None if the disk is full."""
+    try:
+        return store.append(head, os.urandom(size), NOTE, 0)
+    except StoreError as error:
+        if error.kind != "full":
+            raise
+        return None
+
+
+@pytest.mark.parametrize("is_cut", [False, True])
+def test_A18_a_log_that_is_larger_than_the_reserve_moves_into_the_database(
+    tmp_path: Path, is_cut: bool
+) -> None:
+    """The reserve has room for what the log holds, too, and a failed move does not use it up."""
+    disk = tmp_path / "disk"
+    with small_disk(disk, "24m"):
+        with SqliteMapStore.owned(disk / "var") as store:
+            hoard, yard = (store.create(name, b"file", NOTE, 0) for name in ("hoard", "yard"))
+            while (added := appended(store, hoard, 700_000)) is not None:
+                hoard = added
+            filled(disk)
+            while (added := appended(store, yard, 2_000)) is not None:
+                yard = added
+                filled(disk)
+            filled(disk)
+            assert "The disk is full" in str(store.trouble())
+            if is_cut:
+                (disk / "var" / "reserve").unlink()
+                ballast = filled(disk)
+                with store.read(yard.uid) as history:
+                    assert len(history.commits()) == yard.sequence
+                with pytest.raises(StoreError, match="full"):
+                    store.append(yard, b"", NOTE, 0)
+                ballast.unlink()
+            store.delete(hoard.uid)
+            assert store.trouble() is None
+            assert store.verify() == []
+            store.append(yard, b"", NOTE, 0)
+        with SqliteMapStore.owned(disk / "var") as store:
+            assert [head.name for head in store.heads()] == ["yard"]
+            assert store.heads()[0].sequence == yard.sequence + 1
+
+
+def test_A18_what_is_left_of_the_disk_is_kept(tmp_path: Path) -> None:
+    reserve = DiskReserve(tmp_path)
+    assert reserve.hold_for_log(3_000_000)
+    held = reserve.size + reserve.log_bytes
+    assert reserve.log_bytes >= 3_000_000
+    assert (tmp_path / "reserve").stat().st_size == held
+    assert reserve.release_share(0.5) == reserve.size // 2
+    assert (tmp_path / "reserve").stat().st_size == reserve.size // 2
+    assert reserve.hold()
+    reserve.lend(1_000)
+    assert (tmp_path / "reserve").stat().st_size == held - 1_000
+    assert reserve.hold_for_log(0)
+    assert (tmp_path / "reserve").stat().st_size == reserve.size
+    (tmp_path / "reserve").unlink()
+    assert reserve.release_share(0.5) == 0
