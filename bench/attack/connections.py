@@ -96,7 +96,7 @@ def reads_of_old_versions(stage: Stage) -> None:
 
 def trickled_bodies(stage: Stage) -> None:
     """A6: many requests whose bodies arrive one byte per second."""
-    seconds = stage.size(15, 2)
+    seconds = stage.size(15, 1)
     packed, delta, file = ({"Content-Type": each} for each in (MSGPACK, DELTA, MAP))
     doors = {
         "describe": [Request("POST", "/describe", key=ROBOT, headers=packed)] * 40

@@ -103,7 +103,7 @@ def crafted_points(stage: Stage) -> None:
 
 def long_line(stage: Stage) -> None:
     """A13: aligning and merging two maps whose sensor positions lie on a line along y."""
-    count, limit = stage.size(160_000, 20_000), 5.0
+    count, limit = stage.size(160_000, 20_000), float(stage.size(5, 2))
     environment = {"PLACECELL_LIMITS__ALIGNMENT_SECONDS": str(limit)}
     with stage.service(environment) as target:
         kind = kind_of(target)
