@@ -21,6 +21,7 @@ from service.routes import (
     match,
     models,
     segments,
+    uploads,
     versions,
 )
 from service.settings import Settings
@@ -97,7 +98,9 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     openapi.install(app)
     if settings.docs:
         docs_pages.install(app)
-    for module in (describe, match, localize, maps, segments, versions, align, models, health):
+    for module in (
+        *(describe, match, localize, maps, uploads, segments, versions, align, models, health),
+    ):
         app.include_router(module.router)
     return app
 

@@ -17,6 +17,7 @@ from service.map_cache import MapCache
 from service.map_store import Head
 from service.maps import Maps
 from service.memory import release
+from service.partial_uploads import PartialUploads
 from service.replay import version_of
 from service.stored_map import StoredMap
 from service.versions import history_of
@@ -63,12 +64,18 @@ class Housekeeper:
     """Looks after all maps."""
 
     def __init__(
-        self, maps: Maps, changes: Changes, cache: MapCache, bounds: Bounds = Bounds()
+        self,
+        maps: Maps,
+        changes: Changes,
+        cache: MapCache,
+        bounds: Bounds = Bounds(),
+        partial_uploads: PartialUploads | None = None,
     ) -> None:
         self._maps = maps
         self._changes = changes
         self._cache = cache
         self._bounds = bounds
+        self._partial_uploads = partial_uploads
         self._released = 0
         self._good: dict[str, Head] = {}
         self._stopped = Event()
@@ -107,6 +114,8 @@ class Housekeeper:
             self._release()
         with _told("the data directory"):
             self._changes.forget()
+            if self._partial_uploads is not None:
+                self._partial_uploads.forget_old()
             self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
             self._maps.store.give_back()
 

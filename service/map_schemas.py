@@ -79,3 +79,25 @@ class CompactOut(BaseModel):
     oldest: int = Field(description="Sequence of the oldest version.")
     sequence: int = Field(description="Of the newest.")
     bytes: int = Field(description="That it takes in the service's store.")
+
+
+class UploadOut(BaseModel):
+    """A map file that is uploaded in parts and is not complete."""
+
+    digest: str = Field(description="SHA-256 of the whole file, 64 hex digits.")
+    bytes: int = Field(description="Received so far; the next part begins there.")
+    time: float = Field(description="Of the last part, Unix seconds of the service's clock.")
+
+
+class UploadsResponse(BaseModel):
+    """The key's uploads for a map that are not complete."""
+
+    map: str
+    uploads: list[UploadOut]
+
+
+class PartOut(BaseModel):
+    """What a part led to."""
+
+    digest: str = Field(description="SHA-256 of the whole file, 64 hex digits.")
+    bytes: int = Field(description="Received so far; the next part begins there.")

@@ -62,6 +62,17 @@ class Limits(BaseModel):
     map_bytes: int = Field(
         default=64 * MEBIBYTE, ge=1, description="Bytes of an uploaded map file."
     )
+    upload_bytes: int = Field(
+        default=512 * MEBIBYTE,
+        ge=1,
+        description="Bytes of a map file that is uploaded in parts, at most.",
+    )
+    unfinished_bytes: int = Field(
+        default=2 * GIBIBYTE,
+        ge=1,
+        description="Bytes of uploads in parts that are not complete, on disk, at most; of one "
+        "key, half of them.",
+    )
     segments: int = Field(default=1_000, ge=1, description="Segments, or descriptors, a request.")
     points: int = Field(
         default=500_000, ge=1, description="Points a request, over all its segments."

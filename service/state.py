@@ -18,6 +18,7 @@ from service.map_store import StoreError, StoreLockedError
 from service.maps import Maps
 from service.metrics import Metrics
 from service.models import Models
+from service.partial_uploads import PartialUploads
 from service.preconditions import Preconditions
 from service.quotas import Quotas
 from service.receiving import BodyRules, ByteBudget, Receiver
@@ -52,6 +53,7 @@ class State:
         metrics: what is counted and timed.
         models: loaded.
         maps: stored and searchable.
+        partial_uploads: map files that are uploaded in parts and are not complete.
         changes: of maps, for robots that keep a copy.
         keys: who may do what.
         sessions: what robots' last requests for their place found.
@@ -68,6 +70,7 @@ class State:
     metrics: Metrics
     models: Models
     maps: Maps
+    partial_uploads: PartialUploads
     changes: Changes
     keys: Keys
     sessions: Sessions
@@ -140,7 +143,9 @@ def open_state(settings: Settings) -> Iterator[State]:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
         changes = Changes(store)
         bounds = Bounds(map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes)
-        stack.enter_context(Housekeeper(maps, changes, cache, bounds).working())
+        partial_uploads = PartialUploads(settings.data_dir, limits)
+        housekeeper = Housekeeper(maps, changes, cache, bounds, partial_uploads)
+        stack.enter_context(housekeeper.working())
         metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
@@ -150,6 +155,7 @@ def open_state(settings: Settings) -> Iterator[State]:
             metrics=metrics,
             models=models,
             maps=maps,
+            partial_uploads=partial_uploads,
             changes=changes,
             keys=keys,
             sessions=Sessions(limits.sessions),

@@ -2,8 +2,8 @@
 
 import typer
 
-from cli.maps.copies import diff, pull, push
-from cli.maps.keep import age, compact, delete, restore
+from cli.maps.copies import diff, pull, push, uploads
+from cli.maps.keep import age, compact, delete, reset_ids, restore
 from cli.maps.look import list_maps, show, verify
 from cli.maps.together import align, merge
 
@@ -13,5 +13,8 @@ maps = typer.Typer(
     no_args_is_help=True,
 )
 maps.command("list")(list_maps)
-for command in (show, push, pull, diff, align, merge, restore, verify, compact, age, delete):
+for command in (
+    *(show, push, uploads, pull, diff, align, merge, restore, verify, compact, age, delete),
+    reset_ids,
+):
     maps.command()(command)

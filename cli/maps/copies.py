@@ -1,5 +1,6 @@
-"""`placecell maps push`, `pull` and `diff`: maps between files and a service."""
+"""`placecell maps push`, `uploads`, `pull` and `diff`: maps between files and a service."""
 
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,7 +27,9 @@ def push(
     """Store a map file, or what a delta file changes; ends when it is safely on the service's disk.
 
     Other content of that name is replaced only if its last version is the one that 'pull' wrote
-    beside the file, or with --replace. So are, by a delta file, other robots' segments.
+    beside the file, or with --replace. So are, by a delta file, other robots' segments. A map
+    file larger than the service takes at once is sent in parts; a push that was cut goes on with
+    the next part when it is repeated.
     """
     with service(url) as client:
         beside = _etag_of(file)
@@ -49,6 +52,34 @@ def push(
     if "changed" in done:
         typer.echo(f"{name}: {done['changed']:,} changed, {done['removed']:,} removed")
     typer.echo(f"{name}: {stored.segments:,} segments, version {stored.sequence}")
+
+
+def uploads(
+    name: Name,
+    remove: Annotated[
+        bool, typer.Option("--remove", help="Remove what was received; the map stays as it is.")
+    ] = False,
+    as_json: JsonFlag = False,
+    url: Url = LOCAL,
+) -> None:
+    """List pushes of large map files that were cut, with the bytes that the service has of each.
+
+    A repeated push goes on with them. A day after its last part the service removes an upload.
+    """
+    with service(url) as client:
+        found = client.uploads(name)
+        for each in found if remove else ():
+            client.delete_upload(name, each.digest)
+    if as_json:
+        facts = [{"sha256": each.digest, "bytes": each.bytes, "time": each.time} for each in found]
+        print_json({"map": name, "uploads": facts, "removed": remove})
+        return
+    for each in found:
+        when = datetime.fromtimestamp(each.time).isoformat(" ", "seconds")
+        told = ", removed" if remove else ""
+        typer.echo(f"{each.digest}: {each.bytes:,} bytes, last part {when}{told}")
+    if not found:
+        typer.echo(f"{name}: no upload that is not complete")
 
 
 def pull(

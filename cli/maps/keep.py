@@ -1,4 +1,4 @@
-"""`placecell maps restore`, `compact`, `age` and `delete`: a map's past and its end."""
+"""`placecell maps restore`, `compact`, `age`, `delete`, `reset-ids`: a map's past and end."""
 
 from datetime import datetime
 from typing import Annotated
@@ -76,3 +76,16 @@ def delete(
         print_json({"map": name, "deleted": True})
     else:
         typer.echo(f"{name} is gone")
+
+
+def reset_ids(name: Name, as_json: JsonFlag = False, url: Url = LOCAL) -> None:
+    """Make ids free again that no kept version of the map has; needs an administrator's key.
+
+    Reservations of ids are given up. Compact the map first to free ids of removed segments.
+    """
+    with service(url) as client:
+        free = client.reset_ids(name)
+    if as_json:
+        print_json({"map": name, "first": free.start, "count": len(free)})
+    else:
+        typer.echo(f"{name}: {len(free):,} ids from {free.start:,} on are free")

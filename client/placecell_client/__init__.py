@@ -27,6 +27,7 @@ from placecell_client.results import (
     MapSummary,
     MapVersion,
     Matches,
+    PartialUpload,
     Skipped,
     Written,
 )
@@ -60,6 +61,7 @@ __all__ = [
     "MergePair",
     "MergedPart",
     "Overlap",
+    "PartialUpload",
     "Pose",
     "PrecisionWarning",
     "Retries",

@@ -12,6 +12,7 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client import uploading
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
@@ -30,6 +31,7 @@ from placecell_client.results import (
     MapSummary,
     MapVersion,
     Matches,
+    PartialUpload,
     Written,
 )
 from placecell_client.retries import USUAL, Retries
@@ -129,7 +131,16 @@ class AsyncClient(Caller):
         create_only: bool = False,
     ) -> MapSummary:
         """`Client.put_map`."""
-        return await self._send(self._calls.put_map(name, compact_map, if_match, create_only))
+        steps = uploading.put_map(self._calls, name, compact_map, if_match, create_only)
+        return await self._take(steps)
+
+    async def uploads(self, name: str) -> tuple[PartialUpload, ...]:
+        """`Client.uploads`."""
+        return await self._send(self._calls.uploads(name))
+
+    async def delete_upload(self, name: str, digest: str) -> None:
+        """`Client.delete_upload`."""
+        await self._send(self._calls.delete_upload(name, digest))
 
     async def edit_map(
         self,
@@ -139,16 +150,21 @@ class AsyncClient(Caller):
         robot: str | None = None,
         create: bool = False,
         deduplicate: bool = False,
+        only_new: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """`Client.edit_map`."""
         return await self._send(
-            self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+            self._calls.edit_map(name, delta, robot, create, deduplicate, only_new, if_match)
         )
 
     async def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """`Client.reserve_ids`."""
         return await self._send(self._calls.reserve_ids(name, count))
+
+    async def reset_ids(self, name: str) -> range:
+        """`Client.reset_ids`."""
+        return await self._send(self._calls.reset_ids(name))
 
     async def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
         """`Client.pull`."""
@@ -234,6 +250,21 @@ class AsyncClient(Caller):
     async def delete_map(self, name: str, if_match: str | None = None) -> None:
         """`Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
+
+    async def _take(self, steps: uploading.Steps) -> MapSummary:
+        """Send the calls of some steps, one after the other."""
+        try:
+            call = next(steps)
+            while True:
+                try:
+                    result = await self._send(call)
+                except ServiceError as error:  # noqa: PERF203 -- the steps know what to do
+                    call = steps.throw(error)
+                else:
+                    call = steps.send(result)
+        except StopIteration as done:
+            stored: MapSummary = done.value
+            return stored
 
     async def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)

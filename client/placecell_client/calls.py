@@ -24,6 +24,7 @@ from placecell_client.results import (
     MapSummary,
     MapVersion,
     Matches,
+    PartialUpload,
     Written,
 )
 from placecell_client.wire import (
@@ -42,6 +43,8 @@ ANY = "*"
 
 ALIGNMENT_SECONDS = 300.0
 """For a call that aligns or merges maps: as many as the service takes, unless it is told others."""
+
+OCTETS = "application/octet-stream"
 
 COMPRESSED_BYTES = 1024
 """Files of less are sent as they are."""
@@ -167,6 +170,36 @@ class Calls:
         call = self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, reading.summary, headers)
         return replace(call, repeatable=if_match != ANY)
 
+    def uploads(self, name: str) -> Call[tuple[PartialUpload, ...]]:
+        """`GET /maps/{map}/uploads`."""
+        return Call("GET", _path(name, "/uploads"), reading.uploads)
+
+    def put_part(self, name: str, digest: str, offset: int, part: bytes) -> Call[int]:
+        """`PUT /maps/{map}/uploads/{digest}`: how many bytes the service has then."""
+        path = _path(name, f"/uploads/{_quoted(digest)}", offset=offset)
+        until = offset + len(part)
+        return self._upload(
+            "PUT", path, part, OCTETS, lambda answer: reading.received(answer, until), {}
+        )
+
+    def complete_upload(
+        self, name: str, digest: str, if_match: str | None, create_only: bool, timeout: float
+    ) -> Call[MapSummary]:
+        """`POST /maps/{map}/uploads/{digest}`."""
+        headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
+        return Call(
+            "POST",
+            _path(name, f"/uploads/{_quoted(digest)}"),
+            reading.summary,
+            headers,
+            repeatable=if_match != ANY,
+            timeout=timeout,
+        )
+
+    def delete_upload(self, name: str, digest: str) -> Call[None]:
+        """`DELETE /maps/{map}/uploads/{digest}`."""
+        return Call("DELETE", _path(name, f"/uploads/{_quoted(digest)}"), reading.gone)
+
     def edit_map(
         self,
         name: str,
@@ -174,11 +207,12 @@ class Calls:
         robot: str | None,
         create: bool,
         deduplicate: bool,
+        only_new: bool,
         if_match: str | None,
     ) -> Call[Written]:
         """`POST /maps/{map}/segments`."""
         data = encode_delta(delta) if isinstance(delta, Delta) else delta
-        asked = {"create": create, "deduplicate": deduplicate}
+        asked = {"create": create, "deduplicate": deduplicate, "only_new": only_new}
         flags = {flag: "true" for flag, wanted in asked.items() if wanted}
         path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
@@ -205,6 +239,10 @@ class Calls:
     def reserve_ids(self, name: str, count: int) -> Call[NDArray[np.uint32]]:
         """`POST /maps/{map}/ids`."""
         return Call("POST", _path(name, "/ids", count=count), reading.ids)
+
+    def reset_ids(self, name: str) -> Call[range]:
+        """`POST /maps/{map}/ids/reset`."""
+        return Call("POST", _path(name, "/ids/reset"), reading.free_ids, repeatable=False)
 
     def versions(self, name: str, limit: int) -> Call[tuple[MapVersion, ...]]:
         """`GET /maps/{map}/versions`."""
@@ -287,8 +325,10 @@ class Calls:
         headers = headers | {"Content-Type": media_type}
         if self.compress and len(data) > COMPRESSED_BYTES:
             # No time in its header: equal maps are equal uploads.
-            data = gzip.compress(data, mtime=0)
-            headers["Content-Encoding"] = "gzip"
+            packed = gzip.compress(data, mtime=0)
+            if len(packed) < len(data):
+                data = packed
+                headers["Content-Encoding"] = "gzip"
         return Call(method, path, read, headers, data)
 
     def _codes(self, description: Description, rows: list[int]) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client import uploading
 from placecell_client.answer import Answer
 from placecell_client.attempts import Attempt
 from placecell_client.caller import Caller, http_options
@@ -28,6 +29,7 @@ from placecell_client.results import (
     MapSummary,
     MapVersion,
     Matches,
+    PartialUpload,
     Written,
 )
 from placecell_client.retries import USUAL, Retries
@@ -178,6 +180,10 @@ class Client(Caller):
     ) -> MapSummary:
         """Store a map whole; returns when it is safely on disk.
 
+        A file larger than the service takes in one request is sent in parts, each a call with its
+        own `timeout`; nobody sees the map before all are there. After a cut link the same call goes
+        on with the part that was missing.
+
         Other content of that name is replaced only if you say which version of it you have seen: a
         ServiceError with status 428 else, or 412 if it is no longer at that version.
 
@@ -190,7 +196,16 @@ class Client(Caller):
         Raises:
             MapFileError: the map is not valid.
         """
-        return self._send(self._calls.put_map(name, compact_map, if_match, create_only))
+        steps = uploading.put_map(self._calls, name, compact_map, if_match, create_only)
+        return self._take(steps)
+
+    def uploads(self, name: str) -> tuple[PartialUpload, ...]:
+        """The key's uploads of map files in parts that are not complete."""
+        return self._send(self._calls.uploads(name))
+
+    def delete_upload(self, name: str, digest: str) -> None:
+        """Remove an upload that is not complete; the map is unchanged."""
+        self._send(self._calls.delete_upload(name, digest))
 
     def edit_map(
         self,
@@ -200,6 +215,7 @@ class Client(Caller):
         robot: str | None = None,
         create: bool = False,
         deduplicate: bool = False,
+        only_new: bool = False,
         if_match: str | None = None,
     ) -> Written:
         """Add, replace and remove segments, all or none; returns when it is safely on disk.
@@ -214,17 +230,22 @@ class Client(Caller):
             create: make the map if there is none.
             deduplicate: do not store again what is within half a metre of a stored segment and
                 looks the same; only note that it was seen. Other views of it are stored.
+            only_new: refuse to replace a segment (status 409), whoever wrote it.
             if_match: ETag of the version that the delta is for, or `*` for any.
 
         Raises:
             MapFileError: the delta is not valid.
         """
-        call = self._calls.edit_map(name, delta, robot, create, deduplicate, if_match)
+        call = self._calls.edit_map(name, delta, robot, create, deduplicate, only_new, if_match)
         return self._send(call)
 
     def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
         """Ids for new segments of a map, that nobody else is given: uint32 (count,), ascending."""
         return self._send(self._calls.reserve_ids(name, count))
+
+    def reset_ids(self, name: str) -> range:
+        """Make ids free again that no kept version has, and return them; for administrators."""
+        return self._send(self._calls.reset_ids(name))
 
     def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
         """Bring a copy of a map up to date, by what has changed since.
@@ -369,6 +390,21 @@ class Client(Caller):
     def delete_map(self, name: str, if_match: str | None = None) -> None:
         """Remove a map with all its versions."""
         self._send(self._calls.delete_map(name, if_match))
+
+    def _take(self, steps: uploading.Steps) -> MapSummary:
+        """Send the calls of some steps, one after the other."""
+        try:
+            call = next(steps)
+            while True:
+                try:
+                    result = self._send(call)
+                except ServiceError as error:  # noqa: PERF203 -- the steps know what to do
+                    call = steps.throw(error)
+                else:
+                    call = steps.send(result)
+        except StopIteration as done:
+            stored: MapSummary = done.value
+            return stored
 
     def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)

@@ -27,6 +27,7 @@ from placecell_client.results import (
     MapSummary,
     MapVersion,
     Matches,
+    PartialUpload,
     Skipped,
     Written,
 )
@@ -168,6 +169,28 @@ def ids(answer: Answer) -> NDArray[np.uint32]:
     content = _content(answer)
     first, count = int(content["first"]), int(content["count"])
     return np.arange(first, first + count, dtype=np.uint32)
+
+
+def free_ids(answer: Answer) -> range:
+    """Of `POST /maps/{map}/ids/reset`."""
+    content = _content(answer)
+    return range(content["first"], content["first"] + content["count"])
+
+
+def uploads(answer: Answer) -> tuple[PartialUpload, ...]:
+    """Of `GET /maps/{map}/uploads`."""
+    return tuple(
+        PartialUpload(item["digest"], item["bytes"], item["time"])
+        for item in _content(answer)["uploads"]
+    )
+
+
+def received(answer: Answer, until: int) -> int:
+    """Of `PUT /maps/{map}/uploads/{digest}` with a part that ends at this byte."""
+    count = _content(answer)["bytes"]
+    if not isinstance(count, int) or count < until:
+        raise ValueError(f"The service has {count!r} bytes after a part until byte {until}")
+    return count
 
 
 def versions(answer: Answer) -> tuple[MapVersion, ...]:

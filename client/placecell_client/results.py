@@ -218,6 +218,21 @@ class MapVersion:
 
 
 @dataclass(frozen=True, slots=True)
+class PartialUpload:
+    """A map file that is uploaded in parts and is not complete.
+
+    Attributes:
+        digest: SHA-256 of the whole file, 64 hex digits.
+        bytes: that the service has received.
+        time: of the last part, Unix seconds of the service's clock.
+    """
+
+    digest: str
+    bytes: int
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
 class Info:
     """Versions, limits and costs of a service.
 

@@ -22,10 +22,11 @@ from service.stored_map import StoredMap
 from service.versions import version as version_of
 from service.versions import version_file, version_tag
 from service.visibility import content_for, is_hidden_from
+from service.writer import Written
 
 router = APIRouter(tags=["maps"])
 
-_NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
+NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
     201: {"model": MapOut, "description": "Stored under a new name."}
 }
 _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
@@ -54,7 +55,7 @@ async def list_maps(request: Request, state: StateOf, holder: HolderOf) -> Respo
     "/maps/{map}",
     summary="Store a map",
     response_model=MapOut,
-    responses=_NEW_RESPONSE
+    responses=NEW_RESPONSE
     | documented(
         *(400, 401, 403, 408, 409, 412, 413, 415, 422, 428, 429, 500, 503, 504, 507),
     ),
@@ -78,15 +79,7 @@ async def put_map(
         written = await state.store(writer.put, name, body.content)
         timing.lap("commit")
         tell_written(request, state, "put", written)
-        summary = await state.store(summary_of, written.stored, holder)
-    return JSONResponse(
-        summary.model_dump(mode="json"),
-        status_code=201 if written.is_new else 200,
-        headers={
-            "ETag": f'"{written.stored.tag}"',
-            "Location": f"{state.settings.root_path}/maps/{name}",
-        },
-    )
+        return await put_response(state, holder, written)
 
 
 @router.get(
@@ -150,6 +143,19 @@ async def delete_map(
         segments = await state.store(writer.delete, name)
     timing.lap("commit")
     tell(request, state, "delete", name, f"{segments} segments", segments)
+
+
+async def put_response(state: State, holder: Holder, written: Written) -> Response:
+    """The answer to a map that was stored whole."""
+    summary = await state.store(summary_of, written.stored, holder)
+    return JSONResponse(
+        summary.model_dump(mode="json"),
+        status_code=201 if written.is_new else 200,
+        headers={
+            "ETag": f'"{written.stored.tag}"',
+            "Location": f"{state.settings.root_path}/maps/{written.stored.name}",
+        },
+    )
 
 
 def _file(

@@ -1,11 +1,13 @@
 """`placecell maps` against a running service, as a person uses it."""
 
+import hashlib
 import json
 import socket
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
+import httpx
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta, originated
@@ -182,3 +184,35 @@ def test_B12_what_was_done_is_told_as_json(
     assert aged == {"map": "told", "removed": 0, "dry_run": False}
     assert json.loads(good("compact", "told", "--json"))["oldest"] == 3
     assert json.loads(good("delete", "told", "--yes", "--json"))["deleted"] is True
+
+
+def test_B9_large_map_file_is_pushed_in_parts(tmp_path: Path, yard: CompactMap) -> None:
+    file, copy = tmp_path / "yard.map", tmp_path / "copy.map"
+    data = encode(yard)
+    file.write_bytes(data)
+    limit = {"PLACECELL_LIMITS__MAP_BYTES": "4000"}
+    with running_service(tmp_path / "data", environment=limit) as address:
+        at = ("--url", address)
+        # A push that was cut after two parts.
+        digest = hashlib.sha256(data).hexdigest()
+        for offset in (0, 4_000):
+            part = data[offset : offset + 4_000]
+            path = f"{address}/maps/yard/uploads/{digest}?offset={offset}"
+            assert httpx.put(path, content=part).is_success
+        assert f"{digest}: 8,000 bytes" in good("uploads", "yard", *at)
+        assert "300 segments, version 1" in good("push", file, *at)
+        assert "no upload" in good("uploads", "yard", *at)
+        assert "version 0 to 1" in good("pull", "yard", copy, *at)
+        assert copy.read_bytes() == data
+        less = encode(take(yard, np.arange(250)))
+        copy.write_bytes(less)
+        assert "250 segments, version 2" in good("push", copy, "yard", *at)
+        assert "428" in bad("push", file, "yard", *at)
+        told = json.loads(good("uploads", "yard", "--remove", "--json", *at))
+        assert told["removed"]
+        assert [each["bytes"] for each in told["uploads"]] == [len(data)]
+        assert "no upload" in good("uploads", "yard", *at)
+        told = json.loads(good("reset-ids", "yard", "--json", *at))
+        assert told["map"] == "yard"
+        assert told["first"] + told["count"] == 1 << 32
+        assert "ids from" in good("reset-ids", "yard", *at)

@@ -62,7 +62,8 @@ def test_both_have_the_same_methods() -> None:
     assert set(public(Client)) == {
         "close", "info", "describe", "match", "localize", "maps", "put_map", "edit_map",
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
-        "age_map", "align_maps", "merge_maps", "compact_map", "delete_map",
+        "age_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
+        "delete_upload", "reset_ids",
     }  # fmt: skip
 
 
