@@ -97,7 +97,7 @@ class UploadsResponse(BaseModel):
 
 
 class PartOut(BaseModel):
-    """What a part led to."""
+    """Result of an uploaded part."""
 
     digest: str = Field(description="SHA-256 of the whole file, 64 hex digits.")
     bytes: int = Field(description="Received so far; the next part begins there.")

@@ -28,7 +28,7 @@ KEEP_SECONDS = 86_400.0
 """After its last part an upload that was not completed is removed."""
 
 KEY_UPLOADS = 64
-"""Of one key that are not completed, at most."""
+"""Largest number of incomplete uploads of one key."""
 
 TURN_SECONDS = 0.1
 """How often a request that waits for another looks whether it shall stop."""
@@ -240,7 +240,7 @@ def _prefix(author: str, name: str) -> str:
 
 
 def _hash(text: str) -> str:
-    """What stands for a name in a file's name."""
+    """Return a hash that stands for a name in a file name."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -172,13 +172,13 @@ def ids(answer: Answer) -> NDArray[np.uint32]:
 
 
 def free_ids(answer: Answer) -> range:
-    """Of `POST /maps/{map}/ids/reset`."""
+    """Read the answer of `POST /maps/{map}/ids/reset`."""
     content = _content(answer)
     return range(content["first"], content["first"] + content["count"])
 
 
 def uploads(answer: Answer) -> tuple[PartialUpload, ...]:
-    """Of `GET /maps/{map}/uploads`."""
+    """Read the answer of `GET /maps/{map}/uploads`."""
     return tuple(
         PartialUpload(item["digest"], item["bytes"], item["time"])
         for item in _content(answer)["uploads"]
@@ -186,7 +186,7 @@ def uploads(answer: Answer) -> tuple[PartialUpload, ...]:
 
 
 def received(answer: Answer, until: int) -> int:
-    """Of `PUT /maps/{map}/uploads/{digest}` with a part that ends at this byte."""
+    """Read the answer of `PUT /maps/{map}/uploads/{digest}` to a part that ends at this byte."""
     count = _content(answer)["bytes"]
     if not isinstance(count, int) or count < until:
         raise ValueError(f"The service has {count!r} bytes after a part until byte {until}")

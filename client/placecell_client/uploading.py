@@ -16,7 +16,7 @@ from placecell_client.results import Info, MapSummary
 Steps: TypeAlias = Generator[Call[Any], Any, MapSummary]
 
 PART_BYTES = 4 << 20
-"""Of a file that is sent in parts: each is sent within the call's time, also on a slow link."""
+"""Size of a part of an uploaded file, bytes; a slow link sends a part within the call's time."""
 
 ASK_BYTES = 8 << 20
 """Before a larger file is sent, the service is asked whether it takes it in one request."""
