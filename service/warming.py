@@ -4,6 +4,7 @@ Where no cache of machine code can be read (a fresh checkout, a container whose 
 read-only), compiling takes longer than a request may, so the first robot would get a 504.
 """
 
+import logging
 from contextlib import suppress
 
 import numpy as np
@@ -16,6 +17,8 @@ from service.scan import Scan
 from service.settings import Limits
 from service.timing import Timing
 
+logger = logging.getLogger("placecell")
+
 SEGMENTS = 6
 POINTS = 60
 """Points of each segment."""
@@ -24,8 +27,15 @@ POINTS = 60
 def warm(models: Models, limits: Limits) -> None:
     """Compile what a request of recognition needs, by a made-up scan.
 
-    Limits that would refuse the scan leave describing to the first request.
+    Whatever fails here is left to the first request: it is no condition of the start.
     """
+    try:
+        _warm(models, limits)
+    except Exception:
+        logger.exception("The loops of recognition were not compiled at the start.")
+
+
+def _warm(models: Models, limits: Limits) -> None:
     json_arrays.warm()
     ranking.warm()
     random = np.random.default_rng(0)
