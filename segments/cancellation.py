@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from math import inf
+from threading import Lock
 from typing import Any
 
 import numba
@@ -19,6 +20,9 @@ import numpy as np
 from llvmlite import ir
 
 from segments.types import Int32
+
+TURN_SECONDS = 0.1
+"""Interval at which work that waits for a lock looks whether it is to stop."""
 
 
 class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
@@ -82,6 +86,23 @@ def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
         yield token
     finally:
         _token.reset(before)
+
+
+@contextmanager
+def holding(lock: Lock) -> Iterator[None]:
+    """Hold a lock for a block; the wait for it ends when the work is to stop.
+
+    Raises:
+        Cancelled: the request became late, or its client left, before its turn.
+    """
+    token = current()
+    while not lock.acquire(timeout=TURN_SECONDS):
+        token.check()
+    try:
+        token.check()
+        yield
+    finally:
+        lock.release()
 
 
 def _is_cancelled(typing_context: Any, flag: Any) -> Any:

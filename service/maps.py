@@ -11,7 +11,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
 
-from segments.cancellation import current
+from segments.cancellation import holding
 from segments.types import UInt32
 from service.layers import Layers
 from service.map_cache import MapCache
@@ -26,9 +26,6 @@ from service.stored_map import KEEPS_FRAME, StoredMap
 from service.versions import ids_ever
 
 logger = logging.getLogger("placecell")
-
-TURN_SECONDS = 0.1
-"""Seconds between checks for cancellation while a write waits for another one."""
 
 
 class Maps:
@@ -150,14 +147,8 @@ class Maps:
         """
         with self._guard:
             lock = self._locks.setdefault(name, Lock())
-        token = current()
-        while not lock.acquire(timeout=TURN_SECONDS):
-            token.check()
-        try:
-            token.check()
+        with holding(lock):
             yield
-        finally:
-            lock.release()
 
     def create(self, name: str, content: CompactMap, author: str, operation: str) -> StoredMap:
         """Store a map under a new name; on return it is safely on disk.

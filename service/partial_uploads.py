@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
-from segments.cancellation import current
+from segments.cancellation import holding
 from service.database import sync_folder
 from service.map_store import StoreError
 from service.problems import Problem
@@ -29,9 +29,6 @@ KEEP_SECONDS = 86_400.0
 
 KEY_UPLOADS = 64
 """Largest number of incomplete uploads of one key."""
-
-TURN_SECONDS = 0.1
-"""How often a request that waits for another looks whether it shall stop."""
 
 logger = logging.getLogger("placecell")
 
@@ -98,7 +95,7 @@ class PartialUploads:
                 if the uploads take too much room.
         """
         path = self._path(author, name, digest)
-        with _turn(self._files):
+        with holding(self._files):
             there = path.stat().st_size if path.exists() else 0
             if offset > there:
                 raise Problem(
@@ -125,7 +122,7 @@ class PartialUploads:
                 these are removed then.
         """
         path = self._path(author, name, digest)
-        with _turn(self._completing):
+        with holding(self._completing):
             try:
                 content = path.read_bytes()
             except FileNotFoundError as error:
@@ -242,16 +239,3 @@ def _prefix(author: str, name: str) -> str:
 def _hash(text: str) -> str:
     """Return a hash that stands for a name in a file name."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-@contextmanager
-def _turn(lock: Lock) -> Iterator[None]:
-    """Hold a lock; the wait ends when the request is late or its client leaves."""
-    token = current()
-    while not lock.acquire(timeout=TURN_SECONDS):
-        token.check()
-    try:
-        token.check()
-        yield
-    finally:
-        lock.release()
