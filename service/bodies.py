@@ -96,11 +96,10 @@ def _json_parts(content: dict[str, Any]) -> Iterator[bytes]:
     for key, value in content.items():
         yield before + to_json(key) + b":"
         before = b","
-        if isinstance(value, list) and value:
+        if isinstance(value, list | packing.Items):
             yield b"["
-            yield to_json(value[0])
-            for item in value[1:]:
-                yield b"," + to_json(item)
+            for number, item in enumerate(value):
+                yield b"," + to_json(item) if number else to_json(item)
             yield b"]"
         else:
             yield to_json(value)

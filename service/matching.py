@@ -1,6 +1,6 @@
 """From queries to candidates in one map, some, or all."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,8 +93,12 @@ class Found:
     distances: Float64
     probabilities: Float64 | None
 
-    def candidates(self) -> list[list[Candidate]]:
-        """Of each query, as they are answered (`CandidateOut`)."""
+    def candidates(self) -> Callable[[int], list[Candidate]]:
+        """Return a function from a query's row to its candidates, as `CandidateOut` has them.
+
+        They are made when they are asked for: those of all queries at once take many times the room
+        of their answer.
+        """
         ids = np.zeros(self.rows.shape, dtype=np.int64)
         centroids = np.zeros((*self.rows.shape, 3))
         robots = np.full(self.rows.shape, "", dtype=object)
@@ -109,8 +113,9 @@ class Found:
             np.full(self.rows.shape, None) if self.probabilities is None else self.probabilities
         )
         columns = self.places, ids, robots, self.distances, stated, centroids
-        return [
-            [
+
+        def of_query(row: int) -> list[Candidate]:
+            return [
                 {
                     "map": names[place][0],
                     "id": id_,
@@ -121,10 +126,12 @@ class Found:
                     "frame": names[place][1],
                     "model_id": names[place][2],
                 }
-                for place, id_, robot, distance, probability, centroid in zip(*query, strict=True)
+                for place, id_, robot, distance, probability, centroid in zip(
+                    *(column[row].tolist() for column in columns), strict=True
+                )
             ]
-            for query in zip(*(column.tolist() for column in columns), strict=True)
-        ]
+
+        return of_query
 
 
 def found_in(

@@ -1,5 +1,7 @@
 """Between the bytes of a msgpack body and Python values, within bounds of memory."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
@@ -7,6 +9,26 @@ import msgpack  # type: ignore[import-untyped]
 from service.packed_schemas import Pairs
 from service.problems import Problem
 from service.settings import Limits
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Items:
+    """List of an answer whose items are made while they are encoded, one at a time.
+
+    Attributes:
+        length: number of items.
+        items: yields them, once.
+    """
+
+    length: int
+    items: Iterator[Any]
+
+    def __len__(self) -> int:
+        return self.length
+
+    def __iter__(self) -> Iterator[Any]:
+        return self.items
+
 
 KEYS = 16
 """A map, at most; the schemas know fewer."""
@@ -65,7 +87,7 @@ def pack(content: dict[str, Any]) -> bytes:
     packer.pack_map_header(len(content))
     for key, value in content.items():
         packer.pack(key)
-        if isinstance(value, list):
+        if isinstance(value, list | Items):
             packer.pack_array_header(len(value))
             # One after the other, so that other threads get their turn.
             for item in value:

@@ -10,6 +10,7 @@ from service.keys import Holder
 from service.matching import Candidate, found_in, merged, parts_of
 from service.openapi import body_of, packed_response
 from service.packed_schemas import PackedMatchRequest
+from service.packing import Items
 from service.problems import documented
 from service.queries import Asked, Queries, read_query
 from service.schemas import Failed, MatchRequest, MatchResponse
@@ -56,19 +57,24 @@ def _search(
 ) -> bytes:
     timing.lap("queue")
     found = [
-        [candidates[row] if isinstance(row, int) else row for row in own.rows]
+        (found_in(own.codes, model, searched, asked.k, parts).candidates(), own.rows)
         for (model, searched), own in zip(asked.scope.searched, queries, strict=True)
         for parts in [parts_of(state.maps, model, searched, state.keys.patterns)]
-        for candidates in [found_in(own.codes, model, searched, asked.k, parts).candidates()]
     ]
     if not found:
         assert asked.own is not None
-        found = [[[] for _ in asked.own.rows]]
+        found = [(lambda _: [], asked.own.rows)]
+    count = len(found[0][1])
+
+    def one(query: int) -> dict[str, Any]:
+        by_row = [(candidates, rows[query]) for candidates, rows in found]
+        return _one([at(row) if isinstance(row, int) else row for at, row in by_row], asked.k)
+
     timing.lap("search")
     # What `MatchResponse` says, without its checks: the values are our own.
     response = {
         "model_id": asked.model_id,
-        "queries": [_one(list(by_model), asked.k) for by_model in zip(*found, strict=True)],
+        "queries": Items(count, map(one, range(count))),
         "dropped_points": asked.dropped_points,
         "searched": [stored.name for stored in asked.scope.maps],
         "skipped": [

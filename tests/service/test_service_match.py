@@ -1,11 +1,17 @@
+import json
+import weakref
+from collections.abc import Iterator
 from typing import Any
 
+import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import encode
 
 from segments.manifest import Manifest
 from segments.types import Int8
+from service.bodies import render
+from service.packing import Items
 from tests.service.service_builders import (
     STEP,
     assert_problem,
@@ -188,3 +194,23 @@ def test_many_maps_give_the_nearest_of_all(service: Any, manifest: Manifest) -> 
     for row, answer in enumerate(found):
         wanted = np.argsort(apart[row], kind="stable")[:7]
         assert [each["id"] for each in answer["candidates"]] == wanted.tolist()
+
+
+@pytest.mark.parametrize("media_type", ["application/json", "application/msgpack"])
+def test_A7_items_of_an_answer_are_made_one_at_a_time(media_type: str) -> None:
+    class Item(dict[str, int]):
+        """A dictionary that can be watched."""
+
+    made: list[weakref.ref[Item]] = []
+
+    def items() -> Iterator[Item]:
+        for number in range(5):
+            assert sum(each() is not None for each in made) <= 1
+            item = Item(number=number)
+            made.append(weakref.ref(item))
+            yield item
+            del item
+
+    content = render({"queries": Items(5, items()), "none": []}, media_type)
+    read = json.loads if media_type == "application/json" else msgpack.unpackb
+    assert read(content) == {"queries": [{"number": number} for number in range(5)], "none": []}
