@@ -8,9 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
+from segments.cancellation import current
 from segments.extractor import one_thread_session
 from segments.manifest import PAIR_FILE, Manifest, ModelError
 from segments.types import Float64, Int8
+
+PAIRS = 1 << 13
+"""Pairs decoded and classified at once: as floats, a pair of 128 dimensions takes kilobytes."""
 
 
 class PairClassifier:
@@ -25,12 +29,18 @@ class PairClassifier:
             raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error
 
     def probabilities(self, a: Int8, b: Int8) -> Float64:
-        """Of a match, float64 (n,), for codes int8 (n, code bytes) each."""
-        if not len(a):
-            return np.zeros(0)
-        inputs = {"a": self._quantiser.decode(a), "b": self._quantiser.decode(b)}
-        (probability,) = self._session.run(["probability"], inputs)
-        return np.asarray(probability, dtype=np.float64)
+        """Return the match probabilities, float64 (n,), of codes int8 (n, code bytes) each.
+
+        Raises:
+            Cancelled: the work is to stop.
+        """
+        probabilities = np.empty(len(a))
+        for begin in range(0, len(a), PAIRS):
+            current().check()
+            some = slice(begin, begin + PAIRS)
+            inputs = {"a": self._quantiser.decode(a[some]), "b": self._quantiser.decode(b[some])}
+            (probabilities[some],) = self._session.run(["probability"], inputs)
+        return probabilities
 
 
 def load_pair_classifier(folder: Path, manifest: Manifest) -> PairClassifier | None:

@@ -221,7 +221,7 @@ def _standing(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, i
 def _probabilities(
     codes: Int8, model: Model, searched: tuple[StoredMap, ...], places: Int64, rows: Int64
 ) -> Float64 | None:
-    """Of each candidate of each query, (q, k); all at once: a call costs more than a row."""
+    """Return the probability of each candidate of each query, (q, k)."""
     if model.classifier is None:
         return None
     found = np.empty((*rows.shape, codes.shape[1]), dtype=np.int8)

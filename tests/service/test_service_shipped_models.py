@@ -5,10 +5,14 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
+from segments import pairs
 from segments.extractor import load_extractor
+from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from segments.pairs import load_pair_classifier
+from segments.quantiser import Quantiser
 from segments.segments import Segments
+from segments.types import Float32, Int8
 from tests.service.conftest import Start
 from tests.service.service_builders import cloud, map_of, packed, post_packed, request_of
 
@@ -57,3 +61,24 @@ def test_the_default_is_shipped_and_all_stay_within_30_megabytes() -> None:
     assert DEFAULT_MODEL in shipped_models()
     total = sum(file.stat().st_size for file in MODELS_FOLDER.rglob("*") if file.is_file())
     assert total < 30e6
+
+
+def test_A7_pairs_are_classified_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    classifier = load_pair_classifier(MODELS_FOLDER / DEFAULT_MODEL, manifest)
+    assert classifier is not None
+    codes = np.random.default_rng(3).integers(-128, 128, (2, 20, manifest.code_bytes))
+    a, b = codes.astype(np.int8)
+    whole = classifier.probabilities(a, b)
+    monkeypatch.setattr(pairs, "PAIRS", 7)
+    sizes: list[int] = []
+    decode = Quantiser.decode
+
+    def noted(self: Quantiser, some: Int8) -> Float32:
+        sizes.append(len(some))
+        return decode(self, some)
+
+    monkeypatch.setattr(Quantiser, "decode", noted)
+    np.testing.assert_allclose(classifier.probabilities(a, b), whole, atol=1e-6)
+    assert sizes == [7, 7, 7, 7, 6, 6]
+    assert classifier.probabilities(a[:0], b[:0]).shape == (0,)
