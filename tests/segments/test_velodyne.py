@@ -117,8 +117,8 @@ def test_rotations_pass_and_others_are_named() -> None:
     scaled[:3, :3] *= 1.01
     mirrored[:3, 0] *= -1
     check_rotations(np.stack([good, pose()]), Path("p.txt"))
-    for bad in (scaled, mirrored):
-        with pytest.raises(DriveError, match=r"p\.txt, pose 1: .*no rotation"):
+    for bad, fault in ((scaled, "no rotation"), (mirrored, "a reflection .*left-handed")):
+        with pytest.raises(DriveError, match=rf"p\.txt, pose 1: .*{fault}"):
             check_rotations(np.stack([good, bad, good]), Path("p.txt"))
 
 

@@ -81,7 +81,7 @@ def test_B10_a_segment_without_a_finite_point_is_an_error_of_its_own(service: An
     assert "0 points besides 40 non-finite ones" in error["detail"]
     assert unpacked(told)["dropped_points"] == 40
     told = post_packed(service, "/describe", {"segments": body["segments"][:1]})
-    assert_problem(told, 422, "no-usable-segment", "40 that are not finite")
+    assert_problem(told, 422, "no-usable-segment", "besides 40 non-finite ones")
 
 
 def test_B10_points_that_are_left_out_count_against_the_limit(start: Any) -> None:

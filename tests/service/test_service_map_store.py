@@ -343,7 +343,7 @@ def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
     SqliteMapStore(folder).close()
     with behind(folder) as connection:
         connection.execute("PRAGMA user_version = 99")
-    with pytest.raises(StoreError, match="version 99; this program reads version 2 and earlier"):
+    with pytest.raises(StoreError, match="version 99; this program reads versions 1 to 2"):
         SqliteMapStore(folder)
 
 

@@ -1,5 +1,6 @@
 """A key of some maps learns nothing of other maps and other keys."""
 
+import hashlib
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -64,6 +65,9 @@ def hall(start: Any, tmp_path: Path, manifest: Manifest) -> Iterator[Any]:
         yield service, boss, ann
 
 
+DIGEST = hashlib.sha256(b"part").hexdigest()
+
+
 def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     document = service.get("/openapi.json").json()
@@ -86,6 +90,7 @@ def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -
             {"content": edit(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
             {"content": b"rubbish"},
         ],
+        "/maps/{map}/uploads/{digest}": [{"content": b"part"}],
         "/maps/{map}": [
             {"content": encode(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
             {"content": b"rubbish"},
@@ -93,6 +98,7 @@ def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -
     }
     options: dict[str, list[str]] = {
         "/maps/{map}/ids": ["count=3"],
+        "/maps/{map}/uploads/{digest}": ["offset=0"],
         "/maps/{map}/age": ["unseen_since=0&dry_run=true", "unseen_since=0"],
         "/maps/{map}/changes": ["since=0", "since=1", "since=2", "since=0&limit=3"],
         "/maps/{map}": [*(f"version={one}" for one in range(1, 6)), ""],
@@ -106,7 +112,8 @@ def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -
                 for query in options.get(path, [""]):
                     for body in bodies.get(path, [{}]) if method in {"post", "put"} else [{}]:
                         filled = path.replace("{map}", name).replace("{other}", "hall-a")
-                        address = f"{filled.replace('{version}', '2')}?{query}"
+                        filled = filled.replace("{version}", "2").replace("{digest}", DIGEST)
+                        address = f"{filled}?{query}"
                         headers = ann | {"If-Match": "*"} if "hall-site" in filled else ann
                         answer = service.request(method, address, headers=headers, **body)
                         assert answer.status_code < 500 or answer.status_code == 507, answer.text
@@ -121,7 +128,8 @@ def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -
     assert every - succeeded <= {
         ("/models/reload", "post"), ("/maps/{map}/ids/reset", "post"), ("/maps/{map}", "delete"),
         ("/maps/{map}/merge", "post"), ("/maps/{map}/align/{other}", "post"),
-        ("/maps/{map}", "put"),
+        ("/maps/{map}", "put"), ("/maps/{map}/uploads/{digest}", "post"),
+        ("/maps/{map}/uploads/{digest}", "delete"),
     }  # fmt: skip
     # A key that opens all sees all.
     assert service.get("/maps", headers=boss).json()["maps"][1]["sources"]
