@@ -8,10 +8,16 @@ HASHED := $(PIP) --require-hashes --requirement
 # For pip 26.2 and later, should anything be built from source: PIP_CONSTRAINT binds it no more.
 export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 
-.PHONY: demo serve test lint format install lock peers clean help
+# Test workers; each needs a core and some 2 GB of memory. JOBS=0 runs all in one process.
+JOBS ?= 2
+PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-loadscope-reorder
+# Tests and the services that they start load compiled modules instead of compiling them again.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: demo serve test test-fast lint format install lock peers clean help
 
 help:  ## Show this list
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 demo: .venv/demo.stamp  ## Two robots recognise each other's places; DRIVE=path for a recorded drive
 	$(BIN)/placecell demo $(if $(DRIVE),--drive "$(DRIVE)")
@@ -19,8 +25,12 @@ demo: .venv/demo.stamp  ## Two robots recognise each other's places; DRIVE=path 
 serve: .venv/demo.stamp  ## Keep a service running on http://127.0.0.1:8000
 	$(BIN)/placecell serve
 
-test: install  ## All tests, with coverage
-	$(BIN)/python -m pytest --hypothesis-profile=ci --cov --cov-report=term
+test: install  ## Run all tests, with coverage; JOBS=N sets the parallel workers
+	$(PYTEST) --hypothesis-profile=ci --cov --cov-report=term
+
+FAST := tests/segments tests/client tests/service
+test-fast: install  ## Run the tests that take a minute together: core, client, HTTP routes
+	$(PYTEST) --hypothesis-profile=ci -m "not slow and not integration and not recorded" $(FAST)
 
 lint: install  ## Check style and types
 	$(BIN)/ruff check .
