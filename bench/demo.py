@@ -83,7 +83,7 @@ def run(
         from bench.picture import draw_matches
         from bench.site_picture import draw_site
 
-        title = f"What {asker.name} sees, found in the map of {mapper.name}"
+        title = f"Segments of {asker.name}, matched in the map of {mapper.name}"
         right = result.first_is_right
         matches = pictures / "matches.png"
         draw_matches(matches, mapper, asker, compact.centroids, answers, right, title)

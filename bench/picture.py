@@ -1,4 +1,4 @@
-"""The demo's picture: both paths, both maps, and a line for each match."""
+"""The demo's first picture: both paths, both maps, and a line for each match."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -73,7 +73,7 @@ def draw_matches(
         Line2D([], [], color=WRONG, label="first candidate wrong"),
     ]
     axes.legend(handles=handles, loc="upper center", ncols=2)
-    axes.set(title=title, xlabel="x, metres", ylabel="y, metres", aspect="equal")
+    axes.set(title=title, xlabel="x, meters", ylabel="y, meters", aspect="equal")
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=110)
     plt.close(figure)
