@@ -37,7 +37,7 @@ def evaluate(
 ) -> None:
     """Measure every extractor on a drive, beside the eigenvalue baseline.
 
-    Definitions of the figures: docs/recognition.md.
+    Definitions of the figures: docs/results/recognition.md.
     """
     from training.evaluation import evaluate as evaluate_recording
     from training.evaluation import open_models

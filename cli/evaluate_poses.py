@@ -65,7 +65,7 @@ def evaluate_poses(
 ) -> None:
     """Measure localisation: every frame of one drive is asked in the map of another.
 
-    Through the service's own code, in this process. Definitions: docs/localisation.md.
+    Through the service's own code, in this process. Definitions: docs/results/localization.md.
     """
     from bench.pose_queries import Pair
     from bench.poses import draw, evaluate

@@ -3,7 +3,7 @@
 Things that stand still have their centroid in one place. What is seen there again, and looks as it
 did or is seen from where it was, adds little to the map. Anything else is another view, from
 another side or of more of the thing: kept, up to a number, for whoever comes that way
-(`docs/maps.md` shows what that gains).
+(`docs/results/storage.md` shows what that gains).
 """
 
 from collections.abc import Mapping

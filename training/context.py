@@ -1,7 +1,7 @@
 """Recognition in context: a segment and what stands around it (beyond the paper).
 
 The segment itself is described by a network trained by the multi-similarity loss (Wang et al.,
-2019), which did best of those compared (docs/recognition.md). Its surroundings
+2019), which did best of those compared (docs/results/recognition.md). Its surroundings
 (`segments.surroundings`) are projected by linear discriminant analysis, which finds the directions
 in which groups lie apart while views of one group stay together: a closed form, learned in seconds,
 that hardly over-fits. Both stand side by side in the descriptor, the

@@ -1,6 +1,6 @@
 """How recognition is measured: the paper's two experiments (IV-B), and one that is harder.
 
-All figures are of descriptors as they are stored; `docs/recognition.md` has the definitions.
+All figures are of descriptors as they are stored; `docs/results/recognition.md` has the definitions.
 """
 
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""`placecell bench localisation`: the tables of docs/localisation.md."""
+"""`placecell bench localisation`: the tables of docs/results/localization.md."""
 
 from pathlib import Path
 from typing import Annotated

@@ -46,7 +46,7 @@ def town(
 
         placecell town out/town5 --metres 5000 --picture out/town5.png
 
-    A scan takes about a megabyte and a fortieth of a second: see docs/town.md.
+    A scan takes about a megabyte and a fortieth of a second: see docs/explanation/town.md.
     """
     with clear_errors():
         if metres is None:

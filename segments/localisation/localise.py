@@ -23,7 +23,7 @@ Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 PARAMETERS = LocalisationParameters()
 
 RIGHT_DEGREES = 3.0
-"""A pose is right within a metre and this (docs/localisation.md, Protocol)."""
+"""A pose is right within a metre and this (docs/results/localization.md, Protocol)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

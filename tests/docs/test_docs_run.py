@@ -5,6 +5,7 @@ of `placecell` that take long are parsed: the command and its options exist and 
 """
 
 import asyncio
+import json
 import re
 import shlex
 import subprocess
@@ -199,6 +200,9 @@ def test_B8_curl_commands_are_answered(block: Block, address: str, tmp_path: Pat
     (tmp_path / "newer.map").write_bytes(encode(made("ann", seed=1)))
     delta = Delta(take(first, np.arange(5)), np.array([9], np.uint32))
     (tmp_path / "edit.delta").write_bytes(encode_delta(delta))
+    points = np.random.default_rng(0).normal(size=(200, 3)) + [12, 0, 0]
+    scan = {"segments": [{"points": points.tolist(), "sensor": [0.0, 0.0, 1.8]}]}
+    (tmp_path / "scan.json").write_text(json.dumps(scan))
     with Client(address) as client:
         client.put_map("hall", made("bob", seed=2))
         for line in commands_of(block):
