@@ -1,6 +1,6 @@
 """How recognition is measured: the paper's two experiments (IV-B), and one that is harder.
 
-All figures are of descriptors as they are stored; `docs/results/recognition.md` has the definitions.
+Descriptors are measured as stored; `docs/results/recognition.md` defines the figures.
 """
 
 from collections.abc import Callable, Iterator
