@@ -14,7 +14,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-lo
 # Tests and the services that they start load compiled modules instead of compiling them again.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo serve test test-fast lint format install lock peers clean help
+.PHONY: demo serve test test-fast lint format docs reference install lock peers clean help
 
 help:  ## Show this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -41,6 +41,12 @@ format: install  ## Put the code into its form
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
+docs: .venv-docs/stamp  ## The documentation as a site, in site/; every warning is an error
+	NO_MKDOCS_2_WARNING=1 .venv-docs/bin/python -m mkdocs build --strict --quiet
+
+reference: install  ## Write the generated parts of docs/reference anew
+	$(BIN)/python -m cli.reference
+
 install: .venv/development.stamp  ## What the tests need, torch included
 
 # The demo installs no torch. The two packages are built by what is installed already, and bring
@@ -66,6 +72,12 @@ lock: .venv-lock/stamp  ## Write requirements/*.txt anew, after constraints.txt 
 	.venv-lock/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9
 	touch $@
 
+# The site is built from the source files: nothing of ours is installed.
+.venv-docs/stamp: requirements/docs.txt
+	$(PYTHON) -m venv .venv-docs
+	.venv-docs/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements/docs.txt
+	touch $@
+
 # What we are compared with pins NumPy and more otherwise than we do.
 peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench peers'
 
@@ -75,4 +87,4 @@ peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench p
 	touch $@
 
 clean:  ## Remove the environment and what the tools left
-	rm -rf .venv .venv-lock .venv-peers .mypy_cache .pytest_cache .ruff_cache .coverage
+	rm -rf .venv .venv-docs .venv-lock .venv-peers site .mypy_cache .pytest_cache .ruff_cache .coverage

@@ -1,4 +1,4 @@
-"""MAP_FILE.md says what the codec does: its example, its tables, and its program in C++."""
+"""The pages on map and delta files agree with the codec: examples, tables, program in C++."""
 
 import re
 import shutil
@@ -23,7 +23,8 @@ from tests.client.file_surgery import compact_json, inner_header
 from tests.client.map_builders import random_map
 
 ROOT = Path(__file__).resolve().parents[2]
-TEXT = (ROOT / "client" / "MAP_FILE.md").read_text()
+PAGES = [ROOT / "docs" / "reference" / f"{name}-file.md" for name in ("map", "delta")]
+TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 LINE = r" {0,3}(\d+)  (?:ascii (.*)|([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?)"
 EXAMPLE = CompactMap(
     model_id="m-1",
@@ -79,6 +80,7 @@ def test_the_columns_are_the_codecs() -> None:
 def test_the_media_types_are_the_codecs() -> None:
     assert f"| map | `{map_file.MEDIA_TYPE}` |" in TEXT
     assert f"| delta | `{map_delta.MEDIA_TYPE}` |" in TEXT
+    assert f"media type is `{map_delta.MEDIA_TYPE}`" in TEXT
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="no g++ to build the program with")

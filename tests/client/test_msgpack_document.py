@@ -1,4 +1,4 @@
-"""The bytes in MSGPACK.md are those that the client sends and reads."""
+"""The bytes on the msgpack page are those that the client sends and reads."""
 
 import re
 from pathlib import Path
@@ -11,7 +11,7 @@ from placecell_client.wire import segments_of
 
 from segments.quantiser import LEVELS, Quantiser
 
-DOCUMENT = Path(__file__).resolve().parents[2] / "client" / "MSGPACK.md"
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "reference" / "msgpack.md"
 LINE = r" {0,2}(\d+)  ([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?"
 ORIGIN = [500000.0, 5400000.0, 300.0]
 CLOUD = np.array([[4.0, 2.0, 0.5], [4.25, 2.0, 0.75]])

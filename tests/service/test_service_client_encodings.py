@@ -1,4 +1,4 @@
-"""The client gets the same from the service in both encodings, and MSGPACK.md is the service's."""
+"""Both encodings carry the same, and the service speaks the bytes of the msgpack page."""
 
 from dataclasses import replace
 from typing import Any

@@ -1,0 +1,1 @@
+"""Generated parts of the reference pages: commands, settings, metrics, routes and schemas."""
