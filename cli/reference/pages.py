@@ -6,9 +6,9 @@ from pathlib import Path
 from cli.reference.commands import command_pages
 from cli.reference.markdown import filled
 from cli.reference.metrics import metric_pages
+from cli.reference.paths import ROOT
 from cli.reference.routes import route_pages
 from cli.reference.settings import setting_pages
-from cli.reference.paths import ROOT
 
 FOLDER = ROOT / "docs" / "reference"
 

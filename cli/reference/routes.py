@@ -105,25 +105,31 @@ def _json(value: object) -> str:
 
 
 def _type(schema: dict[str, Any]) -> str:
+    """Return the type of a value in words, with links to schemas."""
     if "$ref" in schema:
         return _link(schema["$ref"].rpartition("/")[2])
-    for word in ("anyOf", "oneOf"):
-        if word in schema:
-            return " or ".join(dict.fromkeys(_type(each) for each in schema[word]))
-    if "enum" in schema:
-        return " or ".join(map(code, schema["enum"]))
-    if "const" in schema:
-        return code(schema["const"])
-    kind = schema.get("type", "any")
-    if kind == "array" and "prefixItems" in schema:
-        return f"list of {len(schema['prefixItems'])} {_type(schema['prefixItems'][0])}s"
+    choices = schema.get("anyOf", schema.get("oneOf"))
+    if choices:
+        return " or ".join(dict.fromkeys(map(_type, choices)))
+    constants = schema.get("enum", [schema["const"]] if "const" in schema else [])
+    if constants:
+        return " or ".join(map(code, constants))
+    kind = str(schema.get("type", "any"))
     if kind == "array":
-        least, most = schema.get("minItems"), schema.get("maxItems")
-        count = f"{least} " if least == most and least is not None else ""
-        return f"list of {count}{_type(schema.get('items', {}))}"
-    if kind == "object" and isinstance(schema.get("additionalProperties"), dict):
-        return f"object of {_type(schema['additionalProperties'])}"
-    return {"string": "text", "null": "null", "boolean": "true or false"}.get(kind, kind)
+        return _list(schema)
+    values = schema.get("additionalProperties")
+    if kind == "object" and isinstance(values, dict):
+        return f"object of {_type(values)}"
+    return {"string": "text", "boolean": "true or false"}.get(kind, kind)
+
+
+def _list(schema: dict[str, Any]) -> str:
+    first = schema.get("prefixItems")
+    if first:
+        return f"list of {len(first)} {_type(first[0])}s"
+    least, most = schema.get("minItems"), schema.get("maxItems")
+    count = f"{least} " if least == most and least is not None else ""
+    return f"list of {count}{_type(schema.get('items', {}))}"
 
 
 def _link(name: str) -> str:

@@ -41,9 +41,16 @@ def _rows(model: type[BaseModel], prefix: str) -> Iterator[list[str]]:
 
 def _type(field: FieldInfo) -> str:
     bounds = []
-    for sign, kind, attribute in (("≥", Ge, "ge"), (">", Gt, "gt"), ("≤", Le, "le"), ("<", Lt, "lt")):
+    for sign, kind, attribute in (
+        ("≥", Ge, "ge"),
+        (">", Gt, "gt"),
+        ("≤", Le, "le"),
+        ("<", Lt, "lt"),
+    ):
         bounds += [
-            f"{sign} {getattr(each, attribute):,}" for each in field.metadata if isinstance(each, kind)
+            f"{sign} {getattr(each, attribute):,}"
+            for each in field.metadata
+            if isinstance(each, kind)
         ]
     return ", ".join([_kind(field.annotation), *bounds])
 

@@ -2,6 +2,8 @@
 
 A block that cannot be run here has a comment above it: `<!-- not run: needs Docker -->`. Commands
 of `placecell` that take long are parsed: the command and its options exist and take these values.
+The scripts of the tutorials run in `test_tutorials.py`, the examples of the HTTP API in
+`test_http_api.py`.
 """
 
 import asyncio
@@ -28,6 +30,7 @@ from cli import app
 from segments.drives import KittiOdometry
 from segments.manifest import Manifest
 from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from tests.docs import http_examples
 from tests.segments.segment_builders import pose, write_odometry
 from town import ODOMETRY_FILE
 
@@ -36,10 +39,8 @@ DOCUMENTS = sorted(
     {
         ROOT / "README.md",
         ROOT / "CONTRIBUTING.md",
-        *(ROOT / "docs").glob("*.md"),
+        *(ROOT / "docs").rglob("*.md"),
         ROOT / "client" / "README.md",
-        ROOT / "client" / "MAP_FILE.md",
-        ROOT / "client" / "MSGPACK.md",
         ROOT / "deploy" / "README.md",
     }
 )
@@ -47,7 +48,7 @@ LOCAL = "http://127.0.0.1:8000"
 
 HELD_ELSEWHERE = {
     "mermaid": "a picture",
-    "cpp": "held in tests/client/test_map_file_document.py, test_msgpack_document.py",
+    "cpp": "checked in tests/client/test_map_file_document.py and test_msgpack_document.py",
     "map": "compared in tests/client/test_map_file_document.py",
     "delta": "compared in tests/client/test_map_file_document.py",
     "request": "compared in tests/client/test_msgpack_document.py",
@@ -79,12 +80,14 @@ def blocks_of(file: Path) -> Iterator[Block]:
         line = lines[at]
         if mark := re.match(r"<!-- not run: (.+) -->", line.strip()):
             reason = mark[1]
-        elif fence := re.match(r" *```(\w*)", line):
+        elif fence := re.match(r" *```(\w*)( title=)?", line):
             first, at = at + 1, at + 1
             while not lines[at].strip().startswith("```"):
                 at += 1
             text = "\n".join(lines[first:at]) + "\n"
-            yield Block(file, first, fence[1] or "sh", text, reason)
+            if fence[2]:
+                reason = "a file of a tutorial"
+            yield Block(file, first, fence[1] or "sh", textwrap.dedent(text), reason)
             reason = ""
         elif line.startswith("    ") and not lines[at - 1].strip() and not in_list(lines, at):
             first = at
@@ -152,6 +155,8 @@ def test_B8_every_block_is_run_or_marked(block: Block) -> None:
 
 @pytest.mark.parametrize("block", SHELL, ids=str)
 def test_B8_commands_exist_with_their_options(block: Block) -> None:
+    if block.file == http_examples.PAGE:
+        return
     targets = re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
     for line in commands_of(block):
         words = plain(line)
@@ -190,7 +195,12 @@ def made(robot: str, count: int = 300, first: int = 0, seed: int = 0) -> Compact
     return replace(content, ids=content.ids + np.uint32(first))
 
 
-CURLS = [block for block in SHELL if any(line.startswith("curl") for line in commands_of(block))]
+CURLS = [
+    block
+    for block in SHELL
+    if block.file != http_examples.PAGE
+    and any(line.startswith("curl") for line in commands_of(block))
+]
 
 
 @pytest.mark.parametrize("block", CURLS, ids=str)

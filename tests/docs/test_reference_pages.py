@@ -1,0 +1,69 @@
+"""Generated pages are as the code is, and hand-written lists are complete."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from cli.reference.pages import FOLDER, PAGES, generate
+
+ROOT = Path(__file__).parents[2]
+
+ROW = re.compile(r"^\| (`[a-z`, -]+`) \| ([0-9, ]*)", re.MULTILINE)
+HTTP_PHRASES = {"bad-request", "not-found", "method-not-allowed"}
+"""Kinds that the framework's own errors get from their status."""
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_generated_pages_are_current(page: Path) -> None:
+    before, after = generate(page)
+    assert before == after, f"{page.name} is not current: run `make reference`"
+
+
+def documented_kinds() -> dict[str, set[int]]:
+    """Return the kinds of problems on the page, each with its statuses."""
+    text = (FOLDER / "errors.md").read_text(encoding="utf-8")
+    found: dict[str, set[int]] = {}
+    for kinds, statuses in ROW.findall(text):
+        for kind in re.findall(r"`([a-z-]+)`", kinds):
+            found.setdefault(kind, set()).update(map(int, re.findall(r"\d{3}", statuses)))
+    return found
+
+
+def raised_kinds() -> Iterator[tuple[int, str]]:
+    """Yield the status and the kind of each problem that the service's code raises."""
+    for file in (ROOT / "service").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            match node:
+                case ast.Call(args=[ast.Constant(int(status)), kind, *_]) if 400 <= status < 600:
+                    yield from ((status, each) for each in kinds_of(kind))
+
+
+def kinds_of(node: ast.expr) -> Iterator[str]:
+    """Yield a kind that is a literal; of an f-string, a pattern."""
+    match node:
+        case ast.Constant(str(kind)):
+            yield kind
+        case ast.JoinedStr(parts):
+            yield "".join(
+                str(part.value) if isinstance(part, ast.Constant) else "[a-z]+" for part in parts
+            )
+
+
+def test_every_problem_of_the_service_is_documented() -> None:
+    documented = documented_kinds()
+    for status, kind in raised_kinds():
+        found = [each for each in documented if re.fullmatch(kind, each)]
+        assert found, f"errors.md lacks {kind} ({status})"
+        assert any(status in documented[each] for each in found), f"errors.md: {kind} is a {status}"
+
+
+def test_no_documented_problem_is_unknown_to_the_code() -> None:
+    files = [*(ROOT / "service").rglob("*.py"), *(ROOT / "client").rglob("*.py")]
+    text = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    patterns = [kind for _, kind in raised_kinds() if "[" in kind]
+    for kind in documented_kinds().keys() - HTTP_PHRASES:
+        made = any(re.fullmatch(pattern, kind) for pattern in patterns)
+        assert made or re.search(rf'["\':]{kind}["\']', text), f"errors.md: {kind} is never raised"
