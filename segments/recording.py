@@ -1,7 +1,8 @@
 """A recording: all segments of a drive, as prepared for training and evaluation.
 
 The file is safetensors: columns as tensors, the rest as JSON in the header's metadata. Nothing in
-it is code, so a recording from elsewhere is safe to load. `docs/recordings.md` describes it.
+it is code, so a recording from elsewhere is safe to load. `docs/reference/recording-file.md`
+describes it.
 """
 
 import json

@@ -1,6 +1,6 @@
 """What goes over the wire as msgpack: the schemas of JSON, with arrays as blobs.
 
-`client/MSGPACK.md` describes it byte by byte, for clients in any language.
+`docs/reference/msgpack.md` describes it byte by byte, for clients in any language.
 """
 
 from dataclasses import dataclass

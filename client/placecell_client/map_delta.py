@@ -1,6 +1,7 @@
 """The delta file, version 1: what turns one version of a map into another.
 
-It is carried as the map file is (`MAP_FILE.md`), and is as strict: equal deltas are equal files.
+`docs/reference/delta-file.md` describes it. It is as strict as the map file: equal deltas are equal
+files.
 """
 
 from dataclasses import dataclass

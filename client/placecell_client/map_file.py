@@ -1,7 +1,7 @@
 """The compact map file, version 1: a `CompactMap` in at most 48 bytes a segment.
 
-`MAP_FILE.md` describes it byte by byte, for readers in any language. `decode` takes exactly what
-`encode` gives: equal maps are equal files, and any other bytes are refused.
+`docs/reference/map-file.md` describes it byte by byte, for readers in any language. `decode` takes
+exactly what `encode` gives: equal maps are equal files, and any other bytes are refused.
 """
 
 from placecell_client import carrier

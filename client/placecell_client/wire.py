@@ -1,4 +1,4 @@
-"""Requests and answers in their two encodings; MSGPACK.md describes the second."""
+"""Requests and answers in their two encodings; docs/reference/msgpack.md describes the second."""
 
 import json
 from collections.abc import Sequence

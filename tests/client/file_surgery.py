@@ -26,7 +26,7 @@ def with_outer_header(data: bytes, outer: dict[str, Any]) -> bytes:
 
 
 def checksum(data: bytes, header: dict[str, Any]) -> str:
-    """As MAP_FILE.md says; of the file's columns and another header."""
+    """As docs/reference/map-file.md says; of the file's columns and another header."""
     digest = hashlib.sha256(compact_json(header).encode())
     outer, length = outer_header(data), header_length(data)
     for name in sorted(set(outer) - {"__metadata__"}):
