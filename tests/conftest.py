@@ -4,6 +4,7 @@ A test that starts a process is `integration`. `starts_process` finds most of th
 whose start it cannot see names the marker itself; `pytest_runtest_teardown` fails it otherwise.
 """
 
+import inspect
 import os
 import sys
 from collections.abc import Iterator
@@ -50,6 +51,7 @@ def starts_process(function: object, known: dict[object, bool]) -> bool:
         function: of a test or a fixture.
         known: the answers so far, which this call extends.
     """
+    function = inspect.unwrap(function) if callable(function) else function
     if not isinstance(function, FunctionType) or not function.__module__.startswith("tests."):
         return False
     if function not in known:

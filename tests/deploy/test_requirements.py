@@ -89,6 +89,30 @@ def test_A26_all_that_is_needed_is_locked(name: str) -> None:
     assert not missing, "run `make lock`"
 
 
+def declared() -> list[Requirement]:
+    """Return every dependency of both distributions that is not ours."""
+    lists = PROJECT["dependencies"], CLIENT["dependencies"]
+    extras = PROJECT["optional-dependencies"].values()
+    found = [Requirement(text) for each in (*lists, *extras) for text in each]
+    return [each for each in found if not canonicalize_name(each.name).startswith("placecell")]
+
+
+def test_every_dependency_has_a_lower_bound_that_its_pin_satisfies() -> None:
+    pinned = pins(ROOT / "constraints.txt")
+    for each in declared():
+        assert any(bound.operator == ">=" for bound in each.specifier), each
+        version = pinned[canonicalize_name(each.name)].removeprefix("==")
+        assert each.specifier.contains(version), f"constraints.txt pins {each.name} {version}"
+
+
+def test_uvicorn_is_bound_to_the_release_whose_protocol_is_subclassed() -> None:
+    (uvicorn,) = (each for each in declared() if each.name == "uvicorn")
+    first, after = sorted(bound.version for bound in uvicorn.specifier)
+    major, minor = map(int, first.split("."))
+    assert after == f"{major}.{minor + 1}"
+    assert not uvicorn.specifier.contains(after)
+
+
 def test_A26_every_install_checks_hashes() -> None:
     dockerfile = re.sub(r"\\\n", "", (ROOT / "Dockerfile").read_text())
     makefile = (ROOT / "Makefile").read_text()
