@@ -14,11 +14,11 @@ from bench.local import Local
 from bench.pose_report import bounds
 from bench.prepared import recording_of
 from bench.robot import Robot
-from segments.drives import open_drive
-from segments.extraction import Progress, silent
-from segments.localisation import Pose
-from segments.map_alignment import MapAlignment
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.datasets import open_drive
+from placecell.localization import Pose
+from placecell.map_alignment import MapAlignment
+from placecell.segmentation.pipeline import Progress, silent
 from training.evaluation import machine
 from training.figure import figure
 

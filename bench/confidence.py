@@ -18,10 +18,10 @@ from scipy.optimize import minimize
 from bench.local import Local
 from bench.pose_queries import Pair, PoseQuery, joined, random_frame
 from bench.pose_report import RIGHT, reliability_of
-from segments.extraction import Progress, silent
-from segments.localisation import Confidence, LocalisationParameters, Pose
-from segments.localisation.confidence import FEATURES
-from segments.types import Bool, Float64, Int64
+from placecell.core.types import Bool, Float64, Int64
+from placecell.localization import Confidence, LocalisationParameters, Pose
+from placecell.localization.confidence import FEATURES
+from placecell.segmentation.pipeline import Progress, silent
 from training.evaluation import machine
 
 FEW = (6, 8, 12, 20)

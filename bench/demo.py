@@ -11,7 +11,7 @@ from bench.meeting import Meeting, meet
 from bench.robot import Robot, ask
 from bench.score import Score, score
 from bench.server import running_service
-from segments.drives import Drive
+from placecell.datasets import Drive
 
 MAP = "robot_a"
 K = 25

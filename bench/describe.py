@@ -16,15 +16,15 @@ import onnxruntime
 from bench.networks import PAPER, files, paper_network
 from bench.rates import Work, each, measure
 from bench.scans import draw_scans
-from segments.extraction import Progress, silent
-from segments.extractor import Extractor, load_extractor, one_thread_session
-from segments.manifest import PAIR_FILE, Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
-from segments.pairs import PairClassifier
-from segments.parameters import Parameters
-from segments.segments import Segments
-from segments.surroundings import describe_surroundings
-from segments.voxels import voxelise
+from placecell.core.parameters import Parameters
+from placecell.core.segments import Segments
+from placecell.descriptors.extractor import Extractor, load_extractor, one_thread_session
+from placecell.descriptors.manifest import PAIR_FILE, Manifest
+from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.pair_classifier import PairClassifier
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from placecell.descriptors.voxels import voxelise
+from placecell.segmentation.pipeline import Progress, silent
 from training.evaluation import machine
 from training.figure import figure
 

@@ -18,9 +18,9 @@ from placecell_client.map_edit import take
 
 from bench.map_content import Views, map_of
 from bench.pose_queries import random_frame
-from segments.extraction import Progress, silent
-from segments.localisation import LocalisationParameters, Pose
-from segments.types import Float32, Float64, Int8, Int64
+from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.localization import LocalisationParameters, Pose
+from placecell.segmentation.pipeline import Progress, silent
 from service.layers import Layers
 from service.locating import Group, InMap, localise_among
 from service.map_index import LayeredIndex

@@ -7,10 +7,10 @@ from typing import Any
 import faiss
 import numpy as np
 
-from segments.extractor import Extractor
-from segments.quantiser import LEVELS, Quantiser
-from segments.recording import Recording
-from segments.types import Bool, Float32
+from placecell.core.types import Bool, Float32
+from placecell.descriptors.extractor import Extractor
+from placecell.descriptors.quantizer import LEVELS, Quantiser
+from placecell.segmentation.recording import Recording
 from training.evaluation import machine, retrieval
 from training.figure import figure
 

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from placecell_client import CompactMap, Description, Info, ItemError, encode
 
-from segments.localisation import Localisation, LocalisationParameters
-from segments.localisation.evidence import Evidence
-from segments.manifest import Manifest
-from segments.map_alignment import AlignmentParameters, MapAlignment
-from segments.types import Float64, Int8
+from placecell.core.types import Float64, Int8
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Localisation, LocalisationParameters
+from placecell.localization.evidence import Evidence
+from placecell.map_alignment import AlignmentParameters, MapAlignment
 from service.aligning import MapSide, align_maps
 from service.keys import ANYONE
 from service.locating import localise_in

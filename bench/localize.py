@@ -22,8 +22,8 @@ from bench.map_content import VIEWS, Views, map_of
 from bench.pose_queries import random_frame
 from bench.serve import percentiles
 from bench.server import address_of, running_service
-from segments.extraction import Progress, silent
-from segments.localisation import Pose
+from placecell.localization import Pose
+from placecell.segmentation.pipeline import Progress, silent
 from service.bodies import MSGPACK
 from training.evaluation import machine
 

@@ -6,7 +6,7 @@ import numpy as np
 from placecell_client import CompactMap, Info
 from placecell_client.map_edit import empty
 
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 FRAME_SEGMENTS = 30
 EPOCH = 1.7e9

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from placecell_client import CompactMap
 
-from segments.extractor import Extractor
-from segments.manifest import Manifest
-from segments.recording import Recording
-from segments.types import Float32, Int8, Int64
+from placecell.core.types import Float32, Int8, Int64
+from placecell.descriptors.extractor import Extractor
+from placecell.descriptors.manifest import Manifest
+from placecell.segmentation.recording import Recording
 
 VIEWS = 4
 """Of each thing in the map."""

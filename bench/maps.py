@@ -22,10 +22,10 @@ from bench.map_writers import MAP, Plan, rebuilding, writing
 from bench.serve import percentiles
 from bench.server import Service, address_of, running_service
 from bench.soak import look
-from segments.extraction import Progress, silent
-from segments.models import DEFAULT_MODEL
-from segments.quantiser import Quantiser
-from segments.types import Int64
+from placecell.core.types import Int64
+from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.shipped_models import DEFAULT_MODEL
+from placecell.segmentation.pipeline import Progress, silent
 from service.bodies import MSGPACK
 from training.evaluation import machine
 from training.figure import figure

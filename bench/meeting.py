@@ -11,10 +11,10 @@ from placecell_client import Client, ServiceError, encode
 
 from bench.pose_report import RIGHT
 from bench.robot import Robot, clouds
-from segments.localisation import Pose
-from segments.recording import Recording
-from segments.segments import Segments
-from segments.types import Float64
+from placecell.core.segments import Segments
+from placecell.core.types import Float64
+from placecell.localization import Pose
+from placecell.segmentation.recording import Recording
 
 SITE = "site"
 """Name of the map of both."""

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.extractor import MODEL_FILE
-from segments.manifest import Manifest
-from segments.parameters import Parameters
+from placecell.core.parameters import Parameters
+from placecell.descriptors.extractor import MODEL_FILE
+from placecell.descriptors.manifest import Manifest
 
 PAPER = "paper"
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from bench.robot import Answer, Robot
 from bench.score import in_frame
-from segments.types import Bool, Float64
+from placecell.core.types import Bool, Float64
 
 RIGHT, WRONG = "#1b9e77", "#d95f02"
 MOST_LINES = 200

@@ -13,11 +13,11 @@ from bench.local import Local
 from bench.prepared import recording_of
 from bench.robot import Robot, clouds
 from bench.robots import robots_of_drive
-from segments.drives import open_drive
-from segments.extraction import Progress, silent
-from segments.localisation import Pose
-from segments.segments import Segments
-from segments.types import Float64, Int8, Int64
+from placecell.core.segments import Segments
+from placecell.core.types import Float64, Int8, Int64
+from placecell.datasets import open_drive
+from placecell.localization import Pose
+from placecell.segmentation.pipeline import Progress, silent
 
 MAPPED_METRES = 10.0
 """A query is within the map if the mapping robot was as near as this."""

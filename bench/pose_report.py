@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from segments.types import Bool, Float64
+from placecell.core.types import Bool, Float64
 
 RIGHT = (1.0, 3.0)
 OFF = (3.0, 10.0)

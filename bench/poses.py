@@ -9,10 +9,10 @@ import numpy as np
 from bench.local import Local
 from bench.pose_queries import MAPPED_METRES, Pair, PoseQuery, random_frame
 from bench.pose_report import Outcome, report
-from segments.extraction import Progress, silent
-from segments.localisation import Localisation, LocalisationParameters
-from segments.localisation.covariance import at_point
-from segments.localisation.evidence import History, middle_of
+from placecell.localization import Localisation, LocalisationParameters
+from placecell.localization.covariance import at_point
+from placecell.localization.evidence import History, middle_of
+from placecell.segmentation.pipeline import Progress, silent
 from training.evaluation import machine
 from training.figure import figure
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.drives import Drive
-from segments.extraction import Progress, record, silent
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.datasets import Drive
+from placecell.segmentation.pipeline import Progress, record, silent
+from placecell.segmentation.recording import Recording
 
 
 def recording_of(

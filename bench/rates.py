@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from segments.extraction import Progress
-from segments.segments import Segments
+from placecell.core.segments import Segments
+from placecell.segmentation.pipeline import Progress
 
 Work = Callable[[int], int]
 """Do the piece of work of this number; returns how many segments it had."""

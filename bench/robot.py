@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from placecell_client import Client, CompactMap, Description, Info
 from scipy.spatial.transform import Rotation
 
-from segments.drives import Drive
-from segments.recording import Recording
-from segments.segments import Segments
-from segments.types import Float64
+from placecell.core.segments import Segments
+from placecell.core.types import Float64
+from placecell.datasets import Drive
+from placecell.segmentation.recording import Recording
 
 
 class Describing(Protocol):

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from bench.robot import Robot
-from segments.blocks import alternate_blocks, parameters_of
-from segments.drives import open_drive
-from segments.extraction import Progress, record
-from segments.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.datasets import open_drive
+from placecell.segmentation.drive_splits import alternate_blocks, parameters_of
+from placecell.segmentation.pipeline import Progress, record
 
 
 def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:

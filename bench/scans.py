@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.drives import open_drive
-from segments.extraction import Progress, record, silent
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
-from segments.segments import Segments
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.segments import Segments
+from placecell.datasets import open_drive
+from placecell.segmentation.pipeline import Progress, record, silent
+from placecell.segmentation.recording import Recording
 
 
 def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segments]:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bench.robot import Answer
-from segments.types import Bool, Float64
+from placecell.core.types import Bool, Float64
 
 RIGHT_METRES = 1.5
 CUTS = (1, 5, 25)

@@ -13,7 +13,7 @@ from placecell_client import Client, CompactMap, Delta, MapCopy, Retries, Servic
 from placecell_client.map_edit import apply, take
 
 from bench.made_map import Kind
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 T = TypeVar("T")
 

@@ -21,7 +21,7 @@ from bench.scans import draw_scans
 from bench.serve import Plan, percentiles
 from bench.server import address_of, running_service
 from bench.workload import Case, fill, requests
-from segments.segments import Segments
+from placecell.core.segments import Segments
 from service.bodies import MSGPACK
 from training.evaluation import machine
 from training.figure import figure

@@ -6,9 +6,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from segments.drives import open_drive
-from segments.extraction import Progress, segment_frames, silent
-from segments.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.datasets import open_drive
+from placecell.segmentation.pipeline import Progress, segment_frames, silent
 from town import City, write_drive
 
 

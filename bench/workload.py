@@ -9,10 +9,10 @@ from placecell_client import Client
 
 from bench.load import request_of
 from bench.map_content import map_of
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
-from segments.segments import Segments
-from segments.types import Int8
+from placecell.core.segments import Segments
+from placecell.core.types import Int8
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.bodies import MSGPACK
 
 

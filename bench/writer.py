@@ -10,7 +10,7 @@ from placecell_client.map_edit import apply, take, with_optional
 from bench.journal import Journal
 from bench.made_map import EPOCH, Kind
 from bench.past import Past
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 KEPT = 10
 """Versions, after which the writer has old ones let go before the service does so by itself."""

@@ -36,8 +36,8 @@ def demo(
     from bench.meeting import elsewhere
     from bench.pose_queries import random_frame
     from bench.robots import robots_of_drive, robots_of_town
-    from segments.manifest import Manifest
-    from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
+    from placecell.descriptors.manifest import Manifest
+    from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-demo-") as scratch:
         if drive is None:

@@ -8,7 +8,15 @@ from typing import Annotated, Any
 import typer
 
 from cli.errors import clear_errors
-from segments.reading import DType, Order, Reading, TimeUnit, Unit, parse_columns, reading
+from placecell.datasets.scan_options import (
+    DType,
+    Order,
+    Reading,
+    TimeUnit,
+    Unit,
+    parse_columns,
+    reading,
+)
 
 PANEL = "Recorded drives"
 

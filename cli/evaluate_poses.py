@@ -69,8 +69,8 @@ def evaluate_poses(
     """
     from bench.pose_queries import Pair
     from bench.poses import draw, evaluate
-    from segments.localisation import LocalisationParameters
-    from segments.models import DEFAULT_MODEL, model_folder
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+    from placecell.localization import LocalisationParameters
 
     with clear_errors():
         if motion not in {"yaw", "se3"}:

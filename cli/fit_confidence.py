@@ -57,8 +57,8 @@ def fit_confidence(
     """
     from bench.confidence import fit
     from bench.pose_queries import Pair
-    from segments.localisation.confidence import NAME, SHIPPED
-    from segments.models import DEFAULT_MODEL, model_folder
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+    from placecell.localization.confidence import NAME, SHIPPED
 
     folder_of_model = model_folder(model or DEFAULT_MODEL)
     is_default = folder_of_model == model_folder(DEFAULT_MODEL)

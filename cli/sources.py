@@ -15,8 +15,8 @@ from cli.tables import progress_console
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from segments.drives import Drive
-    from segments.recording import Recording
+    from placecell.datasets import Drive
+    from placecell.segmentation.recording import Recording
     from training.training_set import Source
 
 __all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
@@ -51,10 +51,10 @@ def parse_scans(text: str) -> tuple[int, int]:
 
 def load(path: Path, every: int | None = None) -> "Recording":
     """A prepared recording, or the segments of a drive's folder made now."""
-    from segments.drives import open_drive
-    from segments.extraction import record
-    from segments.parameters import PROTOCOL_V1
-    from segments.recording import Recording
+    from placecell.core.parameters import PROTOCOL_V1
+    from placecell.datasets import open_drive
+    from placecell.segmentation.pipeline import record
+    from placecell.segmentation.recording import Recording
 
     if path.is_file():
         recording = Recording.load(path)

@@ -28,7 +28,7 @@ def study(
     from rich.progress import track
 
     with clear_errors():
-        from segments.parameters import SURROUNDINGS_V1
+        from placecell.core.parameters import SURROUNDINGS_V1
         from training.evaluation import machine, open_models
         from training.plots import studies
         from training.study import study as study_of

@@ -10,7 +10,7 @@ from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, sources
 from cli.tables import progress_console
 
 if TYPE_CHECKING:
-    from segments.manifest import Manifest
+    from placecell.descriptors.manifest import Manifest
     from training.publishing import Data
 
 
@@ -62,8 +62,8 @@ def train(
     (III-E). context: the group-based network, and what stands around each segment. eigenvalue:
     SegMatch's features, standardised on the drives; the baseline.
     """
-    from segments.models import MODELS_FOLDER
-    from segments.parameters import SURROUNDINGS_V1
+    from placecell.core.parameters import SURROUNDINGS_V1
+    from placecell.descriptors.shipped_models import MODELS_FOLDER
 
     own = "wide" if method is Method.CONTEXT else "fast"
     options = ["--network", network] if network not in (None, own) else []

@@ -21,7 +21,7 @@ from fastapi import Request
 from prometheus_client import Gauge
 from starlette.requests import ClientDisconnect
 
-from segments.cancellation import Cancelled, CancelToken, cancelled_by
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from service.addresses import client_network
 from service.bodies import Body
 from service.compression import decompress

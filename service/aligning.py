@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from placecell_client import CompactMap
 
-from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
 from service.likeness import likely
 from service.map_index import MapIndex, index_of
 from service.models import Model

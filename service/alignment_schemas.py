@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from segments.localisation.localise import Reason
+from placecell.localization.localize import Reason
 from service.localise_schemas import PoseOut
 from service.map_store import NAME_PATTERN
 from service.settings import NAMED_MAPS

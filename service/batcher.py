@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 import anyio.to_thread
 import numpy as np
 
-from segments.extractor import Extractor, Inputs
-from segments.types import Float32
+from placecell.core.types import Float32
+from placecell.descriptors.extractor import Extractor, Inputs
 from service.metrics import Metrics
 from service.timing import Timing
 

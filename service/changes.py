@@ -9,7 +9,7 @@ from threading import Lock
 import numpy as np
 from placecell_client import Delta, decode_delta
 
-from segments.types import UInt32
+from placecell.core.types import UInt32
 from service.layers import Layers
 from service.map_store import IDS, History, MapStore
 from service.problems import Problem

@@ -6,7 +6,7 @@ from typing import Any
 
 import zstandard
 
-from segments.cancellation import current
+from placecell.core.cancellation import current
 from service.problems import Problem
 
 CODINGS = ("gzip", "zstd")

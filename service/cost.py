@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from segments.map_alignment import AlignmentParameters
-from segments.parameters import SurroundingsParameters
-from segments.types import Float32, Int64
+from placecell.core.parameters import SurroundingsParameters
+from placecell.core.types import Float32, Int64
+from placecell.map_alignment import AlignmentParameters
 from service.problems import Problem
 
 MACHINE = "one core of an Intel Xeon (Emerald Rapids), processor time, best of 3"

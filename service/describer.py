@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from placecell_client.compact_map import COORDINATE_LIMIT
 
-from segments.extractor import Extractor, Inputs
-from segments.types import Float32, Float64, Int8, Int64
+from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.descriptors.extractor import Extractor, Inputs
 from service.batcher import Batcher
 from service.cost import NOTHING, Cost, check_cost, cost_of_describing
 from service.metrics import Metrics

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from segments.types import UInt32
+from placecell.core.types import UInt32
 from service.keys import Holder
 from service.map_store import Head, MapStore
 from service.problems import Problem

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from placecell_client.compact_map import COORDINATE_LIMIT
 
-from segments.jit import compiled, compiled_part
-from segments.types import Float64, Int8, Int64
+from placecell.core.jit import compiled, compiled_part
+from placecell.core.types import Float64, Int8, Int64
 
 POINTS, CENTROIDS, CODES = 0, 1, 2
 NAMES = ("points", "centroids", "codes")

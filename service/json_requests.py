@@ -9,7 +9,7 @@ from typing import Annotated, Any, TypeVar
 import numpy as np
 from pydantic import BaseModel, ConfigDict, PlainValidator, ValidationError, ValidationInfo
 
-from segments.types import Float64, Int8
+from placecell.core.types import Float64, Int8
 from service.json_arrays import CENTROIDS, NAMES, POINTS, Arrays, cut_arrays, moved
 from service.localise_schemas import LocalizeQuery, LocalizeRequest
 from service.problems import Problem, errors_of, invalid

@@ -19,8 +19,8 @@ from placecell_client.map_edit import (
     with_optional,
 )
 
-from segments.localisation.near import within
-from segments.types import Bool, Float64, Int64, UInt32
+from placecell.core.spatial import within
+from placecell.core.types import Bool, Float64, Int64, UInt32
 
 
 @dataclass(frozen=True, eq=False)

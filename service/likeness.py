@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from segments.types import Float64, Int8
+from placecell.core.types import Float64, Int8
 from service.models import Model
 
 

@@ -7,10 +7,10 @@ that each was written to first, with its id there, and the moment when it was ca
 
 import numpy as np
 
-from segments.localisation import LocalisationParameters, Pose
-from segments.localisation.near import evenly
-from segments.localisation.registration import register
-from segments.types import Float64, Int64, UInt32
+from placecell.core.spatial import evenly
+from placecell.core.types import Float64, Int64, UInt32
+from placecell.localization import LocalisationParameters, Pose
+from placecell.localization.registration import register
 from service.layers import Layers
 from service.stored_map import StoredMap
 

@@ -15,12 +15,12 @@ from placecell_client import CompactMap, Delta
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply, take, with_optional
 
-from segments.cancellation import current, is_cancelled
-from segments.cells import neighboring
-from segments.jit import compiled
-from segments.manifest import Manifest
-from segments.quantiser import Quantiser
-from segments.types import Bool, Float64, Int8, Int32, Int64, UInt32
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.grid_cells import neighboring
+from placecell.core.jit import compiled
+from placecell.core.types import Bool, Float64, Int8, Int32, Int64, UInt32
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.quantizer import Quantiser
 
 RADIUS = 0.5
 """Metres between centroids of one thing. Of pairs this near, seen at different times, 85% were

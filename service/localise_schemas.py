@@ -4,7 +4,7 @@ from typing import Annotated, Generic, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from segments.localisation.localise import Reason
+from placecell.localization.localize import Reason
 from service.schemas import (
     EXAMPLE,
     Codes,

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from segments.cancellation import current
-from segments.localisation import Candidates, Localisation, LocalisationParameters, localise
-from segments.localisation.evidence import Evidence
-from segments.localisation.joint import Judged, MapQuery, localise_jointly
-from segments.localisation.localise import unknown
-from segments.types import Float64, Int8, Int64
+from placecell.core.cancellation import current
+from placecell.core.types import Float64, Int8, Int64
+from placecell.localization import Candidates, Localisation, LocalisationParameters, localize
+from placecell.localization.evidence import Evidence
+from placecell.localization.joint import Judged, MapQuery, localise_jointly
+from placecell.localization.localize import unknown
 from service.likeness import likely
 from service.links import pose_between
 from service.matching import found_in
@@ -62,7 +62,7 @@ def localise_in(
     """
     query = query_in(codes, centroids, model, stored, k, evidence)
     timing.lap("search")
-    localisation = localise(
+    localisation = localize(
         query.candidates, parameters, query.confidence, query.evidence, query.there
     )
     timing.lap("verify")

@@ -14,8 +14,8 @@ from typing import Any
 import faiss
 import numpy as np
 
-from segments.quantiser import LEVELS, Quantiser
-from segments.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
+from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
+from placecell.descriptors.quantizer import LEVELS, Quantiser
 from service.layers import Layers
 
 MARGIN = 12

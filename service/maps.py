@@ -11,8 +11,8 @@ from weakref import WeakValueDictionary
 import numpy as np
 from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
 
-from segments.cancellation import holding
-from segments.types import UInt32
+from placecell.core.cancellation import holding
+from placecell.core.types import UInt32
 from service.layers import Layers
 from service.map_cache import MapCache
 from service.map_index import LayeredIndex, MapIndex

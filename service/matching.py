@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from segments.cancellation import current
-from segments.types import Float64, Int8, Int64
+from placecell.core.cancellation import current
+from placecell.core.types import Float64, Int8, Int64
 from service.keys import Holder
 from service.maps import Maps
 from service.models import Model, Models

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 from placecell_client import MapFileError
 
-from segments.localisation import Pose
-from segments.map_alignment import AlignmentParameters
+from placecell.localization import Pose
+from placecell.map_alignment import AlignmentParameters
 from service.aligning import Check, check_same_model
 from service.living import RADIUS, SameView
 from service.map_store import OutOfIdsError

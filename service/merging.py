@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from segments.localisation import Pose
-from segments.map_alignment import (
+from placecell.localization import Pose
+from placecell.map_alignment import (
     Alignment,
     AlignmentParameters,
     MapAlignment,
@@ -12,7 +12,7 @@ from segments.map_alignment import (
     lies_as_well,
     poses_from,
 )
-from segments.map_alignment.loops import Checked
+from placecell.map_alignment.loops import Checked
 from service.aligning import Check, MapLikeness, MapSide, align_maps
 from service.models import Model
 from service.stored_map import StoredMap

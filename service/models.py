@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
-from segments.extractor import load_extractor
-from segments.localisation.confidence import NAME, Confidence, shipped
-from segments.manifest import FILE, Manifest, ModelError
-from segments.pairs import PairClassifier, load_pair_classifier
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.manifest import FILE, Manifest, ModelError
+from placecell.descriptors.pair_classifier import PairClassifier, load_pair_classifier
+from placecell.localization.confidence import NAME, Confidence, shipped
 from service.describer import Describer
 from service.metrics import Metrics
 from service.problems import Problem

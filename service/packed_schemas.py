@@ -20,7 +20,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
-from segments.types import Float32, Float64, Int8
+from placecell.core.types import Float32, Float64, Int8
 from service.localise_schemas import LocalizeQuery
 from service.schemas import (
     DescriptorsResponse,

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
-from segments.cancellation import holding
+from placecell.core.cancellation import holding
 from service.database import sync_folder
 from service.map_store import StoreError
 from service.problems import Problem

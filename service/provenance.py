@@ -3,7 +3,7 @@
 import numpy as np
 from placecell_client import CompactMap
 
-from segments.types import Bool, Float64, Int64, UInt32
+from placecell.core.types import Bool, Float64, Int64, UInt32
 from service.living import NONE
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from segments.types import Float64, Int8
+from placecell.core.types import Float64, Int8
 from service.cost import Cost, check_cost, cost_of_search
 from service.describer import Prepared
 from service.keys import Holder

@@ -1,7 +1,7 @@
 """Ranking of maps: choose the few maps in which most candidates agree.
 
 Each segment's nearest descriptors are looked for in all maps at once. A map is worth as many
-segments as one of its candidates agrees with: by distances, as `segments.localisation.consistency`
+segments as one of its candidates agrees with: by distances, as `placecell.localization.consistency`
 compares them. Only the best maps are searched in full.
 """
 
@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.cancellation import current, is_cancelled
-from segments.jit import compiled
-from segments.localisation import LocalisationParameters
-from segments.localisation.near import evenly
-from segments.types import Float32, Float64, Int8, Int32, Int64
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.jit import compiled
+from placecell.core.spatial import evenly
+from placecell.core.types import Float32, Float64, Int8, Int32, Int64
+from placecell.localization import LocalisationParameters
 from service.shared_index import Part, centred
 from service.stored_map import StoredMap
 

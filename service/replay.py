@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from placecell_client import Delta, decode, decode_delta
 from placecell_client.map_edit import compose
 
-from segments.cancellation import current
+from placecell.core.cancellation import current
 from service.layers import Layers
 from service.map_cache import MapCache
 from service.map_store import Head, History, MapStore

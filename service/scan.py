@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from placecell_client.compact_map import COORDINATE_LIMIT
 
-from segments.segments import Segments
-from segments.types import Float64, Int64
+from placecell.core.segments import Segments
+from placecell.core.types import Float64, Int64
 from service.problems import Problem, ProblemError
 from service.schemas import Point
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from threading import Lock
 from time import monotonic
 
-from segments.localisation import Hypothesis, LocalisationParameters
-from segments.localisation.evidence import Evidence, History
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.localization import Hypothesis, LocalisationParameters
+from placecell.localization.evidence import Evidence, History
 
 
 @dataclass(frozen=True, slots=True)

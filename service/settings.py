@@ -17,7 +17,7 @@ from pydantic_settings import (
     SettingsConfigDict,
 )
 
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
 MEBIBYTE = 1 << 20
 GIBIBYTE = 1 << 30

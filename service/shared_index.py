@@ -14,8 +14,8 @@ from threading import Lock
 
 import numpy as np
 
-from segments.quantiser import Quantiser
-from segments.types import Bool, Float32, Int64
+from placecell.core.types import Bool, Float32, Int64
+from placecell.descriptors.quantizer import Quantiser
 from service.layers import Layers
 from service.map_index import MapIndex, index_of
 from service.stored_map import StoredMap

@@ -8,11 +8,11 @@ from placecell_client import CompactMap, Delta, moved, originated
 from placecell_client.map_edit import apply, difference, empty, take, with_optional
 from scipy.spatial.transform import Rotation
 
-from segments.cancellation import current
-from segments.localisation import Pose
-from segments.localisation.registration import register
-from segments.map_alignment import AlignmentParameters
-from segments.types import Int64, UInt32
+from placecell.core.cancellation import current
+from placecell.core.types import Int64, UInt32
+from placecell.localization import Pose
+from placecell.localization.registration import register
+from placecell.map_alignment import AlignmentParameters
 from service.aligning import MapSide
 from service.layers import Layers
 from service.living import NONE, RADIUS, SameView, count_elsewhere, sighting

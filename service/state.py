@@ -8,7 +8,7 @@ from typing import Annotated, ParamSpec, TypeVar
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
-from segments.manifest import ModelError
+from placecell.descriptors.manifest import ModelError
 from service.admission import Lane, admitted
 from service.changes import Changes
 from service.housekeeping import Bounds, Housekeeper

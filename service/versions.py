@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import numpy as np
 from placecell_client import decode, decode_delta, encode
 
-from segments.types import UInt32
+from placecell.core.types import UInt32
 from service.layers import Layers, robots_of
 from service.map_store import Commit, History, MapStore
 from service.problems import Problem

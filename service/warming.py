@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from segments.localisation import Candidates, localise
+from placecell.localization import Candidates, localize
 from service import json_arrays, ranking
 from service.models import Models
 from service.problems import Problem
@@ -51,4 +51,4 @@ def _warm(models: Models, limits: Limits) -> None:
         with suppress(Problem):
             model.describer.prepare(scan, Timing())
     rows = np.arange(SEGMENTS)[:, None]
-    localise(Candidates(centers, rows, centers[:, None], np.ones((SEGMENTS, 1))))
+    localize(Candidates(centers, rows, centers[:, None], np.ones((SEGMENTS, 1))))

@@ -8,7 +8,7 @@ import numpy as np
 from placecell_client import CompactMap, Delta, encode
 from placecell_client.map_edit import apply, delta_between, take
 
-from segments.types import UInt32
+from placecell.core.types import UInt32
 from service.clock_check import check_times
 from service.id_rules import check_added, check_authors, check_new
 from service.keys import Holder

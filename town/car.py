@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.mesh import Mesh, Reflectance
 from town.shapes import blob, box, circle, loft, pole
 

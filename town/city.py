@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from scipy.spatial import cKDTree
 
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
 from town.block import SceneObject, Site, furnish, garden
 from town.gap import gap_ends
 from town.ground import Ground

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.drives.drive import check_rotations, read_table
-from segments.drives.errors import DriveError
-from segments.drives.kitti_odometry import as_transforms
-from segments.extraction import Progress, silent
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.datasets.drive import check_rotations, read_table
+from placecell.datasets.errors import DriveError
+from placecell.datasets.kitti_odometry import as_transforms
+from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.lidar import HDL_64E, Lidar
 from town.odometry import ODOMETRY_FILE, Odometry
@@ -56,7 +56,7 @@ def write_drive(
     The folder then holds `velodyne/NNNNNN.bin` (float32 x, y, z, reflectance; sensor frame),
     `poses.txt` and `calib.txt` (left camera, as KITTI's), `times.txt`, and one file that KITTI has
     not: `origin.txt`, the 3x4 transform, row by row, from the drive's world frame to the town
-    frame. The drive's world frame (that of the poses, as `segments.drives` reads them) has its
+    frame. The drive's world frame (that of the poses, as `placecell.datasets` reads them) has its
     origin at the first scan's sensor and its x axis along the first scan's heading, but is level:
     a robot knows which way is up, so the first pose holds the street's slope at its start. With
     `origin.txt`, drives of one town can be compared in one true frame. With an odometry there is a

@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Bool, Float64, Int64
+from placecell.core.types import Bool, Float64, Int64
 from town.mesh import Mesh, Reflectance
 from town.plan import KERB_HEIGHT, Plan
 from town.terrain import Terrain

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.annexe import ANNEXES
 from town.mesh import Mesh, Reflectance
 from town.shapes import box, loft, pole, relief

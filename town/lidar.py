@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.types import Float32, Float64
+from placecell.core.types import Float32, Float64
 from town.scene import Surfaces
 
 

@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Float32, Float64
+from placecell.core.types import Float32, Float64
 
 
 class Reflectance:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from segments.types import Bool, Float64, Int64
+from placecell.core.types import Bool, Float64, Int64
 from town.plan import Crossing, Plan
 from town.terrain import Terrain
 

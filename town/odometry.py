@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 
 ODOMETRY_FILE = "poses_odometry.txt"
 

@@ -5,7 +5,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.car import car
 from town.mesh import Mesh
 from town.route import Route

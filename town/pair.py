@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from segments.types import Float64
+from placecell.core.types import Float64
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 from scipy.spatial import cKDTree
 
-from segments.types import Bool, Float64, Int64
+from placecell.core.types import Bool, Float64, Int64
 from town.city import City
 from town.network import OWN
 from town.pair import Pair

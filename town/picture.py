@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from segments.drives.kitti_odometry import KittiOdometry
+from placecell.datasets.kitti_odometry import KittiOdometry
 from town.city import City
 from town.drive import read_origin
 from town.network import DESIGNS, OWN

@@ -10,7 +10,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 
 MARGIN = 32.0
 """How far the town goes on beyond its outermost streets."""

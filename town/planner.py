@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
 from town.network import Network
 from town.plan import Crossing
 from town.postman import postman

@@ -16,7 +16,7 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
 
 
 def postman(streets: Int64, lengths: Float64) -> list[int]:

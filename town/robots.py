@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from string import ascii_lowercase
 
-from segments.extraction import Progress, silent
+from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.drive import check, write_drive
 from town.lidar import HDL_64E, Lidar

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.plan import Crossing, Plan
 from town.terrain import Terrain
 from town.town import Town

@@ -6,7 +6,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from segments.types import Float32, Float64, Int32
+from placecell.core.types import Float32, Float64, Int32
 from town.mesh import Mesh
 
 

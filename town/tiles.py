@@ -5,7 +5,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.mesh import Mesh
 from town.scene import Scene
 

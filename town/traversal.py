@@ -5,7 +5,7 @@ from typing import Self
 
 import numpy as np
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.drive import levelled, scan_distances
 from town.lidar import HDL_64E
 from town.route import Route

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from rich.progress import Progress
 
-from segments.extractor import MODEL_FILE, load_extractor
-from segments.manifest import FULL_FILE
-from segments.parameters import SURROUNDINGS_V1
+from placecell.core.parameters import SURROUNDINGS_V1
+from placecell.descriptors.extractor import MODEL_FILE, load_extractor
+from placecell.descriptors.manifest import FULL_FILE
 from training import metric
 from training.augmentation import Augmentation
 from training.comparison import throughput

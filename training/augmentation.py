@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from segments.parameters import Parameters
-from segments.segments import Segments
-from segments.types import Bool, Float32, UInt8
-from segments.voxels import voxelise
+from placecell.core.parameters import Parameters
+from placecell.core.segments import Segments
+from placecell.core.types import Bool, Float32, UInt8
+from placecell.descriptors.voxels import voxelise
 
 
 @dataclass(frozen=True, slots=True)

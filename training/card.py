@@ -3,7 +3,7 @@
 import textwrap
 from pathlib import Path
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 
 CARD = """# Model `{name}`
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import onnxruntime
 
-from segments.alignment import align
-from segments.extractor import Extractor, load_extractor
-from segments.manifest import Manifest
-from segments.pairs import load_pair_classifier
-from segments.parameters import SURROUNDINGS_V1, Parameters
-from segments.segments import Segments
-from segments.types import Float32, Float64, Int64
+from placecell.core.parameters import SURROUNDINGS_V1, Parameters
+from placecell.core.segments import Segments
+from placecell.core.types import Float32, Float64, Int64
+from placecell.descriptors.extractor import Extractor, load_extractor
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.orientation import align
+from placecell.descriptors.pair_classifier import load_pair_classifier
 from training import recognition
 from training.evaluation import measure
 from training.pair_classifier import Pairs, concatenated, train_forest

@@ -1,11 +1,11 @@
 """Recognition in context: a segment and what stands around it (beyond the paper).
 
 The segment itself is described by a network trained by the multi-similarity loss (Wang et al.,
-2019), which did best of those compared (docs/results/recognition.md). Its surroundings
-(`segments.surroundings`) are projected by linear discriminant analysis, which finds the directions
-in which groups lie apart while views of one group stay together: a closed form, learned in seconds,
-that hardly over-fits. Both stand side by side in the descriptor, the
-surroundings with a constant length, so that segments sent alone are still ranked by themselves.
+2019), which did best of those compared. Its neighborhood (`placecell.descriptors.neighborhood`)
+is projected by linear discriminant analysis, which finds the directions in which groups lie
+apart while views of one group stay together: a closed form, learned in seconds, that hardly
+over-fits. Both stand side by side in the descriptor, the neighborhood with a constant length, so
+that segments sent alone are still ranked by themselves.
 
     placecell train context DRIVE@0:299 --seed 0
 """
@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.stats import ortho_group
 
-from segments.types import Float32, Float64, Int64
+from placecell.core.types import Float32, Float64, Int64
 from training.group_based import GroupBasedRecipe
 from training.metric import MetricRecipe
 from training.training_set import TrainingSet

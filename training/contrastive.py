@@ -14,7 +14,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from segments.types import Float32, Int64
+from placecell.core.types import Float32, Int64
 from training.augmentation import Augmentation
 from training.networks import DescriptorNetwork, describe, normalisation_statistics
 from training.recognition import distance_rows, top1

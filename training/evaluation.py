@@ -8,14 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from segments.cores import available_cores
-from segments.extractor import Extractor, load_extractor
-from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER, model_folder, shipped_models
-from segments.pairs import PairClassifier, load_pair_classifier
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
-from segments.segments import Segments
-from segments.types import Float32, Int8, Int64
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.processors import available_cores
+from placecell.core.segments import Segments
+from placecell.core.types import Float32, Int8, Int64
+from placecell.descriptors.extractor import Extractor, load_extractor
+from placecell.descriptors.pair_classifier import PairClassifier, load_pair_classifier
+from placecell.descriptors.shipped_models import (
+    BASELINE,
+    DEFAULT_MODEL,
+    MODELS_FOLDER,
+    model_folder,
+    shipped_models,
+)
+from placecell.segmentation.recording import Recording
 from training import recognition
 
 

@@ -15,8 +15,8 @@ from typing import Any
 
 from rich.progress import Progress
 
-from segments.extractor import MODEL_FILE
-from segments.manifest import FILE as MANIFEST_FILE
+from placecell.descriptors.extractor import MODEL_FILE
+from placecell.descriptors.manifest import FILE as MANIFEST_FILE
 from training import methods
 from training.comparison import compare, fits_grid, throughput
 from training.evaluation import machine

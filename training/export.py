@@ -8,7 +8,7 @@ import onnx
 import torch
 from torch import Tensor, nn
 
-from segments.types import Float32
+from placecell.core.types import Float32
 from training.context import Projection
 from training.networks import DescriptorNetwork
 

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from segments.types import Int64
+from placecell.core.types import Int64
 from training.augmentation import Augmentation
 from training.networks import DIMENSION, DescriptorNetwork, describe, normalisation_statistics
 from training.recognition import top1

@@ -12,8 +12,8 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from segments.types import Float32
-from segments.voxels import voxelise
+from placecell.core.types import Float32
+from placecell.descriptors.voxels import voxelise
 from training.processor import has_bfloat16
 from training.training_set import TrainingSet
 

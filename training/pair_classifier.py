@@ -24,7 +24,7 @@ from sklearn.ensemble import RandomForestClassifier
 from sklearn.linear_model import LogisticRegression
 from torch import Tensor, nn
 
-from segments.types import Float32, Float64, Int64
+from placecell.core.types import Float32, Float64, Int64
 from training.export import to_onnx
 from training.recognition import area_under_roc, best_threshold, expected_calibration_error
 

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from segments.eigenvalue import eigenvalue_descriptors
-from segments.extractor import MODEL_FILE, Extractor, OnnxExtractor, load_extractor
-from segments.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
-from segments.pairs import load_pair_classifier
-from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
-from segments.quantiser import Quantiser
-from segments.types import Float32, Int64
+from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from placecell.core.types import Float32, Int64
+from placecell.descriptors.eigenvalue import eigenvalue_descriptors
+from placecell.descriptors.extractor import MODEL_FILE, Extractor, OnnxExtractor, load_extractor
+from placecell.descriptors.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
+from placecell.descriptors.pair_classifier import load_pair_classifier
+from placecell.descriptors.quantizer import Quantiser
 from training import recognition
 from training.card import write_card
 from training.evaluation import machine, measure

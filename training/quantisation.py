@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from segments.voxels import voxelise
+from placecell.descriptors.voxels import voxelise
 from training.networks import batches
 from training.training_set import TrainingSet
 

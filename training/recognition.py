@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import rankdata
 
-from segments.types import Bool, Float32, Float64, Int64
+from placecell.core.types import Bool, Float32, Float64, Int64
 
 PAIRS = 20_000
 """Positive pairs, and as many negative."""

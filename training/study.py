@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from segments.alignment import sensor_bearings
-from segments.extractor import Extractor
-from segments.types import Bool, Float32, Float64, Int64
+from placecell.core.types import Bool, Float32, Float64, Int64
+from placecell.descriptors.extractor import Extractor
+from placecell.descriptors.orientation import sensor_bearings
 from training import recognition
 from training.augmentation import Augmentation
 from training.evaluation import mean

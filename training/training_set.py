@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from segments.parameters import Parameters, SurroundingsParameters
-from segments.recording import Recording
-from segments.segments import Segments
-from segments.types import Bool, Float32, Int64
+from placecell.core.parameters import Parameters, SurroundingsParameters
+from placecell.core.segments import Segments
+from placecell.core.types import Bool, Float32, Int64
+from placecell.segmentation.recording import Recording
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from bench.attack.prober import Probe, ProbePlan
 from bench.attack.target import OWNER, VICTIM, Target
 from bench.attack.wire import DELTA, MSGPACK, Answer, Request, ask, ask_all
 from bench.made_map import Kind
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 VICTIM_MAP = "victim-map"
 VICTIM_SEGMENTS = 20

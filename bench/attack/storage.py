@@ -18,7 +18,7 @@ from bench.attack.target import ONCE, OWNER, ROBOT, VICTIM, WRITER, Target
 from bench.attack.wire import MAP, Answer, Request, edit
 from bench.made_map import EPOCH, Kind
 from bench.server import STOP_SECONDS
-from segments.types import Float64, UInt32
+from placecell.core.types import Float64, UInt32
 
 LAST_ID = (1 << 32) - 1
 DATABASE = "maps.sqlite"

@@ -13,7 +13,7 @@ import numpy as np
 from placecell_client import Client, Retries
 
 from bench.server import Service, address_of
-from segments.types import UInt32
+from placecell.core.types import UInt32
 from service.keys import new_key
 
 CORES = 2

@@ -18,7 +18,7 @@ from bench.attack.stage import NONE, Case, Stage, delta_of, kind_of, with_column
 from bench.attack.target import HALL, OWNER, READER, RIGHTS, ROBOT, VICTIM, Target
 from bench.attack.wire import ATTACKER, JSON, MAP, MSGPACK, Answer, Request, edit, raw
 from bench.made_map import Kind
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 ROOT = Path(__file__).resolve().parents[2]
 """Root folder of the checkout."""

@@ -24,7 +24,7 @@ from bench.attack.stage import (
 from bench.attack.target import OWNER, READER, ROBOT, Target
 from bench.attack.wire import DELTA, JSON, MAP, MSGPACK, Request, abandon, edit
 from bench.made_map import EPOCH, Kind
-from segments.types import UInt32
+from placecell.core.types import UInt32
 
 Cloud = np.ndarray[Any, np.dtype[np.float32]]
 

@@ -14,7 +14,7 @@ from bench.peers.layout import ANSWERS, answered, lay_out
 from bench.peers.runner import REFINED
 from bench.peers.score import score
 from bench.pose_queries import MAPPED_METRES
-from segments.extraction import Progress, silent
+from placecell.segmentation.pipeline import Progress, silent
 from training.evaluation import machine
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,12 +9,12 @@ from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
 from bench.pose_queries import MAPPED_METRES, spread
-from segments.blocks import alternate_blocks, parameters_of
-from segments.drives import Drive
-from segments.extraction import Progress, silent
-from segments.local_map import Accumulator, transform
-from segments.parameters import PROTOCOL_V1, Parameters
-from segments.types import Bool, Float64
+from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.types import Bool, Float64
+from placecell.datasets import Drive
+from placecell.segmentation.drive_splits import alternate_blocks, parameters_of
+from placecell.segmentation.local_map import Accumulator, transform
+from placecell.segmentation.pipeline import Progress, silent
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 from bench.peers.exchange import read_answers
 from bench.peers.frames import Stretch, map_poses, query_poses, write_map, write_queries
 from bench.peers.runner import PEERS
-from segments.extraction import Progress, silent
+from placecell.segmentation.pipeline import Progress, silent
 
 STAMP = "comparison.sha256"
 """Written when all local maps are: of which comparison they are."""

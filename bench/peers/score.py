@@ -8,8 +8,8 @@ import numpy as np
 
 from bench.peers.exchange import Answer, Peer
 from bench.pose_report import OFF, Outcome, median, shares
-from segments.localisation import Pose
-from segments.types import Bool, Float64
+from placecell.core.types import Bool, Float64
+from placecell.localization import Pose
 
 STEPS = 20
 """Scores at which right and wrong are counted, at most."""

@@ -34,7 +34,7 @@ def align(
     """
     from bench.align import bench as run
     from bench.align import draw
-    from segments.models import DEFAULT_MODEL, model_folder
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         folder = model_folder(model or DEFAULT_MODEL)

@@ -29,8 +29,8 @@ def floors(
     from bench.floors import bench as run
     from bench.floors import loaded
     from bench.map_content import Views
-    from segments.extractor import load_extractor
-    from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     names = (DEFAULT_MODEL, OTHER_MODEL)
     with clear_errors():

@@ -31,8 +31,8 @@ def ladder(
     """Measure what each way to store descriptors costs, in bytes and in recognition."""
     from bench.ladder import draw
     from bench.ladder import ladder as run
-    from segments.extractor import load_extractor
-    from segments.models import DEFAULT_MODEL, model_folder
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         extractor = load_extractor(model_folder(model or DEFAULT_MODEL))

@@ -37,8 +37,8 @@ def localize(
     from bench.localize import Plan
     from bench.localize import bench as run
     from bench.map_content import Views
-    from segments.extractor import load_extractor
-    from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)

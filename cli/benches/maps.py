@@ -36,8 +36,8 @@ def maps(
     from bench.map_writers import Plan
     from bench.maps import bench as run
     from bench.maps import draw
-    from segments.extractor import load_extractor
-    from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)

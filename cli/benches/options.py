@@ -9,8 +9,8 @@ from cli.sources import load, show
 from cli.tables import JsonFile, write_json
 
 if TYPE_CHECKING:
-    from segments.recording import Recording
-    from segments.segments import Segments
+    from placecell.core.segments import Segments
+    from placecell.segmentation.recording import Recording
 
 __all__ = ["Drawn", "JsonFile", "Kept", "Seed", "Source", "write_json"]
 

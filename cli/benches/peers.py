@@ -89,7 +89,7 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
 
     from bench.peers.frames import stretches_of_one, stretches_of_two
     from bench.pose_queries import origin_of
-    from segments.drives import open_drive
+    from placecell.datasets import open_drive
 
     mapped = open_drive(map_drive)
     if query_drive is None:

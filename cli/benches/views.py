@@ -24,8 +24,8 @@ def views(
 ) -> None:
     """Measure how many segments a map needs if things are stored once, or from several sides."""
     from bench.views import views as run
-    from segments.extractor import load_extractor
-    from segments.models import DEFAULT_MODEL, model_folder
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         extractor = load_extractor(model_folder(model or DEFAULT_MODEL))

@@ -6,9 +6,9 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
-from segments.cancellation import current
-from segments.localisation import LocalisationParameters
-from segments.map_alignment import AlignmentParameters
+from placecell.core.cancellation import current
+from placecell.localization import LocalisationParameters
+from placecell.map_alignment import AlignmentParameters
 from service.aligning import K, MapSide, align_maps, check_same_model
 from service.alignment_schemas import AlignmentOut, MergedOut, MergeRequest
 from service.audit import tell_written

@@ -4,7 +4,7 @@ from typing import Any
 
 from scipy.spatial.transform import Rotation
 
-from segments.localisation import Pose
+from placecell.localization import Pose
 from service.keys import Holder
 from service.map_schemas import MapOut, VersionOut, WrittenOut
 from service.map_store import Commit

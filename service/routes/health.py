@@ -8,7 +8,7 @@ from fastapi.responses import PlainTextResponse
 from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.cost import MACHINE, RATES
 from service.info_schemas import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.problems import Problem, documented

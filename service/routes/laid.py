@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from segments.map_alignment import MapAlignment, Overlap
-from segments.types import UInt32
+from placecell.core.types import UInt32
+from placecell.map_alignment import MapAlignment, Overlap
 from service.alignment_schemas import (
     AlignmentOut,
     LaidOut,

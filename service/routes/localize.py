@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from fastapi import APIRouter, Request, Response
 
-from segments.localisation import Hypothesis, LocalisationParameters
-from segments.localisation.evidence import Evidence, middle_of
+from placecell.localization import Hypothesis, LocalisationParameters
+from placecell.localization.evidence import Evidence, middle_of
 from service.admission import client_of
 from service.bodies import ENCODINGS, Body, answer_type, parse, render
 from service.keys import Holder

@@ -2,7 +2,7 @@
 
 from fastapi import APIRouter, Request
 
-from segments.manifest import ModelError
+from placecell.descriptors.manifest import ModelError
 from service.audit import logger
 from service.info_schemas import ReloadResponse
 from service.problems import Problem, documented

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from segments.drives import Drive, open_drive
+from placecell.datasets import Drive, open_drive
 from tests.segments.segment_builders import box, pose, write_odometry
 
 BOXES = [

@@ -12,10 +12,10 @@ from bench.describe import Plan, bench, draw, ratio
 from bench.networks import files, paper_network, precision
 from bench.scans import draw_scans
 from cli import app
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
-from segments.parameters import PROTOCOL_V1
-from segments.segments import Segments
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.segments import Segments
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from tests.segments.segment_builders import many_segments
 
 TINY = Plan(batches=(1, 2), threads=(1, 2), repeats=1, seconds=0.0, segments=6, latencies=3)

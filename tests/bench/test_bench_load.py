@@ -12,7 +12,7 @@ import pytest
 from bench import serve, soak, workload
 from bench.load import Load, Outcome, request_of, run
 from bench.rates import rate
-from segments.segments import Segments
+from placecell.core.segments import Segments
 
 
 def scans(count: int) -> list[Segments]:

@@ -12,8 +12,8 @@ from bench.localize import Plan, road_with_queries
 from bench.map_content import VIEWS, Views
 from bench.pose_queries import random_frame
 from cli import app
-from segments.extractor import load_extractor
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.bench.test_ladder import recorded_from_two_places
 
 

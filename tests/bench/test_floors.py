@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from bench.floors import CASES, Case, bench, loaded, run
 from bench.map_content import Views
 from cli import app
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.models import Model
 from tests.bench.test_ladder import recorded_from_two_places
 

@@ -13,12 +13,12 @@ from bench import ladder as ladders
 from bench.ladder import draw, ladder, stored_as
 from bench.map_content import VIEWS, Views, map_of
 from cli import app
-from segments.extractor import load_extractor
-from segments.models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
-from segments.parameters import PROTOCOL_V1
-from segments.quantiser import Quantiser
-from segments.recording import Recording
-from segments.types import Float32
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.types import Float32
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
+from placecell.segmentation.recording import Recording
 from tests.training.conftest import make_shapes
 
 EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)

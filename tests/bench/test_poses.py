@@ -21,7 +21,7 @@ from bench.pose_report import (
     until_localised,
 )
 from bench.poses import outcome_of, row_of
-from segments.localisation import Pose, localise
+from placecell.localization import Pose, localize
 from tests.client.map_builders import random_map
 from tests.segments.localisation.scene_builders import scene
 from tests.segments.segment_builders import pose, write_odometry
@@ -122,7 +122,7 @@ def test_queries_beyond_the_map_stand_apart() -> None:
 
 def test_an_outcome_is_off_where_the_robot_is() -> None:
     made = scene(1)
-    found = localise(made.candidates)
+    found = localize(made.candidates)
     sensor = made.candidates.centroids.mean(axis=0)
     told = outcome_of(found, query(made.pose, sensor), 5.0)
     assert told.localised
@@ -131,7 +131,7 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
     # A truth that lies 2 m to the east.
     aside = Pose.of_yaw(0, np.array([2.0, 0, 0])).after(made.pose)
     assert outcome_of(found, query(aside, sensor), 5.0).metres == pytest.approx(2, abs=0.2)
-    lost = localise(scene(2, found=0.0).candidates)
+    lost = localize(scene(2, found=0.0).candidates)
     told = outcome_of(lost, query(made.pose, sensor), 5.0)
     assert told.reason
     assert np.isnan(told.normalised)
@@ -143,7 +143,7 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
     ids=["yaw", "se3"],
 )
 def test_an_error_is_held_against_what_is_stated_of_it(deviations: tuple[float, ...]) -> None:
-    found = localise(scene(1).candidates)
+    found = localize(scene(1).candidates)
     assert found.best is not None
     pose, sensor = Pose.of_yaw(0.5, np.array([10.0, 20.0, 0.0])), np.zeros(3)
     stated = np.diag(np.square(deviations))

@@ -8,9 +8,9 @@ import pytest
 
 from bench.pose_queries import Pair
 from bench.prepared import recording_of
-from segments.drives import Drive, open_drive
-from segments.extraction import record
-from segments.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.datasets import Drive, open_drive
+from placecell.segmentation.pipeline import record
 from tests.segments.segment_builders import box, pose, write_odometry
 
 

@@ -10,9 +10,9 @@ from typer.testing import CliRunner
 
 from bench.views import views
 from cli import app
-from segments.extractor import load_extractor
-from segments.models import BASELINE, MODELS_FOLDER
-from segments.recording import Recording
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.shipped_models import BASELINE, MODELS_FOLDER
+from placecell.segmentation.recording import Recording
 from tests.bench.test_ladder import recorded
 
 EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)

@@ -9,8 +9,8 @@ from placecell_client import CompactMap
 
 from bench.map_content import map_of
 from bench.server import running_service
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
 
 @pytest.fixture(scope="module")

@@ -14,10 +14,10 @@ from typer.testing import CliRunner, Result
 import town
 from cli import app
 from cli.sources import TOWN_SCANS, town_recordings
-from segments.drives import open_drive
-from segments.localisation import Confidence
-from segments.manifest import Manifest
-from segments.recording import Recording
+from placecell.datasets import open_drive
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Confidence
+from placecell.segmentation.recording import Recording
 from tests.segments.segment_builders import pose, write_odometry, write_raw
 from tests.segments.test_kitti_raw import record, unit_at_the_sensor
 

@@ -13,7 +13,7 @@ from bench.meeting import Meeting, Told
 from bench.robot import Robot
 from bench.score import Score
 from cli import app
-from segments.localisation import Pose
+from placecell.localization import Pose
 from tests.segments.segment_builders import MemoryDrive, pose
 
 HERE = np.zeros(3)

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from cli import app
-from segments.drives import open_drive
+from placecell.datasets import open_drive
 from town import ODOMETRY_FILE, read_origin
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from placecell_client import Client, ItemError
 from placecell_client.wire import segments_of
 
-from segments.quantiser import LEVELS, Quantiser
+from placecell.descriptors.quantizer import LEVELS, Quantiser
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "reference" / "msgpack.md"
 LINE = r" {0,2}(\d+)  ([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?"

@@ -27,9 +27,9 @@ from placecell_client.map_edit import take
 from bench.map_content import map_of
 from bench.server import running_service
 from cli import app
-from segments.drives import KittiOdometry
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.datasets import KittiOdometry
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.docs import http_examples
 from tests.segments.segment_builders import pose, write_odometry
 from town import ODOMETRY_FILE

@@ -14,8 +14,8 @@ from placecell_client.map_edit import take
 from bench.map_content import map_of
 from bench.server import running_service
 from cli.reference.routes import openapi, routes_of
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.docs.http_examples import PAGE, Example, examples, prepare, run
 
 EXAMPLES = list(examples(PAGE.read_text(encoding="utf-8")))

@@ -1,4 +1,4 @@
-"""What the tests of `segments/` share: shapes, drives in memory, drives in KITTI's layouts."""
+"""What the tests of `placecell/` share: shapes, drives in memory, drives in KITTI's layouts."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,9 +6,9 @@ from typing import cast
 
 import numpy as np
 
-from segments.drives import Drive
-from segments.segments import Segments
-from segments.types import Float32, Float64
+from placecell.core.segments import Segments
+from placecell.core.types import Float32, Float64
+from placecell.datasets import Drive
 
 KITTI_TR = (
     "4.276802385584e-04 -9.999672484946e-01 -8.084491683471e-03 -1.198459927713e-02 "

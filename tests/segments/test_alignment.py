@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from segments.alignment import align, sensor_bearings
-from segments.jit import compiled
-from segments.segments import Segments
-from segments.types import Int64
+from placecell.core.jit import compiled
+from placecell.core.segments import Segments
+from placecell.core.types import Int64
+from placecell.descriptors.orientation import align, sensor_bearings
 from tests.segments.segment_builders import many_segments, one_segment, yaw_matrix
 
 # Nothing about it is symmetric; its centroid is (2, 1, 2).

@@ -3,8 +3,8 @@ import warnings
 import numpy as np
 import pytest
 
-from segments.blocks import alternate_blocks, parameters_of
-from segments.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.segmentation.drive_splits import alternate_blocks, parameters_of
 from tests.segments.segment_builders import MemoryDrive, pose
 
 

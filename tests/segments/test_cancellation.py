@@ -8,14 +8,8 @@ import numba
 import numpy as np
 import pytest
 
-from segments.cancellation import (
-    Cancelled,
-    CancelToken,
-    cancelled_by,
-    current,
-    is_cancelled,
-)
-from segments.types import Int32, Int64
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by, current, is_cancelled
+from placecell.core.types import Int32, Int64
 
 
 @numba.njit(nogil=True)  # type: ignore[misc, unused-ignore]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from segments.cells import neighboring
+from placecell.core.grid_cells import neighboring
 
 
 @pytest.mark.parametrize("offset", [0.0, 5.0, -3.2e6, 9e7])

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from segments import cores
-from segments.cores import available_cores, limit_threads
+from placecell.core import processors
+from placecell.core.processors import available_cores, limit_threads
 
 V2 = "31 23 0:28 {mounted} /sys/fs/cgroup rw - cgroup2 cgroup rw\n"
 V1 = "32 31 0:29 {mounted} /sys/fs/cgroup/cpu,cpuacct rw shared:9 - cgroup cgroup rw,cpu,cpuacct\n"
@@ -14,7 +14,7 @@ V1 = "32 31 0:29 {mounted} /sys/fs/cgroup/cpu,cpuacct rw shared:9 - cgroup cgrou
 
 @pytest.fixture(autouse=True)
 def _host_of_64_cores(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cores, "visible_cores", lambda: 64)
+    monkeypatch.setattr(processors, "visible_cores", lambda: 64)
 
 
 def host(root: Path, groups: str, mounts: str, files: dict[str, str]) -> Path:
@@ -93,7 +93,7 @@ def test_B14_host_without_control_groups_has_the_cores_of_its_affinity(tmp_path:
 
 
 def test_B14_affinity_is_below_the_quota(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cores, "visible_cores", lambda: 1)
+    monkeypatch.setattr(processors, "visible_cores", lambda: 1)
     root = host(tmp_path, "0::/\n", V2.format(mounted="/"), {"cpu.max": "200000 100000"})
     assert available_cores(root) == 1
 
@@ -123,8 +123,8 @@ def test_B14_environment_stays_without_need(tmp_path: Path, environment: dict[st
 def test_B14_extractor_has_a_session_for_each_available_core(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from segments import extractor
-    from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+    from placecell.descriptors import extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     made: list[Path] = []
     monkeypatch.setattr(extractor, "available_cores", lambda: 2)

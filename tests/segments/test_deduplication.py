@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from segments.deduplication import keep_distinct
-from segments.types import Bool, UInt8
+from placecell.core.types import Bool, UInt8
+from placecell.segmentation.deduplication import keep_distinct
 
 BITS = 38 * 38 * 18
 

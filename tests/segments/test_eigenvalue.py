@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from segments.eigenvalue import (
+from placecell.core.segments import Segments
+from placecell.descriptors.eigenvalue import (
     FEATURES,
     eigenvalue_descriptors,
     eigenvalue_features,
     eigenvalues,
 )
-from segments.segments import Segments
 from tests.segments.segment_builders import many_segments, one_segment
 
 

@@ -6,14 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.alignment import align
-from segments.drives import Drive, open_drive
-from segments.extraction import packed_grids, record, segment_frames, segment_map
-from segments.local_map import transform
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
-from segments.types import Float32, Float64
-from segments.voxels import voxelise
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.types import Float32, Float64
+from placecell.datasets import Drive, open_drive
+from placecell.descriptors.orientation import align
+from placecell.descriptors.voxels import voxelise
+from placecell.segmentation.local_map import transform
+from placecell.segmentation.pipeline import packed_grids, record, segment_frames, segment_map
+from placecell.segmentation.recording import Recording
 from tests.segments.segment_builders import (
     MemoryDrive,
     many_segments,

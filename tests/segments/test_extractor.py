@@ -6,13 +6,13 @@ import onnx
 import pytest
 from onnx import TensorProto, helper, numpy_helper
 
-from segments.eigenvalue import eigenvalue_descriptors
-from segments.extractor import BATCH, load_extractor
-from segments.manifest import Manifest, ModelError, preprocessing_of
-from segments.parameters import PROTOCOL_V1
-from segments.quantiser import Quantiser
-from segments.segments import Segments
-from segments.voxels import voxelise
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.segments import Segments
+from placecell.descriptors.eigenvalue import eigenvalue_descriptors
+from placecell.descriptors.extractor import BATCH, load_extractor
+from placecell.descriptors.manifest import Manifest, ModelError, preprocessing_of
+from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.voxels import voxelise
 from tests.segments.segment_builders import many_segments
 
 NOTHING = Segments.of([], np.zeros((0, 3)))

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from segments.ground import is_ground
-from segments.parameters import PROTOCOL_V1
-from segments.types import Bool, Float32
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.types import Bool, Float32
+from placecell.segmentation.ground import is_ground
 from tests.segments.segment_builders import box, plane
 
 CAR = (4.4, 1.8, 1.5)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from segments.groups import Grouper, nearest_pairs
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.segmentation.grouping import Grouper, nearest_pairs
 
 
 def at(*xs: float) -> Float64:

@@ -5,9 +5,9 @@ import pytest
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.distance import cdist
 
-from segments.growing import grow_regions, segment_indices
-from segments.parameters import Parameters
-from segments.types import Float32
+from placecell.core.parameters import Parameters
+from placecell.core.types import Float32
+from placecell.segmentation.region_growing import grow_regions, segment_indices
 
 
 def points(*rows: tuple[float, float, float]) -> Float32:

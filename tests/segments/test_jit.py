@@ -14,10 +14,10 @@ import numba
 import numpy as np
 import pytest
 
-from segments import jit
+from placecell.core import jit
 
 SOURCE = """
-from segments.jit import compiled
+from placecell.core.jit import compiled
 
 @compiled
 def double(values):
@@ -180,11 +180,11 @@ def test_B2_cache_that_cannot_be_made(
 
 
 def test_B2_every_compiled_function_has_the_one_decorator() -> None:
-    root = Path(jit.__file__).parents[1]
+    root = Path(jit.__file__).parents[2]
     using = [
         file.relative_to(root).as_posix()
         for folder in ("segments", "service", "town", "bench", "cli", "training")
         for file in (root / folder).rglob("*.py")
         if "njit(" in file.read_text() or "numba.jit" in file.read_text()
     ]
-    assert using == ["segments/jit.py"]
+    assert using == ["placecell/core/jit.py"]

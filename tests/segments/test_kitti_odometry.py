@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.drives import DriveError, KittiOdometry, Reading, open_drive, reading
+from placecell.datasets import DriveError, KittiOdometry, Reading, open_drive, reading
 from tests.segments.segment_builders import KITTI_TR, pose, write_odometry, write_scan
 
 # Straight ahead, then a bend to the left, uphill.

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from segments.drives import DriveError, KittiRaw, open_drive
+from placecell.datasets import DriveError, KittiRaw, open_drive
 from tests.segments.segment_builders import IMU_TO_VELO, pose, write_raw, yaw_matrix
 
 LATITUDE, LONGITUDE, ALTITUDE = 49.0, 8.4, 115.0

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from segments.local_map import Accumulator, in_range, transform, voxel_means
-from segments.parameters import PROTOCOL_V1, Parameters
-from segments.types import Float32
+from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.types import Float32
+from placecell.segmentation.local_map import Accumulator, in_range, transform, voxel_means
 from tests.segments.segment_builders import MemoryDrive, pose
 
 

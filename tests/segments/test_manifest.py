@@ -5,9 +5,15 @@ from typing import Any
 
 import pytest
 
-from segments.manifest import PAIR_FILE, Manifest, ModelError, file_hash, preprocessing_of
-from segments.parameters import PROTOCOL_V1, Parameters
-from segments.quantiser import Quantiser
+from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.descriptors.manifest import (
+    PAIR_FILE,
+    Manifest,
+    ModelError,
+    file_hash,
+    preprocessing_of,
+)
+from placecell.descriptors.quantizer import Quantiser
 
 MANIFEST = Manifest(
     name="toy",

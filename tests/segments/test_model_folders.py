@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from segments.models import model_folder, shipped_models
+from placecell.descriptors.shipped_models import model_folder, shipped_models
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@ import json
 
 import pytest
 
-from segments.parameters import PROTOCOL_V1, Parameters
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 
 
 def test_protocol_v1() -> None:

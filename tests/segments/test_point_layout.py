@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import segments
-from segments.drives import DriveError, Reading, open_drive, parse_columns, reading
-from segments.drives.point_layout import PointLayout, find_layout
-from segments.types import Float32, Float64
+import placecell
+from placecell.core.types import Float32, Float64
+from placecell.datasets import DriveError, Reading, open_drive, parse_columns, reading
+from placecell.datasets.point_layout import PointLayout, find_layout
 from tests.segments.segment_builders import pose, write_odometry
 
-REAL = Path(segments.__file__).resolve().parents[2] / "shared" / "real"
+REAL = Path(placecell.__file__).resolve().parents[2] / "shared" / "real"
 
 
 def turning_scan(beams: int, steps: int, seed: int) -> Float32:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from segments.quantiser import Quantiser
+from placecell.descriptors.quantizer import Quantiser
 
 
 def test_codes_by_hand() -> None:

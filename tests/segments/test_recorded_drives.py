@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-import segments
-from segments.drives import Drive, KittiOdometry, open_drive
-from segments.extraction import record
-from segments.ground import is_ground
-from segments.local_map import Accumulator, in_range, transform
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
+import placecell
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.datasets import Drive, KittiOdometry, open_drive
+from placecell.segmentation.ground import is_ground
+from placecell.segmentation.local_map import Accumulator, in_range, transform
+from placecell.segmentation.pipeline import record
+from placecell.segmentation.recording import Recording
 
 NAME = "kitti_odometry_00"
-UNPACK = Path(segments.__file__).resolve().parents[2] / "shared" / "data" / "unpack.py"
+UNPACK = Path(placecell.__file__).resolve().parents[2] / "shared" / "data" / "unpack.py"
 
 ROAD, SIDEWALK, PARKING, OTHER_GROUND, TERRAIN = 40, 48, 44, 49, 72
 CAR, BUILDING, TRUNK, POLE = 10, 50, 71, 80

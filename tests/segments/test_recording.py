@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from safetensors.numpy import load_file, save_file
 
-from segments.parameters import Parameters
-from segments.recording import Recording, RecordingError
-from segments.segments import Segments
+from placecell.core.parameters import Parameters
+from placecell.core.segments import Segments
+from placecell.segmentation.recording import Recording, RecordingError
 from tests.segments.segment_builders import many_segments
 
 COLUMNS = ("points", "ends", "sensors", "frames", "groups", "distinct")

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from segments.segments import Segments
+from placecell.core.segments import Segments
 from tests.segments.segment_builders import many_segments
 
 CLOUDS = [

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-import segments
+import placecell
 
-PACKAGE = Path(segments.__file__).parent
+PACKAGE = Path(placecell.__file__).parent
 FOREIGN = {
     "torch",
     "fastapi",
@@ -39,7 +39,7 @@ def test_no_web_no_torch_and_no_neighbours_are_loaded() -> None:
         cwd=PACKAGE.parent, capture_output=True, text=True, check=True,
     )  # fmt: skip
     loaded = set(done.stdout.split())
-    assert "segments" in loaded
+    assert "placecell" in loaded
     assert not loaded & (FOREIGN | NEIGHBOURS)
 
 

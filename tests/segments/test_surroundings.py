@@ -6,10 +6,10 @@ import sys
 import numpy as np
 import pytest
 
-from segments.cancellation import Cancelled, CancelToken, cancelled_by
-from segments.parameters import SURROUNDINGS_V1, SurroundingsParameters
-from segments.segments import Segments
-from segments.surroundings import (
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
+from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from placecell.core.segments import Segments
+from placecell.descriptors.neighborhood import (
     SEED,
     count_voxels,
     describe_surroundings,
@@ -224,7 +224,7 @@ def test_A4_seed_makes_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
     segments = street(seed=9)
     before = describe_surroundings(segments)
     voxels, owners = voxels_by_owner(segments, 0.6)
-    monkeypatch.setattr("segments.surroundings.SEED", SEED + np.uint64(12_346))
+    monkeypatch.setattr("placecell.descriptors.neighborhood.SEED", SEED + np.uint64(12_346))
     again, owners_again = voxels_by_owner(segments, 0.6)
     assert describe_surroundings(segments).tobytes() == before.tobytes()
     assert again.tobytes() == voxels.tobytes()
@@ -232,7 +232,7 @@ def test_A4_seed_makes_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_A4_seed_is_of_the_process() -> None:
-    command = "from segments.surroundings import SEED; print(SEED.tolist())"
+    command = "from placecell.descriptors.neighborhood import SEED; print(SEED.tolist())"
     seeds = {
         subprocess.run(
             [sys.executable, "-c", command], check=True, capture_output=True, text=True

@@ -4,8 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.drives.drive import check_rotations, find_scans, read_table, read_velodyne
-from segments.drives.errors import DriveError
+from placecell.datasets.drive import check_rotations, find_scans, read_table, read_velodyne
+from placecell.datasets.errors import DriveError
 from tests.segments.segment_builders import MemoryDrive, pose, write_scan
 
 

@@ -4,11 +4,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from segments.alignment import align
-from segments.parameters import PROTOCOL_V1, Parameters
-from segments.segments import Segments
-from segments.types import Float32, UInt8
-from segments.voxels import voxelise
+from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.segments import Segments
+from placecell.core.types import Float32, UInt8
+from placecell.descriptors.orientation import align
+from placecell.descriptors.voxels import voxelise
 from tests.segments.segment_builders import box, many_segments, one_segment
 
 

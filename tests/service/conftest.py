@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.app import create_app
 from service.settings import Settings
 from tests.service.service_builders import write_eigenvalue_model, write_onnx_model

@@ -12,10 +12,10 @@ import onnx
 from onnx import TensorProto, helper
 from placecell_client import CompactMap, Delta, encode_delta
 
-from segments.manifest import Manifest, preprocessing_of
-from segments.parameters import PROTOCOL_V1
-from segments.quantiser import Quantiser
-from segments.types import Float64, Int8
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.types import Float64, Int8
+from placecell.descriptors.manifest import Manifest, preprocessing_of
+from placecell.descriptors.quantizer import Quantiser
 
 STEP = 0.02
 PROBLEM = "application/problem+json"

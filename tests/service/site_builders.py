@@ -8,7 +8,7 @@ import numpy as np
 from placecell_client import CompactMap, encode, moved
 from placecell_client.canonical import canonical
 
-from segments.localisation import Pose
+from placecell.localization import Pose
 from tests.segments.map_alignment.map_builders import MadeMap, Street, drive, street
 from tests.service.service_builders import write_eigenvalue_model
 

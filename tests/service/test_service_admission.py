@@ -12,7 +12,7 @@ import httpx
 import numpy as np
 import pytest
 
-from segments.extractor import EigenvalueExtractor, Inputs
+from placecell.descriptors.extractor import EigenvalueExtractor, Inputs
 from service.app import create_app
 from service.settings import Settings
 from service.state import open_state

@@ -12,8 +12,8 @@ from placecell_client.map_edit import take
 from scipy.spatial.transform import Rotation
 
 import service.routes.align as route
-from segments.localisation import Pose
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Pose
 from service import aligning
 from tests.segments.map_alignment.map_builders import drive
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes

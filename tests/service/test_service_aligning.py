@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from segments.cancellation import Cancelled
-from segments.types import Float64, Int8, Int64
+from placecell.core.cancellation import Cancelled
+from placecell.core.types import Float64, Int8, Int64
 from service import aligning
 from service.aligning import MapLooks
 

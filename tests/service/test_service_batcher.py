@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from prometheus_client import CollectorRegistry
 
-from segments.extractor import Extractor, Inputs
-from segments.types import Float32
+from placecell.core.types import Float32
+from placecell.descriptors.extractor import Extractor, Inputs
 from service.batcher import Batcher
 from service.metrics import Metrics
 from service.timing import Timing

@@ -8,7 +8,7 @@ from placecell_client import CompactMap, Delta, decode, decode_delta, encode
 from placecell_client.map_delta import MEDIA_TYPE
 from placecell_client.map_edit import apply, empty, join
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 

@@ -9,7 +9,7 @@ import pytest
 from placecell_client import Client, ServiceError, encode
 from placecell_client.wire import MEDIA_TYPES
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.bodies import MSGPACK, Body, parse, render
 from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
 from service.scan import Scan

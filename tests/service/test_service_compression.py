@@ -8,7 +8,7 @@ import pytest
 import zstandard
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
 
 CODERS: dict[str, Any] = {"gzip": gzip.compress, "zstd": zstandard.compress}

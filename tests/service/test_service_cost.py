@@ -10,11 +10,11 @@ import pytest
 from placecell_client.answer import Answer
 from placecell_client.reading import info
 
-from segments.manifest import Manifest
-from segments.map_alignment import AlignmentParameters
-from segments.parameters import SURROUNDINGS_V1
-from segments.segments import Segments
-from segments.surroundings import voxels_by_owner
+from placecell.core.parameters import SURROUNDINGS_V1
+from placecell.core.segments import Segments
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.neighborhood import voxels_by_owner
+from placecell.map_alignment import AlignmentParameters
 from service.cost import (
     RATES,
     Cost,

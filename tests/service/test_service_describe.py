@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from segments.extractor import Inputs, load_extractor
-from segments.manifest import Manifest
-from segments.segments import Segments
+from placecell.core.segments import Segments
+from placecell.descriptors.extractor import Inputs, load_extractor
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, request_of
 
 SENSOR = (9.0, -3.0, 1.7)
@@ -150,7 +150,7 @@ def test_a_descriptor_that_is_not_finite_is_an_error(
         rows = np.arange(len(inputs["features"]))[:, None]
         return np.where(rows == 1, np.nan, np.zeros((1, 7), np.float32))
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", broken)
+    monkeypatch.setattr("placecell.descriptors.extractor.EigenvalueExtractor.infer", broken)
     items = service.post("/describe", json=request_of([cloud(0), cloud(1), cloud(2)])).json()
     assert ["error" in item for item in items["descriptors"]] == [False, True, False]
     assert items["descriptors"][2]["centroid"] == pytest.approx(cloud(2).mean(axis=0), abs=1e-5)

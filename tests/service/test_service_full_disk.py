@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.database import Database
 from service.disk_reserve import DiskReserve
 from service.map_store import Head, Note, StoreError

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from segments.extractor import Inputs
-from segments.manifest import Manifest
+from placecell.descriptors.extractor import Inputs
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, request_of
 
 
@@ -44,7 +44,7 @@ def test_the_service_answers_while_it_computes(
         assert released.wait(60)
         return np.zeros((len(inputs["features"]), 7), np.float32)
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", slow)
+    monkeypatch.setattr("placecell.descriptors.extractor.EigenvalueExtractor.infer", slow)
     with ThreadPoolExecutor(1) as pool:
         pending = pool.submit(service.post, "/describe", json=request_of([cloud(0)]))
         assert entered.wait(60)
@@ -68,7 +68,7 @@ def test_a_failure_tells_the_client_nothing_of_the_inside(
     def failing(*_: object) -> Any:
         raise RuntimeError("a secret of the inside")
 
-    monkeypatch.setattr("segments.extractor.EigenvalueExtractor.infer", failing)
+    monkeypatch.setattr("placecell.descriptors.extractor.EigenvalueExtractor.infer", failing)
     response = service.post("/describe", json=request_of([cloud(0)]))
     assert_problem(response, 500, "internal-error")
     assert "secret" not in response.text

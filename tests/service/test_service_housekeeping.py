@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.housekeeping import Bounds, Housekeeper
 from service.map_cache import MapCache
 from service.state import State

@@ -10,7 +10,7 @@ import pytest
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.map_edit import with_optional
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.id_rules import SLACK
 from service.map_store import IDS, Ids
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes

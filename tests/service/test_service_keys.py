@@ -13,7 +13,7 @@ from placecell_client import encode
 from typer.testing import CliRunner
 
 from cli import app
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service import keys as keys_module
 from service.keys import new_key, read_keys
 from service.refusals import RefusalLog, address_of

@@ -16,9 +16,9 @@ import pytest
 import zstandard
 from placecell_client import encode
 
-from segments.cancellation import Cancelled, current
-from segments.extractor import EigenvalueExtractor
-from segments.manifest import Manifest
+from placecell.core.cancellation import Cancelled, current
+from placecell.descriptors.extractor import EigenvalueExtractor
+from placecell.descriptors.manifest import Manifest
 from service.app import create_app
 from service.keys import new_key
 from service.settings import Settings
@@ -67,7 +67,7 @@ def held(monkeypatch: pytest.MonkeyPatch, place: str) -> Iterator[threading.Sema
         released.set()
 
 
-PREPARE = "segments.extractor.EigenvalueExtractor.prepare"
+PREPARE = "placecell.descriptors.extractor.EigenvalueExtractor.prepare"
 VERSION = "service.routes.maps.version_file"
 
 
@@ -381,7 +381,7 @@ def test_A14_some_members_are_one_body(service: Any, coding: str) -> None:
 
 
 def test_A14_decompression_stops_when_cancelled() -> None:
-    from segments.cancellation import CancelToken, cancelled_by
+    from placecell.core.cancellation import CancelToken, cancelled_by
     from service.compression import decompress
 
     token = CancelToken()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, encode, originated
 from placecell_client.map_edit import apply, empty
 
-from segments.quantiser import Quantiser
+from placecell.descriptors.quantizer import Quantiser
 from service.layers import Layers, robots_of
 from service.map_index import LayeredIndex, index_of
 from tests.service.service_builders import map_of

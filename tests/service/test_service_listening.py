@@ -11,7 +11,7 @@ import typer
 from placecell_client import encode
 
 from cli.serve import _listening_socket
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.settings import Settings
 from tests.service.service_builders import map_of, random_codes
 from tests.service.test_service_process import command, running

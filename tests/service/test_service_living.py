@@ -13,9 +13,9 @@ from placecell_client import CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply, empty, take, with_optional
 
-from segments.cancellation import Cancelled, CancelToken, cancelled_by
-from segments.manifest import Manifest
-from segments.quantiser import Quantiser
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.quantizer import Quantiser
 from service import living
 from service.living import (
     NONE,

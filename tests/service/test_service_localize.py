@@ -12,9 +12,9 @@ from placecell_client import CompactMap, Delta, encode, encode_delta
 from placecell_client.map_edit import take
 from scipy.spatial.transform import Rotation
 
-from segments.localisation import Pose
-from segments.manifest import Manifest
-from segments.types import Float64, Int8, Int64
+from placecell.core.types import Float64, Int8, Int64
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Pose
 from tests.service.service_builders import (
     MSGPACK,
     assert_problem,

@@ -9,9 +9,9 @@ import pytest
 from placecell_client import CompactMap, encode, moved, originated
 from placecell_client.map_edit import take
 
-from segments.cancellation import Cancelled, CancelToken, cancelled_by
-from segments.localisation import LocalisationParameters
-from segments.manifest import Manifest
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import LocalisationParameters
 from service import ranking, shared_index
 from service.ranking import FULL, best_of, votes_of
 from service.shared_index import SharedIndexes

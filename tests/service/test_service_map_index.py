@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from segments.quantiser import LEVELS, Quantiser
-from segments.types import Bool, Float64, Int8, Int64
+from placecell.core.types import Bool, Float64, Int8, Int64
+from placecell.descriptors.quantizer import LEVELS, Quantiser
 from service import map_index
 from service.map_index import MARGIN, FlatIndex, NibbleIndex, index_of
 

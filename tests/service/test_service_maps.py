@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.state import StartError
 from tests.service.service_builders import (
     assert_problem,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
-from segments.types import Int8
+from placecell.core.types import Int8
+from placecell.descriptors.manifest import Manifest
 from service.bodies import render
 from service.packing import Items
 from tests.service.service_builders import (

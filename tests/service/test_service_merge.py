@@ -13,10 +13,10 @@ from placecell_client import CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import take
 
-from segments.localisation import Pose
-from segments.localisation.registration import register_yaw
-from segments.manifest import Manifest
-from segments.map_alignment import MapAlignment
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Pose
+from placecell.localization.registration import register_yaw
+from placecell.map_alignment import MapAlignment
 from service import aligning, merging
 from service.layers import Layers
 from service.map_index import index_of

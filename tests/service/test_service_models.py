@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
-from segments.localisation.confidence import NAME, SHIPPED, shipped
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
+from placecell.localization.confidence import NAME, SHIPPED, shipped
 from tests.service.service_builders import (
     assert_problem,
     cloud,

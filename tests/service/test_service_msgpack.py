@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import (
     MSGPACK,
     assert_problem,

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service import bodies
 from service.packed_schemas import PackedDescribeRequest, PackedMatchRequest
 from service.problems import Problem

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.origins import OriginGuard
 from service.settings import Settings
 from tests.service.service_builders import assert_problem, map_of, random_codes

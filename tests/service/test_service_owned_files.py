@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from placecell_client import MapFileError, decode, encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.database import Database
 from service.id_ledger import LEASE, SKIPPED
 from service.map_store import Ids, Note, StoreError, StoreLockedError

@@ -14,7 +14,7 @@ import pytest
 from placecell_client import AsyncClient, Client, CompactMap, Retries, ServiceError, decode, encode
 from placecell_client.map_edit import take
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from service.partial_uploads import KEEP_SECONDS, KEY_UPLOADS
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 

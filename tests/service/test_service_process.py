@@ -18,7 +18,7 @@ from placecell_client import Client, MapFileError, Maps, ServiceError, encode
 from typer.testing import CliRunner
 
 from cli import app
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
 
 PROGRAM = "import service.server; service.server.HEAD_SECONDS = 2; from cli import app; app()"

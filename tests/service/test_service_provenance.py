@@ -16,7 +16,7 @@ from placecell_client import (
 )
 from placecell_client.map_edit import apply, join, take
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.client.file_surgery import with_inner_header
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 

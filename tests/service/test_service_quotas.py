@@ -13,8 +13,8 @@ from placecell_client import Delta, encode
 from typer.testing import CliRunner
 
 from cli import app
-from segments.manifest import Manifest
-from segments.quantiser import Quantiser
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.quantizer import Quantiser
 from service import housekeeping
 from service.housekeeping import Bounds, Housekeeper
 from service.layers import Layers

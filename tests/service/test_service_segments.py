@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from placecell_client import Delta, decode, encode, encode_delta
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 from tests.service.test_service_keys import made
 

@@ -3,7 +3,7 @@ import threading
 import numpy as np
 import pytest
 
-from segments.localisation import Hypothesis, LocalisationParameters, Pose
+from placecell.localization import Hypothesis, LocalisationParameters, Pose
 from service.sessions import SessionKey, Sessions
 
 BEFORE, NOW = np.zeros(3), np.array([5.0, 0.0, 0.0])

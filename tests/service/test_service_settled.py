@@ -8,9 +8,9 @@ from placecell_client import CompactMap, originated
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import difference, empty
 
-from segments.localisation import Pose
-from segments.map_alignment import AlignmentParameters
-from segments.quantiser import Quantiser
+from placecell.descriptors.quantizer import Quantiser
+from placecell.localization import Pose
+from placecell.map_alignment import AlignmentParameters
 from service.living import RADIUS, VIEWS, SameView
 from service.site import ROUNDED, Part, Share, join, join_settled, laid_before
 

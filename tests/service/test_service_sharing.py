@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from placecell_client import Client, Delta, MapCopy, Maps, Retries, ServiceError, encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import map_of, random_codes
 
 NONE = np.zeros(0, np.uint32)

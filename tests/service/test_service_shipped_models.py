@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 from placecell_client import encode
 
-from segments import pairs
-from segments.extractor import load_extractor
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
-from segments.pairs import load_pair_classifier
-from segments.quantiser import Quantiser
-from segments.segments import Segments
-from segments.types import Float32, Int8
+from placecell.core.segments import Segments
+from placecell.core.types import Float32, Int8
+from placecell.descriptors import pair_classifier
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.pair_classifier import load_pair_classifier
+from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from tests.service.conftest import Start
 from tests.service.service_builders import cloud, map_of, packed, post_packed, request_of
 
@@ -70,7 +70,7 @@ def test_A7_pairs_are_classified_in_parts(monkeypatch: pytest.MonkeyPatch) -> No
     codes = np.random.default_rng(3).integers(-128, 128, (2, 20, manifest.code_bytes))
     a, b = codes.astype(np.int8)
     whole = classifier.probabilities(a, b)
-    monkeypatch.setattr(pairs, "PAIRS", 7)
+    monkeypatch.setattr(pair_classifier, "PAIRS", 7)
     sizes: list[int] = []
     decode = Quantiser.decode
 

@@ -8,8 +8,8 @@ from placecell_client import CompactMap, moved, originated
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import take
 
-from segments.localisation import LocalisationParameters, Pose
-from segments.map_alignment import AlignmentParameters
+from placecell.localization import LocalisationParameters, Pose
+from placecell.map_alignment import AlignmentParameters
 from service.site import laid_before
 from tests.service.site_builders import driven
 

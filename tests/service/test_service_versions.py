@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 

@@ -12,7 +12,7 @@ from placecell_client import CompactMap, Delta, decode, decode_delta, encode, en
 from placecell_client.canonical import canonical
 from placecell_client.map_edit import apply
 
-from segments.manifest import Manifest
+from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
 from tests.service.test_service_keys import made
 

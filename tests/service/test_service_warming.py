@@ -5,7 +5,7 @@ from typing import Any
 
 from placecell_client import encode
 
-from segments.localisation import clique, consistency, correspondences
+from placecell.localization import clique, consistency, correspondences
 from service import json_arrays, ranking
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 

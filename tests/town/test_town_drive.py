@@ -4,8 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.drives import DriveError, open_drive
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.datasets import DriveError, open_drive
 from town import HDL_64E, Route, Town, read_origin, write_drive
 
 SCANS = 8

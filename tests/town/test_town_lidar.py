@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from segments.types import Float32, Float64
+from placecell.core.types import Float32, Float64
 from town import HDL_64E, Lidar, Mesh, Scene
 from town.shapes import box
 

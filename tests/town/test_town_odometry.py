@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town.odometry import Odometry
 
 

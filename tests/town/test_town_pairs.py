@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town import City, Pair, Route, Traversal, draw_pairs
 from town.network import OWN
 from town.pairs import APART, Drawer, means

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
 from town.network import Network
 from town.planner import Planner, Way
 from town.postman import postman

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from segments.drives import open_drive
-from segments.drives.kitti_odometry import KittiOdometry
-from segments.extraction import record
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
-from segments.types import Float64
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.types import Float64
+from placecell.datasets import open_drive
+from placecell.datasets.kitti_odometry import KittiOdometry
+from placecell.segmentation.pipeline import record
+from placecell.segmentation.recording import Recording
 from town import (
     HDL_64E,
     ODOMETRY_FILE,

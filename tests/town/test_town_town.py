@@ -4,7 +4,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from segments.types import Float64
+from placecell.core.types import Float64
 from town import Town
 
 

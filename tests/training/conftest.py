@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from segments.parameters import PROTOCOL_V1
-from segments.segments import Segments
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.segments import Segments
 from training.training_set import TrainingSet
 
 SHAPES = 8

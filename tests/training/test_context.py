@@ -8,12 +8,12 @@ import onnxruntime
 import pytest
 import torch
 
-from segments.extractor import load_extractor
-from segments.manifest import Manifest
-from segments.parameters import PROTOCOL_V1, SURROUNDINGS_V1
-from segments.segments import Segments
-from segments.surroundings import describe_surroundings
-from segments.voxels import voxelise
+from placecell.core.parameters import PROTOCOL_V1, SURROUNDINGS_V1
+from placecell.core.segments import Segments
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.voxels import voxelise
 from training import methods
 from training.context import ContextRecipe, Projection, learn_surroundings, rotation, scatter
 from training.export import Exported, ExportedContext, export_onnx

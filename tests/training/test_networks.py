@@ -7,8 +7,8 @@ import onnxruntime
 import pytest
 import torch
 
-from segments.parameters import PROTOCOL_V1
-from segments.voxels import voxelise
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.descriptors.voxels import voxelise
 from training.export import Exported, export_onnx, principal_axes
 from training.networks import (
     NETWORKS,

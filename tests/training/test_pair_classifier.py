@@ -8,9 +8,9 @@ import onnxruntime
 import pytest
 import torch
 
-from segments.manifest import PAIR_FILE, Manifest
-from segments.pairs import PairClassifier
-from segments.quantiser import Quantiser
+from placecell.descriptors.manifest import PAIR_FILE, Manifest
+from placecell.descriptors.pair_classifier import PairClassifier
+from placecell.descriptors.quantizer import Quantiser
 from training import pair_classifier
 from training.pair_classifier import Calibration, HeldOut, Pairs
 from training.recognition import expected_calibration_error

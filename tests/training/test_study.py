@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from segments.eigenvalue import FEATURES
-from segments.extractor import EigenvalueExtractor
-from segments.manifest import Manifest
-from segments.quantiser import Quantiser
+from placecell.descriptors.eigenvalue import FEATURES
+from placecell.descriptors.extractor import EigenvalueExtractor
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.quantizer import Quantiser
 from training import study
 from training.training_set import TrainingSet
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import torch
 
-from segments.parameters import PROTOCOL_V1
-from segments.recording import Recording
-from segments.segments import Segments
+from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.segments import Segments
+from placecell.segmentation.recording import Recording
 from tests.training.conftest import make_shapes
 from training import contrastive, group_based, siamese
 from training.augmentation import Augmentation
@@ -209,7 +209,7 @@ def test_augmentation_loses_points_but_never_a_segment(shapes: TrainingSet) -> N
     occupancy, _ = harsh.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
     assert (occupancy.reshape(len(shapes), -1).sum(axis=1) >= 1).all()
     gentle = Augmentation(yaw=0.0, cut_share=0.0, drop_most=0.0)
-    from segments.voxels import voxelise
+    from placecell.descriptors.voxels import voxelise
 
     as_it_is, extents = voxelise(shapes.segments, shapes.parameters)
     same, same_extents = gentle.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))

@@ -15,8 +15,8 @@ from bench.peers.frames import (
     write_map,
     write_queries,
 )
-from segments.local_map import Accumulator
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.segmentation.local_map import Accumulator
 from tests.segments.segment_builders import MemoryDrive, pose
 
 

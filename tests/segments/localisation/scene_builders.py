@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from segments.localisation import Candidates, Pose
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.localization import Candidates, Pose
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from segments.localisation.clique import heaviest_clique
-from segments.types import Bool, Float64
+from placecell.core.types import Bool, Float64
+from placecell.localization.clique import heaviest_clique
 
 EFFORT = 10**9
 

@@ -4,7 +4,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from segments.localisation.confidence import (
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.localization.confidence import (
     FEATURES,
     NAME,
     SHIPPED,
@@ -12,10 +14,8 @@ from segments.localisation.confidence import (
     features_of,
     shipped,
 )
-from segments.localisation.hypothesis import Hypothesis
-from segments.localisation.pose import Pose
-from segments.manifest import Manifest
-from segments.models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.localization.hypothesis import Hypothesis
+from placecell.localization.pose import Pose
 
 MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99)
 

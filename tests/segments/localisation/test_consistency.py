@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from segments.localisation.consistency import consistent
-from segments.localisation.correspondences import Correspondences
-from segments.localisation.parameters import LocalisationParameters
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.localization.consistency import consistent
+from placecell.localization.correspondences import Correspondences
+from placecell.localization.parameters import LocalisationParameters
 from tests.segments.localisation.scene_builders import a_pose, any_rotation
 
 

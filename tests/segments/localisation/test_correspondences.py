@@ -4,12 +4,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from segments.cancellation import Cancelled, CancelToken, cancelled_by
-from segments.cells import neighboring
-from segments.localisation.candidates import Candidates
-from segments.localisation.correspondences import Correspondences, correspond, number_places
-from segments.localisation.parameters import LocalisationParameters
-from segments.types import Float64
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
+from placecell.core.grid_cells import neighboring
+from placecell.core.types import Float64
+from placecell.localization.candidates import Candidates
+from placecell.localization.correspondences import Correspondences, correspond, number_places
+from placecell.localization.parameters import LocalisationParameters
 from tests.segments.localisation.scene_builders import take
 
 PARAMETERS = LocalisationParameters()

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from segments.localisation.covariance import covariance_of, cross
-from segments.localisation.parameters import LocalisationParameters
-from segments.localisation.pose import Pose
-from segments.localisation.registration import register
+from placecell.localization.covariance import covariance_of, cross
+from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.pose import Pose
+from placecell.localization.registration import register
 from tests.segments.localisation.scene_builders import a_pose, street
 
 

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from segments.localisation import LocalisationParameters, Pose, localise
-from segments.localisation.evidence import History, middle_of
-from segments.localisation.hypothesis import Hypothesis
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.localization import LocalisationParameters, Pose, localize
+from placecell.localization.evidence import History, middle_of
+from placecell.localization.hypothesis import Hypothesis
 from tests.segments.localisation.scene_builders import scene
 from tests.segments.localisation.test_localise import look_alikes
 
@@ -94,13 +94,13 @@ def test_guesses_are_the_best_places_of_the_past_the_latest_first() -> None:
 def test_what_was_known_before_decides_between_two_places() -> None:
     """The robot saw where it turned into one of two streets that are alike."""
     made = look_alikes(2, 60.0)
-    assert localise(made.candidates).reason == "ambiguous"
+    assert localize(made.candidates).reason == "ambiguous"
     history = History(LocalisationParameters())
     second = Pose.of_yaw(0.0, np.array([60.0, 0, 0]))
     there = hypothesis(60.0, 100.0)
     assert there.pose.difference(second, np.zeros(3)) == (0, 0)
     driven(history, 50.0, 50.4, there)
-    found = localise(made.candidates, evidence=history.at(50.5, at(0)))
+    found = localize(made.candidates, evidence=history.at(50.5, at(0)))
     assert found.pose is not None
     assert found.pose.translation == pytest.approx([60, 0, 0], abs=0.3)
 
@@ -110,12 +110,12 @@ def test_the_past_alone_is_no_place() -> None:
     history = History(LocalisationParameters())
     history.add(50.0, at(-5), [hypothesis(1e4, 1000.0)])
     made = scene(1)
-    found = localise(made.candidates, evidence=history.at(50.1, at(0)))
+    found = localize(made.candidates, evidence=history.at(50.1, at(0)))
     assert found.pose is not None
     metres, _ = found.pose.difference(made.pose, np.zeros(3))
     assert metres < 0.5
     noise = scene(2, found=0.0)
-    assert localise(noise.candidates, evidence=history.at(50.1, at(0))).pose is None
+    assert localize(noise.candidates, evidence=history.at(50.1, at(0))).pose is None
 
 
 def test_a_place_of_the_past_is_looked_at_again() -> None:
@@ -125,7 +125,7 @@ def test_a_place_of_the_past_is_looked_at_again() -> None:
     source = made.candidates.centroids[:4]
     before = Hypothesis(made.pose, np.eye(4), 60.0, np.arange(4), np.arange(4), source, np.zeros(4))
     driven(history, 50.0, 50.4, before)
-    found = localise(made.candidates, evidence=history.at(50.5, at(0)))
+    found = localize(made.candidates, evidence=history.at(50.5, at(0)))
     assert found.best is not None
     metres, _ = found.best.pose.difference(made.pose, source.mean(axis=0))
     assert metres < 0.5

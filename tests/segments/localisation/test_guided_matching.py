@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from segments.localisation import Candidates, Hypothesis, LocalisationParameters, Pose, localise
-from segments.localisation.guided_matching import AmongCandidates, look_again
-from segments.localisation.near import within
-from segments.types import Float64, Int64
+from placecell.core.spatial import within
+from placecell.core.types import Float64, Int64
+from placecell.localization import Candidates, Hypothesis, LocalisationParameters, Pose, localize
+from placecell.localization.guided_matching import AmongCandidates, look_again
 
 PARAMETERS = LocalisationParameters()
 HERE = Pose.of_yaw(0.0, np.zeros(3))
@@ -151,12 +151,12 @@ def test_the_place_where_all_looks_alike_is_found_though_few_candidates_lie_ther
     chosen = np.where(np.arange(20) < 12, 20 + np.arange(20), np.arange(20))[:, None]
     likely = np.full((20, 1), 0.8)
     candidates = Candidates(things, chosen, rows[chosen], likely)
-    misled = localise(candidates)
+    misled = localize(candidates)
     assert misled.best is not None
     assert misled.best.pose.translation[0] == pytest.approx(300.0, abs=0.1)
     looks = np.zeros((20, 32))
     looks[np.arange(20), np.arange(20)] = looks[np.arange(12), 20 + np.arange(12)] = 0.8
-    found = localise(candidates, there=Things(rows, looks))
+    found = localize(candidates, there=Things(rows, looks))
     assert found.best is not None
     assert found.second is not None
     assert found.best.pose.translation == pytest.approx(np.zeros(3), abs=0.1)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from segments.localisation import Candidates, Localisation, LocalisationParameters, Pose, localise
-from segments.localisation.localise import chance_of_direction
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.localization import Candidates, Localisation, LocalisationParameters, Pose, localize
+from placecell.localization.localize import chance_of_direction
 from tests.segments.localisation.scene_builders import (
     Scene,
     a_pose,
@@ -41,13 +41,13 @@ def assert_right(found: Localisation, truth: Pose) -> None:
 @given(seeds)
 def test_a_robot_in_the_map_is_found(seed: int) -> None:
     made = scene(seed)
-    found = localise(made.candidates)
+    found = localize(made.candidates)
     assert_right(found, made.pose)
     assert found.detail == ""
 
 
 def test_a_robot_in_the_map_is_nearly_always_sure() -> None:
-    told = [localise(scene(seed).candidates).probability for seed in range(50)]
+    told = [localize(scene(seed).candidates).probability for seed in range(50)]
     assert np.mean(np.array(told) > 0.9) > 0.9
 
 
@@ -55,7 +55,7 @@ def test_a_robot_in_the_map_is_nearly_always_sure() -> None:
 @given(seeds)
 def test_the_inliers_are_the_segments_and_their_rows(seed: int) -> None:
     made = scene(seed)
-    best = localise(made.candidates).best
+    best = localize(made.candidates).best
     assert best is not None
     assert len(set(best.queries)) == len(set(best.rows)) == len(best)
     assert np.mean(best.queries == best.rows) > 0.9  # row i of the map is segment i
@@ -70,7 +70,7 @@ def test_the_inliers_are_the_segments_and_their_rows(seed: int) -> None:
 def test_if_the_robot_s_frame_turns_the_pose_turns_along(seed: int) -> None:
     made = scene(seed)
     moved = made.seen_from(a_pose(np.random.default_rng(seed)))
-    one, other = localise(made.candidates), localise(moved.candidates)
+    one, other = localize(made.candidates), localize(moved.candidates)
     assert_right(one, made.pose)
     assert_right(other, moved.pose)
     assert other.probability == pytest.approx(one.probability, abs=0.05)
@@ -81,7 +81,7 @@ def test_if_the_robot_s_frame_turns_the_pose_turns_along(seed: int) -> None:
 def test_if_the_map_s_frame_turns_the_pose_turns_along(seed: int) -> None:
     made = scene(seed)
     moved = made.in_map(a_pose(np.random.default_rng(seed), reach=1e5))
-    assert_right(localise(moved.candidates), moved.pose)
+    assert_right(localize(moved.candidates), moved.pose)
 
 
 @settings(max_examples=20, deadline=None)
@@ -89,7 +89,7 @@ def test_if_the_map_s_frame_turns_the_pose_turns_along(seed: int) -> None:
 def test_in_space_any_turn_is_followed(seed: int) -> None:
     random = np.random.default_rng(seed)
     made = scene(seed, found=0.8).in_map(any_rotation(random)).seen_from(any_rotation(random))
-    found = localise(made.candidates, SE3)
+    found = localize(made.candidates, SE3)
     metres, degrees = off(found, made.pose)
     # Segments along a street fix the roll about it less well than the rest.
     assert metres < 0.5
@@ -103,7 +103,7 @@ def test_in_space_any_turn_is_followed(seed: int) -> None:
 def test_the_order_of_the_segments_changes_nothing(seed: int) -> None:
     made = scene(seed)
     order = np.random.default_rng(seed).permutation(len(made.candidates))
-    one, other = localise(made.candidates), localise(take(made.candidates, order))
+    one, other = localize(made.candidates), localize(take(made.candidates, order))
     assert one.best is not None
     assert other.best is not None
     np.testing.assert_allclose(other.best.pose.matrix, one.best.pose.matrix, atol=1e-9)
@@ -121,7 +121,7 @@ def test_outliers_leave_the_pose_where_it_is(seed: int, outliers: int) -> None:
         random.integers(0, len(made.map), (outliers, 10)), made.pose, random,
     ).candidates  # fmt: skip
     both = concatenate(made.candidates, strange)
-    best = localise(both).best
+    best = localize(both).best
     assert best is not None
     metres, angle = best.pose.difference(made.pose, best.source.mean(axis=0))
     assert metres < 0.4
@@ -130,16 +130,16 @@ def test_outliers_leave_the_pose_where_it_is(seed: int, outliers: int) -> None:
 
 def test_pure_noise_is_no_place() -> None:
     for seed in range(30):
-        assert localise(scene(seed, found=0.0).candidates).reason == "inconsistent"
+        assert localize(scene(seed, found=0.0).candidates).reason == "inconsistent"
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_of_a_few_segments_the_pose_is_right_or_none(seed: int) -> None:
     made = scene(seed, segments=24, found=0.5)
-    assert_right(localise(made.candidates), made.pose)
+    assert_right(localize(made.candidates), made.pose)
     for found in (0.1, 0.2):
         few = scene(seed, segments=24, found=found)
-        told = localise(few.candidates)
+        told = localize(few.candidates)
         if told.pose is not None:
             metres, degrees = off(told, few.pose)
             assert metres < 1
@@ -165,7 +165,7 @@ def look_alikes(places: int, spacing: float, seed: int = 0, turned: bool = False
 @pytest.mark.parametrize("places", [2, 3, 8])
 @pytest.mark.parametrize("turned", [False, True])
 def test_identical_places_are_ambiguous(places: int, turned: bool) -> None:
-    found = localise(look_alikes(places, 60.0, turned=turned).candidates)
+    found = localize(look_alikes(places, 60.0, turned=turned).candidates)
     assert found.reason == "ambiguous"
     assert found.pose is None
     assert found.probability < 0.56  # one of two, if the second is as good as 80%
@@ -193,13 +193,13 @@ def houses(landmarks: int) -> Candidates:
 
 
 def test_in_a_street_of_identical_houses_nobody_knows_which() -> None:
-    found = localise(houses(landmarks=0))
+    found = localize(houses(landmarks=0))
     assert found.reason == "ambiguous"
     assert "Another place" in found.detail
 
 
 def test_landmarks_tell_which_of_the_houses() -> None:
-    found = localise(houses(landmarks=6))
+    found = localize(houses(landmarks=6))
     assert_right(found, Pose.of_yaw(0, np.zeros(3)))
     assert found.second is not None  # another house is the second best
     houses_away = found.second.pose.translation[0] / 12.0
@@ -214,19 +214,19 @@ def test_one_segment_a_thousand_times_in_the_map() -> None:
     chosen = np.tile(np.arange(25), (40, 1))
     same = np.ones(chosen.shape)
     seen = rows[random.choice(1_000, 40, replace=False)]
-    assert localise(Candidates(seen, chosen, rows[chosen], same)).pose is None
+    assert localize(Candidates(seen, chosen, rows[chosen], same)).pose is None
 
 
 def test_one_segment_a_thousand_times_around_the_robot() -> None:
     made = scene(3, segments=30)
     given = made.candidates
     repeated = concatenate(given, take(given, np.zeros(1_000, dtype=np.int64)))
-    found = localise(repeated)
+    found = localize(repeated)
     assert found.best is not None
     metres, _ = found.best.pose.difference(made.pose, found.best.source.mean(axis=0))
     assert metres < 0.5
     # The thousand count as one.
-    alone = localise(given).best
+    alone = localize(given).best
     assert alone is not None
     assert found.best.score < alone.score + 5
 
@@ -238,7 +238,7 @@ def exact(seen: Float64) -> Candidates:
 
 
 def test_coincident_segments_do_not_tell_the_direction() -> None:
-    found = localise(exact(np.tile([3.0, 4.0, 1.0], (30, 1))))
+    found = localize(exact(np.tile([3.0, 4.0, 1.0], (30, 1))))
     assert found.reason == "inconsistent"
 
 
@@ -250,11 +250,11 @@ def test_a_crowd_in_one_point_ends() -> None:
     places = np.stack([rows, np.zeros_like(rows), np.zeros_like(rows)], axis=2)
     chosen = np.tile(np.arange(25), (400, 1))
     same = np.ones(chosen.shape)
-    assert localise(Candidates(seen, chosen, places, same)).pose is None
+    assert localize(Candidates(seen, chosen, places, same)).pose is None
 
 
 def test_a_pole_does_not_tell_the_direction() -> None:
-    found = localise(exact(np.outer(np.arange(10.0), [0, 0, 1])))
+    found = localize(exact(np.outer(np.arange(10.0), [0, 0, 1])))
     assert found.reason == "inconsistent"
     assert "direction" in found.detail
     assert found.probability == 0
@@ -269,13 +269,13 @@ def test_the_chance_of_a_direction_by_hand() -> None:
 def test_segments_in_a_row_tell_a_yaw_but_no_roll() -> None:
     row = np.outer(4.0 * np.arange(12.0), [1, 0.5, 0])
     truth = Pose.of_yaw(0, np.full(3, 100.0))
-    assert_right(localise(exact(row)), truth)
-    assert localise(exact(row), SE3).reason == "inconsistent"
+    assert_right(localize(exact(row)), truth)
+    assert localize(exact(row), SE3).reason == "inconsistent"
 
 
 @pytest.mark.parametrize("segments", [0, 1, 3])
 def test_too_few_segments_are_told(segments: int) -> None:
-    found = localise(exact(np.random.default_rng(5).uniform(-20, 20, (segments, 3))))
+    found = localize(exact(np.random.default_rng(5).uniform(-20, 20, (segments, 3))))
     assert found.reason == "too-few-segments"
     assert found.best is None
     assert found.probability == 0
@@ -291,33 +291,33 @@ def test_what_is_no_number_is_left_out() -> None:
     broken.centroids[0] = np.nan
     broken.places[1, 2] = np.inf
     broken.probabilities[3, 4] = np.nan
-    found = localise(broken)
+    found = localize(broken)
     assert_right(found, made.pose)
     assert found.best is not None
     assert 0 not in found.best.queries
     nothing = Candidates(
         np.full((9, 3), np.nan), given.rows[:9], given.places[:9], given.probabilities[:9]
     )
-    assert localise(nothing).reason == "too-few-segments"
+    assert localize(nothing).reason == "too-few-segments"
 
 
 @pytest.mark.parametrize("k", [25, 100])
 def test_ten_thousand_candidates(k: int) -> None:
     made = scene(7, segments=10_000 // k, found=0.3, k=k, rows=20_000)
-    assert_right(localise(made.candidates), made.pose)
+    assert_right(localize(made.candidates), made.pose)
     noise = scene(8, segments=10_000 // k, found=0.0, k=k, rows=20_000)
-    assert localise(noise.candidates).pose is None
+    assert localize(noise.candidates).pose is None
 
 
 def test_far_from_any_origin_nothing_is_lost() -> None:
     made = scene(10).in_map(Pose.of_yaw(0.5, np.array([5e5, 5.4e6, 300.0])))
     moved = made.seen_from(Pose.of_yaw(1.0, np.array([-3e6, 4e6, 100.0])))
-    assert_right(localise(moved.candidates), moved.pose)
+    assert_right(localize(moved.candidates), moved.pose)
 
 
 def test_nothing_is_changed() -> None:
     made = scene(11)
     before = made.candidates.centroids.copy(), made.candidates.places.copy()
-    localise(made.candidates)
+    localize(made.candidates)
     np.testing.assert_array_equal(made.candidates.centroids, before[0])
     np.testing.assert_array_equal(made.candidates.places, before[1])

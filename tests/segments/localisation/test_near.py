@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from segments.localisation.near import CELL, CELLS, WHOLE, evenly, near_pairs, within
+from placecell.core.spatial import CELL, CELLS, WHOLE, evenly, near_pairs, within
 
 
 def test_evenly_keeps_both_ends() -> None:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from segments.localisation.pose import Pose
+from placecell.localization.pose import Pose
 from tests.segments.localisation.scene_builders import any_rotation
 
 

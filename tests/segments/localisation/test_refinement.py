@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from segments.localisation.correspondences import Correspondences
-from segments.localisation.parameters import LocalisationParameters
-from segments.localisation.pose import Pose
-from segments.localisation.refinement import kernel, one_to_one, refine, residuals
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.localization.correspondences import Correspondences
+from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.pose import Pose
+from placecell.localization.refinement import kernel, one_to_one, refine, residuals
 
 IDENTITY = Pose.of_yaw(0.0, np.zeros(3))
 

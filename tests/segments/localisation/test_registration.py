@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from segments.localisation.pose import Pose
-from segments.localisation.registration import register_se3, register_yaw
+from placecell.localization.pose import Pose
+from placecell.localization.registration import register_se3, register_yaw
 from tests.segments.localisation.scene_builders import a_pose, any_rotation
 
 

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from segments.localisation.correspondences import Correspondences
-from segments.localisation.parameters import LocalisationParameters
-from segments.localisation.pose import Pose
-from segments.localisation.voting import most_voted
+from placecell.localization.correspondences import Correspondences
+from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.pose import Pose
+from placecell.localization.voting import most_voted
 
 
 def haystack(right: int, wrong: int, seed: int = 0) -> tuple[Correspondences, np.ndarray]:

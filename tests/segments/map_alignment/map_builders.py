@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from segments.localisation import Pose
-from segments.map_alignment import MapAlignment, MapView
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.localization import Pose
+from placecell.map_alignment import MapAlignment, MapView
 
 DIMENSION = 7
 MATCH = 0.6

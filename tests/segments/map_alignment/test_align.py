@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from segments.localisation import LocalisationParameters, Pose
-from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from segments.map_alignment.align import guess
-from segments.map_alignment.submaps import cut
+from placecell.localization import LocalisationParameters, Pose
+from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
+from placecell.map_alignment.align import guess
+from placecell.map_alignment.submaps import cut
 from tests.segments.map_alignment.map_builders import (
     DIMENSION,
     ByDistance,

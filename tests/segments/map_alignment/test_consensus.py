@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from segments.localisation import LocalisationParameters, Pose
-from segments.map_alignment import AlignmentParameters
-from segments.map_alignment.consensus import Guess, agreement, common_pose, consensus
+from placecell.localization import LocalisationParameters, Pose
+from placecell.map_alignment import AlignmentParameters
+from placecell.map_alignment.consensus import Guess, agreement, common_pose, consensus
 
 PARAMETERS = AlignmentParameters()
 

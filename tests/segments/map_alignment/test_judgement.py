@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from segments.localisation import Pose
-from segments.map_alignment import AlignmentParameters, Overlap, align, lies_as_well
-from segments.map_alignment.align import distinct, judge, turned
-from segments.types import Float64
+from placecell.core.types import Float64
+from placecell.localization import Pose
+from placecell.map_alignment import AlignmentParameters, Overlap, align, lies_as_well
+from placecell.map_alignment.align import distinct, judge, turned
 from tests.segments.map_alignment.map_builders import ByDistance, pair
 
 PARAMETERS = AlignmentParameters()

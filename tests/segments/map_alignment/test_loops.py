@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from segments.localisation import Pose
-from segments.map_alignment import Alignment, check_loops, poses_from
-from segments.map_alignment.loops import loops_of
+from placecell.localization import Pose
+from placecell.map_alignment import Alignment, check_loops, poses_from
+from placecell.map_alignment.loops import loops_of
 from tests.segments.map_alignment.map_builders import a_pose
 
 WRONG = Pose.of_yaw(2.0, np.array([40.0, -7.0, 0.0]))

@@ -5,10 +5,10 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from segments.localisation import Pose
-from segments.localisation.registration import register_yaw
-from segments.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.localization import Pose
+from placecell.localization.registration import register_yaw
+from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
 from tests.segments.map_alignment.map_builders import (
     DIMENSION,
     ByDistance,

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from segments.localisation import Pose
-from segments.map_alignment import AlignmentParameters, MapView
-from segments.map_alignment.overlap import (
+from placecell.core.types import Float64, Int64
+from placecell.localization import Pose
+from placecell.map_alignment import AlignmentParameters, MapView
+from placecell.map_alignment.overlap import (
     near_stands,
     overlap_of,
     pairs_of_things,
     part,
     should_be_seen,
 )
-from segments.types import Float64, Int64
 
 PARAMETERS = AlignmentParameters()
 NOWHERE = Pose.of_yaw(0.0, np.zeros(3))
@@ -164,7 +164,7 @@ def test_of_each_view_one_tree_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
         made.append(points)
         return cKDTree(points)
 
-    monkeypatch.setattr("segments.map_alignment.map_view.cKDTree", counted)
+    monkeypatch.setattr("placecell.map_alignment.map_view.cKDTree", counted)
     a, b = (view(corner(), [(x, 0, 0)] * 4) for x in (0, 3))
     for _ in range(3):
         overlap_of(a, b, NOWHERE, Table(np.eye(4)), PARAMETERS)

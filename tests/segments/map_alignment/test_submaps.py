@@ -6,9 +6,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from segments.map_alignment import AlignmentParameters, MapView
-from segments.map_alignment.submaps import Submap, candidates_of, cut, spread
-from segments.types import Float64, Int64
+from placecell.core.types import Float64, Int64
+from placecell.map_alignment import AlignmentParameters, MapView
+from placecell.map_alignment.submaps import Submap, candidates_of, cut, spread
 
 PARAMETERS = AlignmentParameters()
 

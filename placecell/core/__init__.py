@@ -1,0 +1,1 @@
+"""Core types: point segments in columns, parameters, compiled loops and spatial helpers."""

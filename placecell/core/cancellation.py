@@ -1,0 +1,121 @@
+"""Cancellation: a token that stops work whose request is late or whose client disconnected.
+
+A token is set for a request and found by everything below it, in threads too:
+
+    token = current()        # a token that nobody cancels, where there is no request
+    token.check()            # in Python, between steps: raises `Cancelled`
+    kernel(..., token.flag)  # in compiled loops: `if is_cancelled(flag): return`, then check()
+"""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from math import inf
+from threading import Lock
+from typing import Any
+
+import numba
+import numpy as np
+from llvmlite import ir
+
+from placecell.core.types import Int32
+
+TURN_SECONDS = 0.1
+"""Interval at which work that waits for a lock looks whether it is to stop."""
+
+
+class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
+    """Work was stopped because its request is late or its client disconnected."""
+
+
+class CancelToken:
+    """Token that tells work to stop. Safe to share between threads.
+
+    Attributes:
+        flag: int32 (1,), not 0 once the work shall stop; compiled loops read it.
+        deadline: time of `time.monotonic` after which the work shall stop, seconds; inf: none.
+            The flag does not follow it by itself: whoever makes the token cancels it in time.
+    """
+
+    __slots__ = ("deadline", "flag")
+
+    def __init__(self, deadline: float = inf) -> None:
+        self.flag: Int32 = np.zeros(1, dtype=np.int32)
+        self.deadline = deadline
+
+    def cancel(self) -> None:
+        """Tell the work to stop at its next check."""
+        self.flag[0] = 1
+
+    @property
+    def is_cancelled(self) -> bool:
+        """Return whether the work is to stop."""
+        if not self.flag[0] and time.monotonic() >= self.deadline:
+            self.cancel()
+        return bool(self.flag[0])
+
+    @property
+    def seconds_left(self) -> float:
+        """Return the seconds until the deadline, 0 or more; inf without a deadline."""
+        return max(self.deadline - time.monotonic(), 0.0)
+
+    def check(self) -> None:
+        """Raise `Cancelled` if the work is to stop.
+
+        Raises:
+            Cancelled: it shall.
+        """
+        if self.is_cancelled:
+            raise Cancelled
+
+
+_token: ContextVar[CancelToken] = ContextVar("placecell_cancel_token")
+
+
+def current() -> CancelToken:
+    """Return the token of the work at hand; outside of requests, one that nobody cancels."""
+    return _token.get(None) or CancelToken()
+
+
+@contextmanager
+def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
+    """Make a token current for a block and for the threads and tasks that it starts."""
+    before = _token.set(token)
+    try:
+        yield token
+    finally:
+        _token.reset(before)
+
+
+@contextmanager
+def holding(lock: Lock) -> Iterator[None]:
+    """Hold a lock for a block; the wait for it ends when the work is to stop.
+
+    Raises:
+        Cancelled: the request became late, or its client left, before its turn.
+    """
+    token = current()
+    while not lock.acquire(timeout=TURN_SECONDS):
+        token.check()
+    try:
+        token.check()
+        yield
+    finally:
+        lock.release()
+
+
+def _is_cancelled(typing_context: Any, flag: Any) -> Any:
+    """Read a flag in compiled code, anew at each call: the compiler may hoist a plain read."""
+    del typing_context
+
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        array = context.make_array(signature.args[0])(context, builder, arguments[0])
+        value = builder.load_atomic(array.data, ordering="monotonic", align=4)
+        return builder.icmp_signed("!=", value, ir.Constant(value.type, 0))
+
+    return numba.types.boolean(flag), code
+
+
+is_cancelled: Any = numba.extending.intrinsic(_is_cancelled)
+"""Compiled function: whether a token's flag (int32 array) is set. Costs one memory read."""

@@ -1,0 +1,97 @@
+"""Grid cells: find points that may be near each other, wherever the points are."""
+
+import secrets
+
+import numpy as np
+
+from placecell.core.jit import compiled
+from placecell.core.types import Float64, Int64, UInt64
+
+SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
+"""Seed of cell numbers, new in each process: nobody can choose points whose numbers collide."""
+
+LAYER_BITS = 20
+"""Lowest bits of a cell's number that hold its layer, so that stacked cells are found together."""
+
+
+def neighboring(points: Float64, radius: float) -> tuple[Int64, Int64]:
+    """Assign points to cells such that points within the radius are in neighboring cells.
+
+    Time is that of sorting, wherever the points are.
+
+    Args:
+        points: float64 (n, 3), meters.
+
+    Returns:
+        The cell of each point, int64 (n,); and of each cell itself and those around it,
+        int64 (cells, 27), -1 where there is none. Rarely a cell stands there that is far away: the
+        points must be compared.
+    """
+    # A little larger than the radius, so that rounding puts nothing that is near two cells away.
+    cells = np.nan_to_num(np.floor(points / (radius * (1 + 1e-6))), nan=0.0)
+    cells = cells.clip(-(2.0**40), 2.0**40).astype(np.int64)
+    keys = np.empty(len(cells), dtype=np.uint64)
+    _number(cells, SEED, keys)
+    distinct, first, numbers = np.unique(keys, return_index=True, return_inverse=True)
+    around = np.full((len(distinct), 27), -1, dtype=np.int64)
+    _look_around(cells[first], distinct, SEED, around)
+    return numbers.reshape(-1), around
+
+
+@compiled
+def _key(x: int, y: int, z: int, seed: UInt64) -> np.uint64:
+    """Return the number of a cell: the finalizer of MurmurHash3 (Appleby), seeded."""
+    mixed: np.uint64 = seed[0]
+    for coordinate in (x, y):
+        mixed = (mixed + np.uint64(coordinate)) * seed[1]
+        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xFF51AFD7ED558CCD)
+        mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xC4CEB9FE1A85EC53)
+        mixed ^= mixed >> np.uint64(33)
+    layer = np.uint64(z) & np.uint64((1 << LAYER_BITS) - 1)
+    return (mixed << np.uint64(LAYER_BITS)) | layer
+
+
+@compiled
+def _number(cells: Int64, seed: UInt64, keys: UInt64) -> None:
+    """Fill `keys` with the number of each cell."""
+    for row in range(len(cells)):
+        keys[row] = _key(cells[row, 0], cells[row, 1], cells[row, 2], seed)
+
+
+@compiled
+def _look_around(cells: Int64, distinct: UInt64, seed: UInt64, around: Int64) -> None:
+    """Fill `around` with each cell and its neighbors, the cell itself first."""
+    for row in range(len(cells)):
+        around[row, 0] = row
+        count = 1
+        for column in range(9):
+            place, before = 0, np.uint64(0)
+            for layer in range(3):
+                key = _key(
+                    cells[row, 0] + column // 3 - 1,
+                    cells[row, 1] + column % 3 - 1,
+                    cells[row, 2] + layer - 1,
+                    seed,
+                )
+                # Of a column, the number follows the one before, where it is not the first again.
+                if layer == 0 or key < before:
+                    place = _place_of(distinct, key)
+                before = key
+                if place < len(distinct) and distinct[place] == key:
+                    if place != row:
+                        around[row, count] = place
+                        count += 1
+                    place += 1
+
+
+@compiled
+def _place_of(distinct: UInt64, key: np.uint64) -> int:
+    """Return how many of the ascending numbers are lower than a key."""
+    low, high = 0, len(distinct)
+    while low < high:
+        middle = (low + high) // 2
+        if distinct[middle] < key:
+            low = middle + 1
+        else:
+            high = middle
+    return low

@@ -1,0 +1,140 @@
+"""Segments: many point clouds in columns, the form that every step from here on takes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from placecell.core.jit import compiled
+from placecell.core.types import Float32, Float64, Int64
+
+
+def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
+    """Means of the points that share a key, ordered by key.
+
+    Args:
+        points: float32 (n, 3).
+        keys: int64 (n,), none negative.
+
+    Returns:
+        float64 (keys, 3); and of each the index of its first point, int64 (keys,).
+    """
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    sums = np.add.reduceat(points[order].astype(np.float64), first, axis=0)
+    counts = np.diff(first, append=len(order))
+    return sums / counts[:, None], order[first]
+
+
+@dataclass(frozen=True, slots=True)
+class Segments:
+    """Point clouds of segments, one after the other.
+
+    Attributes:
+        points: float32 (points, 3), metres, one common z-up frame.
+        ends: int64 (segments,): segment i holds points ends[i - 1] to ends[i].
+        sensors: float32 (segments, 3), metres, the same frame: where the sensor was at capture.
+    """
+
+    points: Float32
+    ends: Int64
+    sensors: Float32
+
+    def __len__(self) -> int:
+        return len(self.ends)
+
+    @classmethod
+    def of(cls, clouds: Sequence[Float32], sensors: Float32 | Float64) -> "Segments":
+        """From one cloud (n, 3) a segment, and the sensors' positions (segments, 3)."""
+        counts = np.array([len(cloud) for cloud in clouds], dtype=np.int64)
+        points = np.concatenate(clouds) if len(clouds) else np.zeros((0, 3))
+        return cls(
+            points=np.ascontiguousarray(points, dtype=np.float32),
+            ends=np.cumsum(counts, dtype=np.int64),
+            sensors=np.ascontiguousarray(sensors, dtype=np.float32).reshape(-1, 3),
+        )
+
+    @classmethod
+    def concatenate(cls, parts: "Sequence[Segments]") -> "Segments":
+        """One after the other."""
+        if not parts:
+            return cls.of([], np.zeros((0, 3)))
+        shifts = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
+        return cls(
+            np.concatenate([part.points for part in parts]),
+            np.concatenate([part.ends + shift for part, shift in zip(parts, shifts, strict=True)]),
+            np.concatenate([part.sensors for part in parts]),
+        )
+
+    @property
+    def starts(self) -> Int64:
+        """int64 (segments,): where each segment's points begin."""
+        return np.concatenate([np.zeros(1, dtype=np.int64), self.ends])[:-1]
+
+    @property
+    def counts(self) -> Int64:
+        """int64 (segments,): points a segment."""
+        return self.ends - self.starts
+
+    @property
+    def owners(self) -> Int64:
+        """int64 (points,): the segment that each point belongs to."""
+        return np.repeat(np.arange(len(self)), self.counts)
+
+    def cloud(self, index: int) -> Float32:
+        """Points of one segment, float32 (n, 3)."""
+        return self.points[self.ends[index - 1] if index else 0 : self.ends[index]]
+
+    def take(self, indices: Int64 | Sequence[int]) -> "Segments":
+        """The segments at these indices, in this order."""
+        chosen = np.asarray(indices)
+        if chosen.dtype == bool:
+            raise TypeError("take indices, not a mask: use numpy.flatnonzero")
+        chosen = chosen.astype(np.int64)
+        counts = self.counts[chosen]
+        ends = np.cumsum(counts, dtype=np.int64)
+        within = np.arange(counts.sum()) - np.repeat(ends - counts, counts)
+        rows = np.repeat(self.starts[chosen], counts) + within
+        return Segments(self.points[rows], ends, self.sensors[chosen])
+
+    def check_ends(self) -> None:
+        """Before compiled code reads: it would read beyond the points if it were told to.
+
+        Raises:
+            ValueError: a segment without points, or points of no segment.
+        """
+        total = self.ends[-1] if len(self) else 0
+        if total != len(self.points) or (self.counts <= 0).any():
+            raise ValueError(f"ends do not divide the {len(self.points)} points into segments")
+
+    def centroids(self) -> Float64:
+        """Mean of each segment's points, float64 (segments, 3), metres."""
+        centroids = np.empty((len(self), 3))
+        self.check_ends()
+        _centroids(np.ascontiguousarray(self.points), self.ends, centroids)
+        return centroids
+
+    def bounds(self) -> tuple[Float32, Float32]:
+        """Lowest and highest corner of each segment's axis-aligned box, float32 (segments, 3)."""
+        if not len(self):
+            return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.float32)
+        return (
+            np.minimum.reduceat(self.points, self.starts, axis=0),
+            np.maximum.reduceat(self.points, self.starts, axis=0),
+        )
+
+
+@compiled
+def _centroids(points: Float32, ends: Int64, centroids: Float64) -> None:
+    start = 0
+    for segment in range(len(ends)):
+        x = y = z = 0.0
+        for point in range(start, ends[segment]):
+            x += points[point, 0]
+            y += points[point, 1]
+            z += points[point, 2]
+        count = ends[segment] - start
+        centroids[segment, 0] = x / count
+        centroids[segment, 1] = y / count
+        centroids[segment, 2] = z / count
+        start = ends[segment]

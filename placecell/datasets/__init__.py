@@ -1,0 +1,39 @@
+"""Readers of recorded drives, one file a format."""
+
+from pathlib import Path
+
+from placecell.datasets.drive import Drive
+from placecell.datasets.errors import DriveError
+from placecell.datasets.kitti_odometry import KittiOdometry
+from placecell.datasets.kitti_raw import KittiRaw
+from placecell.datasets.scan_options import Reading, parse_columns, reading
+
+FORMATS = (KittiOdometry, KittiRaw)
+
+__all__ = [
+    "FORMATS",
+    "Drive",
+    "DriveError",
+    "KittiOdometry",
+    "KittiRaw",
+    "Reading",
+    "open_drive",
+    "parse_columns",
+    "reading",
+]
+
+
+def open_drive(folder: Path) -> Drive:
+    """Open a drive in whichever known layout the folder has.
+
+    Raises:
+        DriveError: the folder is missing, is in no known layout, or is broken.
+    """
+    folder = Path(folder).absolute()  # so that "." has a name
+    if not folder.is_dir():
+        raise DriveError(f"{folder}: no such folder")
+    for reader in FORMATS:
+        if reader.recognises(folder):
+            return reader(folder)
+    layouts = "; ".join(f"{reader.name}: {reader.layout}" for reader in FORMATS)
+    raise DriveError(f"{folder}: not a drive in a known layout ({layouts})")

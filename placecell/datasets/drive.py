@@ -1,0 +1,361 @@
+"""A drive: a sequence of LiDAR scans, each with the sensor's pose."""
+
+import hashlib
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+
+from placecell.core.types import Float32, Float64
+from placecell.datasets.errors import DriveError
+from placecell.datasets.point_layout import KITTI, PointLayout, find_layout, implausible
+from placecell.datasets.scan_options import Reading, current_reading
+
+SHOWN = 5
+"""Largest number of scans that a message names."""
+
+
+@dataclass(slots=True)
+class Dropouts:
+    """Scans and points of a drive that could not be used.
+
+    Attributes:
+        skipped: why, of each scan that gives no points.
+        dropped: how many points were not finite, of each other scan that had any.
+    """
+
+    skipped: dict[int, str] = field(default_factory=dict)
+    dropped: dict[int, int] = field(default_factory=dict)
+
+    def within(self, scans: range) -> tuple[tuple[int, ...], int]:
+        """Return the indices of these scans that were skipped, and how many points were dropped."""
+        skipped = tuple(sorted(index for index in self.skipped if index in scans))
+        return skipped, sum(count for index, count in self.dropped.items() if index in scans)
+
+
+class Drive(ABC):
+    """A sequence of scans with sensor poses, times and hashes.
+
+    Attributes:
+        folder: where the drive lies.
+        scan_files: one file of points a scan, laid out as `point_layout` says.
+        poses: sensor-to-world transforms, float64 (scans, 4, 4); the world is z-up, and its origin
+            is the sensor at the first scan: clouds are float32, which is half a metre coarse at
+            map coordinates of 5,000 km.
+        origin: where the world's origin lies in the frame of the file's poses, float64 (3,).
+        times: seconds, float64 (scans,).
+        options: how its files are read.
+    """
+
+    name: ClassVar[str]
+    layout: ClassVar[str]
+
+    folder: Path
+    scan_files: list[Path]
+    poses: Float64
+    origin: Float64
+    times: Float64
+    options: Reading = Reading()
+    point_layout: PointLayout = KITTI
+
+    @classmethod
+    @abstractmethod
+    def recognises(cls, folder: Path) -> bool:
+        """Whether the folder has this layout."""
+
+    def __len__(self) -> int:
+        return len(self.scan_files)
+
+    @cached_property
+    def dropouts(self) -> Dropouts:
+        """Return the dropouts of the scans that were read so far."""
+        return Dropouts()
+
+    def examine(self) -> None:
+        """Find the layout of the scans and report what their sizes show, before any work begins.
+
+        Raises:
+            DriveError: the layout is not sure, most scans cannot be used, or one cannot and the
+                options are strict.
+        """
+        self.options = current_reading()
+        sizes = [size_of(file) for file in self.scan_files]
+        self.point_layout = find_layout(self.scan_files, sizes, self.options)
+        if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:
+            how = "as stated" if self.options.states_layout else "found from their values"
+            self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
+        for index, size in enumerate(sizes):
+            if size <= 0 or size % self.point_layout.point_bytes:
+                self.skip(index, size_told(size))
+        self.check_usable(range(len(self)))
+        if self.dropouts.skipped:
+            self.options.tell(f"{self.folder}: {self.told(range(len(self)))}")
+
+    def scan(self, index: int) -> Float32:
+        """Return the points of a scan, float32 (n, 3), meters, sensor frame; none if unusable.
+
+        Points that are not finite are dropped. `dropouts` counts both.
+
+        Raises:
+            DriveError: the options are strict, and the file is missing, empty or cut short, or a
+                point is not finite.
+        """
+        try:
+            points = self.point_layout.read(self.scan_files[index])
+            usable = usable_points(points, self.scan_files[index])
+        except DriveError as error:
+            self.skip(index, str(error).rpartition(": ")[2])
+            return np.zeros((0, 3), np.float32)
+        if bad := len(points) - len(usable):
+            if self.options.strict:
+                raise DriveError(
+                    f"{self.scan_files[index]}: {bad} of {len(points)} points are not finite (NaN "
+                    "or infinity). Without --strict they are dropped"
+                )
+            self.dropouts.dropped[index] = bad
+        return usable
+
+    def skip(self, index: int, why: str) -> None:
+        """Record that a scan cannot be used.
+
+        Raises:
+            DriveError: the options are strict.
+        """
+        if self.options.strict:
+            raise DriveError(f"{self.scan_files[index]}: {why}. Without --strict it is skipped")
+        self.dropouts.skipped[index] = why
+
+    def check_usable(self, scans: range) -> None:
+        """Refuse a drive if more than half of these scans cannot be used.
+
+        Raises:
+            DriveError: so it is.
+        """
+        skipped, _ = self.dropouts.within(scans)
+        if 2 * len(skipped) > len(scans):
+            raise DriveError(
+                f"{self.folder}: {self.told(scans)}. More than half of the scans cannot be used: "
+                "the folder is incomplete, or the scans have another layout (--columns, --dtype)"
+            )
+
+    def told(self, scans: range) -> str:
+        """Summarize the skipped scans, with reasons, and the dropped points."""
+        skipped, dropped = self.dropouts.within(scans)
+        words = []
+        if skipped:
+            some = ", ".join(
+                f"{self.scan_files[index].name}: {self.dropouts.skipped[index]}"
+                for index in skipped[:SHOWN]
+            )
+            more = f", and {len(skipped) - SHOWN} more" if len(skipped) > SHOWN else ""
+            words.append(f"{len(skipped)} of {len(scans)} scans skipped ({some}{more})")
+        if dropped:
+            words.append(f"{dropped:,} points dropped (NaN or infinity)")
+        return "; ".join(words)
+
+    def scan_hash(self, index: int) -> str:
+        """Return a scan's identity: the SHA-256 of its file, shortened to 16 hex digits.
+
+        A scan without content, as a sensor's dropout leaves it, is known by its drive and name: two
+        drives with such scans have not seen the same place.
+        """
+        file = self.scan_files[index]
+        try:
+            content = file.read_bytes()
+        except OSError:
+            content = b""
+        content = content or f"no points: {self.folder.name}/{file.name}".encode()
+        return hashlib.sha256(content).hexdigest()[:16]
+
+    def path_length(self) -> float:
+        """Metres driven."""
+        return float(np.linalg.norm(np.diff(self.poses[:, :3, 3], axis=0), axis=1).sum())
+
+
+def size_of(file: Path) -> int:
+    """Return a file's size in bytes; -1 if it cannot be read."""
+    try:
+        return file.stat().st_size if file.is_file() else -1
+    except OSError:
+        return -1
+
+
+def size_told(size: int) -> str:
+    """Return why a file of this size cannot be used."""
+    if size < 0:
+        return "missing or not a file"
+    return f"{size} bytes is no whole number of points" if size else "no points (0 bytes)"
+
+
+def usable_points(points: Float32, file: Path) -> Float32:
+    """Drop points that are not finite.
+
+    Raises:
+        DriveError: none is left, or most values are no coordinates.
+    """
+    finite = np.isfinite(points).all(axis=1)
+    usable = points if finite.all() else np.ascontiguousarray(points[finite])
+    if not len(usable):
+        raise DriveError(f"{file}: all {len(points)} points are not finite (NaN or infinity)")
+    if implausible(usable) > 0.4:
+        raise DriveError(
+            f"{file}: most values are not coordinates; the file is damaged or of another kind"
+        )
+    return usable
+
+
+def read_velodyne(file: Path) -> Float32:
+    """Read a KITTI Velodyne file: float32 (n, 3), metres, sensor frame.
+
+    Raises:
+        DriveError: missing, empty, cut short, or with values that are not finite.
+    """
+    points = KITTI.read(file)
+    if not np.isfinite(points).all():
+        bad = int(np.count_nonzero(~np.isfinite(points).all(axis=1)))
+        raise DriveError(f"{file}: {bad} of {len(points)} points are not finite (NaN or infinity)")
+    return points
+
+
+def find_scans(folder: Path) -> list[Path]:
+    """Velodyne files of a folder, in the order of their numbers, which may have gaps.
+
+    Raises:
+        DriveError: there are none, or one has a name that is no number.
+    """
+    files = sorted(folder.glob("*.bin"))
+    if not files:
+        raise DriveError(f"{folder}: holds no scans (*.bin)")
+    if not all(file.stem.isdecimal() for file in files):
+        odd = next(file for file in files if not file.stem.isdecimal())
+        raise DriveError(f"{odd}: a scan's name must be its number, such as 000000.bin")
+    # By number, not by name: 10.bin comes after 9.bin.
+    return sorted(files, key=lambda file: int(file.stem))
+
+
+def read_lines(file: Path, what: str) -> list[str]:
+    """Read the lines of a UTF-8 text file, with or without byte order mark, LF or CRLF.
+
+    Raises:
+        DriveError: missing, a folder, unreadable, or no text.
+    """
+    try:
+        return file.read_text(encoding="utf-8-sig").splitlines()
+    except FileNotFoundError as error:
+        raise DriveError(f"{file}: missing; it must hold {what}") from error
+    except UnicodeDecodeError as error:
+        raise DriveError(
+            f"{file}: cannot be read as UTF-8 text (byte {error.start}); it must hold {what}"
+        ) from error
+    except OSError as error:
+        raise DriveError(f"{file}: cannot be read ({error.strerror})") from error
+
+
+WIDTHS = {
+    7: "position and quaternion",
+    8: "a TUM trajectory: time, position, quaternion",
+    16: "4x4 matrices",
+}
+"""Pose tables of other programs, by the count of numbers per line."""
+
+
+def read_table(file: Path, columns: int, what: str) -> Float64:
+    """Read a text file of numbers, `columns` a line: float64 (lines, columns).
+
+    Raises:
+        DriveError: missing, unreadable as numbers, of another width, or not finite.
+    """
+    rows = []
+    for number, line in enumerate(read_lines(file, what), start=1):
+        if not line.strip():
+            continue
+        try:
+            row = [float(value) for value in line.split()]
+        except ValueError as error:
+            raise DriveError(f"{file}, line {number}: {error}; it must hold {what}") from error
+        if len(row) != columns:
+            looks = ""
+            if columns == 12 and len(row) in WIDTHS:
+                looks = f" (as of {WIDTHS[len(row)]}; convert it, for example with 'evo_traj')"
+            raise DriveError(
+                f"{file}, line {number}: {len(row)} values{looks}; it must hold {what}"
+            )
+        rows.append(row)
+    table = np.array(rows, dtype=np.float64).reshape(-1, columns)
+    if not np.isfinite(table).all():
+        bad = int(np.flatnonzero(~np.isfinite(table).all(axis=1))[0])
+        raise DriveError(f"{file}: a value is not finite (NaN or infinity), first in row {bad}")
+    return table
+
+
+def check_rotations(poses: Float64, file: Path) -> None:
+    """Refuse poses whose rotation part is no rotation (a sign of another file format).
+
+    Raises:
+        DriveError: some rotation is not orthonormal to within 1e-3, or is a reflection.
+    """
+    rotation = poses[:, :3, :3]
+    off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
+    mirrored = (off <= 1e-3) & (np.linalg.det(rotation) < 0)
+    if mirrored.any():
+        raise DriveError(
+            f"{file}, pose {int(mirrored.argmax())}: its left 3x3 block is a reflection "
+            "(determinant -1), expected a rotation: its axes are left-handed. Invert one axis"
+        )
+    off = np.maximum(off, np.where(np.linalg.det(rotation) > 0, 0.0, 2.0))
+    if (off > 1e-3).any():
+        raise DriveError(
+            f"{file}, pose {int(off.argmax())}: its left 3x3 block is no rotation; 12 numbers a "
+            "pose are the rows of a 3x4 matrix, rotation left, translation right"
+        )
+
+
+def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Path) -> list[str]:
+    """Check the units of poses and times; return remarks on odd but possible values.
+
+    Raises:
+        DriveError: times are no seconds, or the sensor would be faster than anything that drives.
+    """
+    if len(poses) < 2:
+        return []
+    steps = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
+    waits = np.diff(times)
+    wait, step = float(np.median(waits)), float(np.median(steps))
+    slow = wait >= 10 and step >= 0.05 and step / wait < 0.05
+    if wait > 1e4 or np.abs(times).max() > 1e11 or slow:
+        units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3}
+        unit = next((one for one, size in units.items() if wait * size >= 0.005), "ms")
+        if np.abs(times).max() > 1e11 and wait < 1e4:
+            unit = "ms"
+        name = {"ns": "nanoseconds", "us": "microseconds", "ms": "milliseconds"}[unit]
+        raise DriveError(
+            f"{time_file}: {wait:,.6g} between two scans (median), so the times are likely {name}, "
+            f"not seconds. State --time-unit {unit}, or convert the file to seconds"
+        )
+    remarks = []
+    moving = steps > 0.02
+    if moving.any() and wait > 0:
+        timed = moving & (waits > 0)
+        speed = float(np.median(steps[timed] / waits[timed])) if timed.any() else 0.0
+        if speed > FASTEST:
+            raise DriveError(
+                f"{pose_file}: {speed:,.0f} m/s between scans (median), faster than any vehicle: "
+                f"the poses are not in meters (millimeters?), or {time_file.name} is not in seconds"
+            )
+    if (waits < 0).any():
+        first = int((waits < 0).argmax()) + 1
+        remarks.append(f"{time_file}: time decreases at scan {first}")
+    climbed = float(np.abs(np.diff(poses[:, 2, 3])).sum())
+    if steps.sum() > 10 and climbed > 0.7 * steps.sum():
+        remarks.append(
+            f"{pose_file}: the drive moves more vertically than horizontally, so the world's z may "
+            "not be up. Check whether these are camera poses without the Tr to the sensor"
+        )
+    return remarks
+
+
+FASTEST = 400.0
+"""Highest plausible speed, m/s; in millimeters a walk of 1 m/s gives 1,000."""

@@ -1,0 +1,1 @@
+"""Descriptors: orientation, voxels, neighborhood, extractors and stored codes."""

@@ -1,0 +1,197 @@
+"""Extractors: from segments to descriptors, the same in training's evaluation and in serving."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any
+
+import numpy as np
+import onnxruntime
+from numpy.typing import NDArray
+
+from placecell.core.processors import available_cores
+from placecell.core.segments import Segments
+from placecell.core.types import Float32
+from placecell.descriptors.eigenvalue import FEATURES, eigenvalue_descriptors
+from placecell.descriptors.manifest import FILE, Manifest, ModelError
+from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.orientation import align
+from placecell.descriptors.voxels import voxelise_aligned
+
+MODEL_FILE = "model.onnx"
+BATCH = 16
+"""Segments an inference; larger batches are slower on a CPU (their activations leave the cache)."""
+
+
+Inputs = dict[str, NDArray[Any]]
+"""Of a model, by name; the rows of each are the segments."""
+
+Lap = Callable[[str], None]
+"""Told the name of each step as it ends."""
+
+
+def unwatched(step: str) -> None:
+    """Nobody wants to know how long the steps take."""
+    del step
+
+
+class Extractor(ABC):
+    """Describes segments: prepares its inputs, and infers descriptors from them."""
+
+    manifest: Manifest
+
+    @abstractmethod
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """The model's inputs. The arguments are those of `describe`."""
+
+    @abstractmethod
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, dimension); of a row the same whatever the others are."""
+
+    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
+        """Descriptors, float32 (segments, dimension).
+
+        Args:
+            surroundings: of each segment (`describe_surroundings`); None: the segments were seen
+                together, and surround one another. Of no matter to a model that does not look.
+        """
+        return self.infer(self.prepare(segments, surroundings))
+
+
+class EigenvalueExtractor(Extractor):
+    """The baseline: seven features, standardised on the training statistics."""
+
+    def __init__(self, manifest: Manifest) -> None:
+        self.manifest = manifest
+        self._mean = np.array(manifest.standardisation["mean"], dtype=np.float32)
+        self._deviation = np.array(manifest.standardisation["deviation"], dtype=np.float32)
+
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """The features, float32 (segments, 7)."""
+        del surroundings, lap  # of no matter to these features
+        return {"features": eigenvalue_descriptors(segments)}
+
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, 7)."""
+        return np.asarray((inputs["features"] - self._mean) / self._deviation, dtype=np.float32)
+
+
+class OnnxExtractor(Extractor):
+    """A learned extractor: align, voxelise, and run the exported network.
+
+    The batches of a call are spread over the cores. Each core has a session of one thread: threads
+    within an inference wait for one another at every layer, and inferences within a session for
+    its memory.
+    """
+
+    def __init__(self, folder: Path, manifest: Manifest, threads: int = 0) -> None:
+        if MODEL_FILE not in manifest.files:
+            # Neither the model's id nor the check of its files would cover the network.
+            raise ModelError(f"{folder / FILE}: does not give the SHA-256 of {MODEL_FILE}")
+        self.manifest = manifest
+        threads = threads or available_cores()
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="describe")
+        self._idle: SimpleQueue[onnxruntime.InferenceSession] = SimpleQueue()
+        try:
+            for _ in range(threads):
+                self._idle.put(one_thread_session(folder / MODEL_FILE))
+            # What compiles at its first use does so now, and not while a robot waits.
+            self.describe(Segments.of([np.zeros((1, 3), np.float32)], np.zeros((1, 3))))
+        # onnxruntime's exceptions share no narrower base class than this.
+        except Exception as error:
+            raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
+
+    def prepare(
+        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+    ) -> Inputs:
+        """Occupancy grids, extents and, of a model that looks around, surroundings."""
+        inputs: Inputs = {}
+        looks = self.manifest.surroundings
+        if looks is not None:
+            inputs["surroundings"] = (
+                describe_surroundings(segments, None, looks)
+                if surroundings is None
+                else surroundings
+            )
+            lap("look")
+        aligned = align(segments)
+        lap("align")
+        inputs["occupancy"], inputs["extents"] = voxelise_aligned(
+            aligned, segments.ends, self.manifest.parameters
+        )
+        lap("voxelise")
+        return inputs
+
+    def infer(self, inputs: Inputs) -> Float32:
+        """Descriptors, float32 (rows, dimension); the same whatever the number of threads."""
+
+        def some(first: int, end: int) -> Float32:
+            return self._run({name: rows[first:end] for name, rows in inputs.items()})
+
+        return self._in_batches(some, len(inputs["extents"]))
+
+    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
+        """Descriptors, float32 (segments, dimension), a batch at a time: grids are large."""
+        looks = self.manifest.surroundings
+        if looks is not None and surroundings is None:
+            surroundings = describe_surroundings(segments, None, looks)
+
+        def some(first: int, end: int) -> Float32:
+            rows = np.arange(first, end)
+            around = None if surroundings is None else surroundings[rows]
+            return self._run(self.prepare(segments.take(rows), around))
+
+        return self._in_batches(some, len(segments))
+
+    def _in_batches(self, some: Callable[[int, int], Float32], count: int) -> Float32:
+        """What some rows become, from the first to the end, for all rows."""
+        # Of one size, so that no core waits for another's last batch.
+        bounds = np.linspace(0, count, -(-count // BATCH) + 1).astype(int).tolist()
+        batches = bounds[:-1], bounds[1:]
+        # A single batch is not worth the way to another thread.
+        parts = self._pool.map(some, *batches) if len(bounds) > 2 else map(some, *batches)
+        return np.concatenate([np.zeros((0, self.manifest.dimension), np.float32), *parts])
+
+    def _run(self, inputs: Inputs) -> Float32:
+        session = self._idle.get()
+        try:
+            descriptors: Float32 = session.run(["descriptor"], inputs)[0]
+        finally:
+            self._idle.put(session)
+        return descriptors
+
+
+def one_thread_session(file: Path) -> onnxruntime.InferenceSession:
+    """A network whose inferences are computed by the thread that asks."""
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    options.log_severity_level = 3
+    return onnxruntime.InferenceSession(file, options, providers=["CPUExecutionProvider"])
+
+
+def load_extractor(folder: Path, threads: int = 0) -> Extractor:
+    """Load the model of a folder.
+
+    Args:
+        folder: with `manifest.json` and what it names.
+        threads: cores to use; 0: all that there are.
+
+    Raises:
+        ModelError: the folder holds no usable model.
+    """
+    manifest = Manifest.load(folder)
+    if manifest.method == "eigenvalue":
+        lengths = [len(manifest.standardisation.get(name, ())) for name in ("mean", "deviation")]
+        if lengths != [len(FEATURES)] * 2:
+            raise ModelError(
+                f"{folder / FILE}: its standardisation needs 'mean' and 'deviation', "
+                f"{len(FEATURES)} numbers each"
+            )
+        return EigenvalueExtractor(manifest)
+    return OnnxExtractor(folder, manifest, threads)

@@ -1,0 +1,146 @@
+"""The heaviest set of correspondences that all agree with each other: a clique of the graph.
+
+Finding the very heaviest is NP-hard. This is the greedy search of CLIPPER+ (Fathian and Summers
+2024): a clique is grown from every vertex, and vertices that no heavier one can hold are left out.
+Here these grow in the order of how much agrees with each vertex *among the neighbours of the first*
+(the second-order compatibility of SC2-PCR, Chen et al. 2022), which wrong ones seldom have.
+"""
+
+import numpy as np
+
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.jit import compiled
+from placecell.core.types import Bool, Float64, Int32, Int64
+
+
+def heaviest_clique(
+    graph: Bool, weights: Float64, queries: Int64, left: Bool, effort: int
+) -> Int64:
+    """Vertices of a clique, ascending, int64 (c,); none if no two of them agree.
+
+    Args:
+        graph: bool (m, m), symmetric, without edges between vertices of one query.
+        weights: float64 (m,), more than 0.
+        queries: int64 (m,), the query that each vertex belongs to, from 0.
+        left: bool (m,), which vertices there still are.
+        effort: elementary steps at most; what was found by then is the answer. A count, not a
+            time, so that the answer is the same on any machine.
+    """
+    ends = np.zeros(len(left) + 1, dtype=np.int64)
+    _count(graph, left, ends)
+    neighbours = np.empty(ends[-1], dtype=np.int64)
+    _list(graph, left, neighbours)
+    bounds = np.zeros(len(left))
+    heaviest = np.zeros(int(queries.max(initial=-1)) + 1)
+    _bound(neighbours, ends, weights, queries, heaviest, bounds)
+    seeds = np.argsort(-bounds, kind="stable")
+    best = np.empty(len(left), dtype=np.int64)
+    size = np.zeros(1, dtype=np.int64)
+    token = current()
+    _grow(graph, neighbours, ends, weights, bounds, seeds, effort, token.flag, best, size)
+    token.check()
+    return np.sort(best[: size[0]])
+
+
+@compiled
+def _count(graph: Bool, left: Bool, ends: Int64) -> None:
+    """Fill ends: vertex i has ends[i + 1] - ends[i] neighbours."""
+    for vertex in range(len(left)):
+        count = 0
+        if left[vertex]:
+            for other in range(len(left)):
+                if graph[vertex, other] and left[other]:
+                    count += 1
+        ends[vertex + 1] = ends[vertex] + count
+
+
+@compiled
+def _list(graph: Bool, left: Bool, neighbours: Int64) -> None:
+    """Fill neighbours, of one vertex after the other."""
+    place = 0
+    for vertex in range(len(left)):
+        if left[vertex]:
+            for other in range(len(left)):
+                if graph[vertex, other] and left[other]:
+                    neighbours[place] = other
+                    place += 1
+
+
+@compiled
+def _bound(
+    neighbours: Int64,
+    ends: Int64,
+    weights: Float64,
+    queries: Int64,
+    heaviest: Float64,
+    bounds: Float64,
+) -> None:
+    """Fill bounds: what a clique with this vertex can weigh, at most; 0 if it stands alone.
+
+    No clique holds two vertices of one query: a neighbourhood is worth its heaviest of each.
+    """
+    for vertex in range(len(bounds)):
+        total = 0.0
+        for place in range(ends[vertex], ends[vertex + 1]):
+            other = neighbours[place]
+            if weights[other] > heaviest[queries[other]]:
+                total += weights[other] - heaviest[queries[other]]
+                heaviest[queries[other]] = weights[other]
+        for place in range(ends[vertex], ends[vertex + 1]):
+            heaviest[queries[neighbours[place]]] = 0.0
+        if total > 0.0:
+            bounds[vertex] = weights[vertex] + total
+
+
+@compiled
+def _grow(
+    graph: Bool,
+    neighbours: Int64,
+    ends: Int64,
+    weights: Float64,
+    bounds: Float64,
+    seeds: Int64,
+    effort: int,
+    flag: Int32,
+    best: Int64,
+    size: Int64,
+) -> None:
+    """Fill best with the heaviest clique found, and size with how many vertices it has."""
+    around = np.empty(len(weights), dtype=np.int64)
+    support = np.empty(len(weights))
+    members = np.empty(len(weights), dtype=np.int64)
+    heaviest = 0.0
+    steps = 0
+    for seed in seeds:
+        if bounds[seed] <= heaviest or steps > effort or is_cancelled(flag):
+            break
+        count = 0
+        for place in range(ends[seed], ends[seed + 1]):
+            if bounds[neighbours[place]] > heaviest:
+                around[count] = neighbours[place]
+                support[count] = weights[around[count]]
+                count += 1
+        for one in range(count):
+            for other in range(one):
+                if graph[around[one], around[other]]:
+                    support[one] += weights[around[other]]
+                    support[other] += weights[around[one]]
+        steps += count * count
+        members[0] = seed
+        found = 1
+        weight = weights[seed]
+        for one in np.argsort(-support[:count], kind="mergesort"):
+            vertex = around[one]
+            agrees = True
+            for member in range(found):
+                if not graph[vertex, members[member]]:
+                    agrees = False
+                    break
+            if agrees:
+                members[found] = vertex
+                found += 1
+                weight += weights[vertex]
+        if weight > heaviest and found > 1:
+            heaviest = weight
+            size[0] = found
+            best[:found] = members[:found]

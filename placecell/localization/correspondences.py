@@ -1,0 +1,158 @@
+"""Correspondences: a segment here, the place in the map that it may be, and what that is worth."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.grid_cells import neighboring
+from placecell.core.jit import compiled
+from placecell.core.types import Float64, Int32, Int64
+from placecell.localization.candidates import Candidates
+from placecell.localization.parameters import LocalisationParameters
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Correspondences:
+    """Pairs of a query and a place, m of them.
+
+    Attributes:
+        queries: int64 (m,), indices of the candidates' queries.
+        places: int64 (m,), numbers of places.
+        rows: int64 (m,): of each place the map's row that looks most like the query.
+        source: float64 (m, 3), the query's centroid, metres, in the robot's frame.
+        target: float64 (m, 3), the row's centroid, metres, in the map's frame.
+        weights: float64 (m,), more than 0.
+        usable: how many queries had any candidate.
+    """
+
+    queries: Int64
+    places: Int64
+    rows: Int64
+    source: Float64
+    target: Float64
+    weights: Float64
+    usable: int
+
+    def __len__(self) -> int:
+        return len(self.queries)
+
+    def take(self, indices: Int64) -> "Correspondences":
+        """Those at these indices, in this order."""
+        return Correspondences(
+            self.queries[indices],
+            self.places[indices],
+            self.rows[indices],
+            self.source[indices],
+            self.target[indices],
+            self.weights[indices],
+            self.usable,
+        )
+
+
+def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Correspondences:
+    """Pairs of queries and places, weighted, in an order that does not depend on the queries'.
+
+    A map holds a segment as often as it was seen from elsewhere. Candidates of a query at one place
+    are one correspondence, of their summed belief. Its weight is the log-likelihood ratio of "this
+    is the place" against chance:
+
+        weight = log(1 + share / (unlikely * claims))
+
+    `share`: of the query's belief, what falls on this place: a query with many look-alikes is worth
+    little. `claims`: how many queries' worth of belief falls on the place, if more than one: so is
+    what much of the scan looks like (repetitive segments, cf. inverse document frequency).
+    """
+    beliefs = candidates.beliefs
+    queries, columns = np.nonzero(beliefs)
+    rows = candidates.rows[queries, columns]
+    targets = candidates.places[queries, columns]
+    belief = beliefs[queries, columns]
+    if len(belief) > parameters.most_candidates:
+        likeliest = np.lexsort((rows, -belief))[: parameters.most_candidates]
+        queries, rows = queries[likeliest], rows[likeliest]
+        targets, belief = targets[likeliest], belief[likeliest]
+    places = number_places(rows, targets, parameters.same_place)
+    # Best first within each pair of query and place; ties by row.
+    order = np.lexsort((rows, -belief, places, queries))
+    queries, places, rows = queries[order], places[order], rows[order]
+    starts = np.flatnonzero(np.diff(queries, prepend=-1) | np.diff(places, prepend=-1))
+    summed = np.add.reduceat(belief[order], starts) if len(starts) else np.zeros(0)
+    queries, places, rows = queries[starts], places[starts], rows[starts]
+    total = np.bincount(queries, summed, minlength=len(candidates))
+    share = summed / total[queries]
+    claims = np.bincount(places, share)[places]
+    found = Correspondences(
+        queries,
+        places,
+        rows,
+        candidates.centroids[queries],
+        targets[order][starts],
+        np.log1p(share / (parameters.unlikely * np.maximum(claims, 1.0))),
+        int(np.count_nonzero(total)),
+    )
+    # By where things are, not by how they were numbered.
+    return found.take(np.lexsort((found.rows, *found.source.T)))
+
+
+def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
+    """Return the number of the place that each row belongs to, int64 (m,).
+
+    Rows, from one end of the map on, begin a place unless they are within the radius of one that
+    did.
+
+    Args:
+        rows: int64 (m,), may hold a row more than once.
+        centroids: float64 (m, 3), of the rows, metres.
+        radius: metres.
+
+    Raises:
+        Cancelled: nobody waits for it any longer.
+    """
+    _, first, inverse = np.unique(rows, return_index=True, return_inverse=True)
+    points = centroids[first]
+    order = np.lexsort(points.T[::-1])
+    numbers = np.empty(len(points), dtype=np.int64)
+    token = current()
+    _lead(points[order], *neighboring(points[order], radius), radius, token.flag, numbers)
+    token.check()
+    places = np.empty(len(points), dtype=np.int64)
+    places[order] = numbers
+    return places[inverse]
+
+
+@compiled
+def _lead(
+    points: Float64, cells: Int64, around: Int64, radius: float, flag: Int32, numbers: Int64
+) -> None:
+    """Fill `numbers` with the first leader within the radius of each point, in order.
+
+    Leaders are apart from each other, so a cell holds few of them, and each point is held against
+    few, wherever the points are.
+    """
+    heads = np.full(len(around), -1, dtype=np.int64)
+    following = np.empty(len(points), dtype=np.int64)
+    leaders = np.empty(len(points), dtype=np.int64)
+    count = 0
+    for point in range(len(points)):
+        if is_cancelled(flag):
+            return
+        numbers[point] = -1
+        for cell in around[cells[point]]:
+            if cell < 0:
+                break
+            place = heads[cell]
+            while place >= 0:
+                squared = 0.0
+                for axis in range(3):
+                    squared += (points[point, axis] - points[leaders[place], axis]) ** 2
+                if squared < radius * radius and not 0 <= numbers[point] < place:
+                    numbers[point] = place
+                place = following[place]
+        if numbers[point] < 0:
+            leaders[count] = point
+            numbers[point] = count
+            if np.isfinite(points[point]).all():  # else nothing is near it
+                following[count] = heads[cells[point]]
+                heads[cells[point]] = count
+            count += 1

@@ -1,0 +1,117 @@
+"""A hypothesis: a place where the robot may be, with all that speaks for it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from placecell.core.cancellation import current
+from placecell.core.types import Float64, Int64
+from placecell.localization.clique import heaviest_clique
+from placecell.localization.consistency import consistent
+from placecell.localization.correspondences import Correspondences
+from placecell.localization.covariance import covariance_of, rotation_deviation
+from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.pose import Pose
+from placecell.localization.refinement import refine, residuals
+from placecell.localization.registration import register
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hypothesis:
+    """Pose of the robot's frame in the map's frame, with its inlier segments.
+
+    Attributes:
+        pose: from the robot's frame to the map's.
+        covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
+        score: sum of the weights of what agrees.
+        queries: int64 (inliers,), ascending, indices of the candidates' queries.
+        rows: int64 (inliers,), the map's row that each was found as.
+        source: float64 (inliers, 3), the queries' centroids, metres, in the robot's frame.
+        residuals: float64 (inliers,), metres.
+        worth: float64 (n,), what each of the candidates' queries adds to the score (guided
+            matching); None before that.
+        looks: float64 (n,), how much each query's counterpart looks like it, whatever its distance,
+            up to a bound; 0 where there is none. For comparing maps (`joint`).
+    """
+
+    pose: Pose
+    covariance: Float64
+    score: float
+    queries: Int64
+    rows: Int64
+    source: Float64
+    residuals: Float64
+    worth: Float64 | None = None
+    looks: Float64 | None = None
+
+    def __len__(self) -> int:
+        return len(self.queries)
+
+    @property
+    def rotation_deviation(self) -> float:
+        """Standard deviation of the rotation about its worst axis, radians."""
+        return rotation_deviation(self.covariance)
+
+
+def find_hypotheses(
+    found: Correspondences, parameters: LocalisationParameters, guesses: Sequence[Pose] = ()
+) -> list[Hypothesis]:
+    """Places where the robot may be, best first.
+
+    After each, the correspondences that support it are taken away, and what is left is searched.
+
+    Args:
+        guesses: poses to look at as well.
+    """
+    hypotheses = [_grown(pose, found, parameters) for pose in guesses]
+    graph = consistent(found, parameters)
+    left = np.ones(len(found), dtype=bool)
+    token = current()
+    for _ in range(parameters.hypotheses):
+        token.check()
+        clique = heaviest_clique(graph, found.weights, found.queries, left, parameters.effort)
+        if len(clique) < parameters.least_segments:
+            break
+        agreeing = found.take(clique)
+        pose = register(agreeing.source, agreeing.target, agreeing.weights, parameters)
+        # By all, what supports the better ones included: a place is judged by what agrees with it.
+        hypothesis = _grown(pose, found, parameters)
+        left[clique] = False
+        left &= residuals(hypothesis.pose, found) >= parameters.apart
+        hypotheses.append(hypothesis)
+    return distinct(hypotheses, parameters)
+
+
+def _grown(pose: Pose, found: Correspondences, parameters: LocalisationParameters) -> Hypothesis:
+    """The hypothesis that refinement makes of a pose."""
+    pose, support = refine(pose, found, parameters)
+    agreeing = found.take(support[np.argsort(found.queries[support])])
+    return Hypothesis(
+        pose=pose,
+        covariance=covariance_of(pose, agreeing.source, agreeing.target, parameters),
+        score=float(agreeing.weights.sum()),
+        queries=agreeing.queries,
+        rows=agreeing.rows,
+        source=agreeing.source,
+        residuals=residuals(pose, agreeing),
+    )
+
+
+def distinct(
+    hypotheses: Sequence[Hypothesis], parameters: LocalisationParameters
+) -> list[Hypothesis]:
+    """Best first, without those of too few segments, and those of a better one's place again."""
+    kept: list[Hypothesis] = []
+    for one in sorted(hypotheses, key=lambda each: -each.score):
+        if len(one) >= parameters.least_segments and not any(
+            same_place(one.pose, other.pose, one.source.mean(axis=0), parameters) for other in kept
+        ):
+            kept.append(one)
+    return kept
+
+
+def same_place(one: Pose, other: Pose, at: Float64, parameters: LocalisationParameters) -> bool:
+    """Whether two poses put the robot in the same place, seen from a point (3,) of its frame."""
+    metres, angle = one.difference(other, at)
+    return metres < parameters.apart and bool(np.degrees(angle) < parameters.apart_yaw)

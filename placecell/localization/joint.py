@@ -1,0 +1,361 @@
+"""Joint judgment: compare the robot's pose hypotheses over several maps.
+
+Each map alone may fit well: floors of one building look alike. So the hypotheses of all maps
+compete. A rival in another map counts as a second place, exactly as one in the same map does. What
+a pair of segments is worth follows from the same beliefs in every map, whatever their sizes.
+
+How much two maps differ is told by the segments: each speaks for one of the two, or for both. Where
+both maps show the same, what is left is noise of centroids and descriptors, and its sum is as often
+for the wrong map as for the right one. So the sum has to exceed its own deviation by far.
+"""
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from placecell.core.cancellation import current
+from placecell.core.types import Float64
+from placecell.localization.candidates import Candidates
+from placecell.localization.confidence import Confidence, features_of
+from placecell.localization.evidence import Evidence
+from placecell.localization.guided_matching import Surroundings, look_again
+from placecell.localization.hypothesis import Hypothesis, same_place
+from placecell.localization.localize import (
+    Localisation,
+    Places,
+    find_places,
+    judge,
+    totals_of,
+    unknown,
+)
+from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.pose import Pose
+
+Link = Callable[[int, int], Pose | None]
+"""Function that returns the pose of one map's frame (second index) in another's (first index), if
+both hold the same segments; None otherwise."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapQuery:
+    """A query in one map.
+
+    Attributes:
+        name: of the map, for the words of the answer.
+        model: id of the model that made its descriptors; scores of two models do not compare.
+        candidates: what each segment may be in the map.
+        there: the map.
+        confidence: gives the probability.
+        evidence: what the robot's requests of the last seconds found in the map.
+    """
+
+    name: str
+    model: str
+    candidates: Candidates
+    there: Surroundings
+    confidence: Confidence
+    evidence: Evidence | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rival:
+    """Hypothesis in another map that is not the same place.
+
+    Attributes:
+        map: index of the map.
+        hypothesis: in it.
+        total: its score, with what earlier requests add.
+        ratio: of the evidence for it to that for the judged map's best hypothesis.
+        ahead: by how many standard deviations the judged map's one fits better.
+        is_plausible: whether it would be told as the robot's place, or as one of several, if its
+            map were the only one.
+    """
+
+    map: int
+    hypothesis: Hypothesis
+    total: float
+    ratio: float
+    ahead: float
+    is_plausible: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Judged:
+    """One map's part of a joint judgment.
+
+    Attributes:
+        localisation: in this map, after the hypotheses of all maps were compared.
+        total: score of the best hypothesis, with what earlier requests add; 0 without one.
+        rival: the best hypothesis of the other maps; None: there is none.
+    """
+
+    localisation: Localisation
+    total: float
+    rival: Rival | None = None
+
+
+def localise_jointly(
+    queries: Sequence[MapQuery],
+    parameters: LocalisationParameters,
+    link: Link = lambda *_: None,
+) -> list[Judged]:
+    """Localize the robot in several maps and judge the hypotheses of all maps together.
+
+    Args:
+        queries: one a map; a single one is judged as `localize` judges it.
+        link: tells which maps hold the same segments.
+    """
+    common = _common_beliefs(queries)
+    found, only_rivals = [], set()
+    loose = replace(
+        parameters,
+        distance_tolerance=LOOSER * parameters.distance_tolerance,
+        height_tolerance=LOOSER * parameters.height_tolerance,
+    )
+    for number, query in enumerate(queries):
+        current().check()
+        places = find_places(query.candidates, parameters, query.evidence)
+        beliefs = common.get(query.model)
+        if len(queries) > 1 and not places.hypotheses and places.usable <= FEW:
+            places = find_places(query.candidates, loose)
+            only_rivals.add(number)
+        hypotheses = tuple(
+            look_again(each, query.candidates, query.there, parameters, beliefs)
+            for each in places.hypotheses
+        )
+        found.append(Places(hypotheses, places.usable))
+    return judge_jointly(queries, found, parameters, link, only_rivals)
+
+
+FEW, LOOSER = 20, 2.0
+"""Segment count up to which a map without any hypothesis is searched again, and the factor by which
+the tolerances then grow. With few segments, noise of the centroids may leave no inliers in the
+right map, while chance gives enough in a look-alike. What is found then is a reason for doubt,
+not a pose."""
+
+
+def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
+    """Return each segment's largest belief over all maps of a model, float64 (n,), by model.
+
+    A small map has few look-alikes: by its own candidates alone a pair would be worth more in it
+    than the same pair is in a large map.
+    """
+    common: dict[str, Float64] = {}
+    if len(queries) > 1:
+        for query in queries:
+            own = query.candidates.beliefs.sum(axis=1)
+            common[query.model] = np.maximum(common.get(query.model, own), own)
+    return common
+
+
+def judge_jointly(
+    queries: Sequence[MapQuery],
+    found: Sequence[Places],
+    parameters: LocalisationParameters,
+    link: Link = lambda *_: None,
+    only_rivals: Collection[int] = (),
+) -> list[Judged]:
+    """Judge the hypotheses of all maps together.
+
+    Args:
+        queries: one a map.
+        found: of each map, with comparable scores.
+        link: as of `localise_jointly`.
+        only_rivals: indices of maps whose hypotheses speak against others, but are not told.
+    """
+    totals = [
+        totals_of(places.hypotheses, query.evidence) if places.hypotheses else np.zeros(0)
+        for query, places in zip(queries, found, strict=True)
+    ]
+    alone = [
+        judge(places.hypotheses, places.usable, parameters, query.confidence, query.evidence)
+        if places.hypotheses and number not in only_rivals
+        else unknown(places.usable, parameters)
+        for number, (query, places) in enumerate(zip(queries, found, strict=True))
+    ]
+    groups = _same_places(found, parameters, link)
+    judged = []
+    for number, own in enumerate(alone):
+        if own.best is None:
+            judged.append(Judged(own, 0.0))
+            continue
+        here = int(np.argmax(totals[number]))
+        total = float(totals[number][here])
+        rivals = [
+            _compared(
+                *(own.best, hypothesis, queries[number].evidence, queries[other].evidence),
+                *(other, float(totals[other][at]), alone[other], parameters),
+            )
+            for other, places in enumerate(found)
+            for at, hypothesis in enumerate(places.hypotheses)
+            if other != number and groups[other, at] != groups[number, here]
+        ]
+        told, rival = _against(own, number, found[number].usable, rivals, queries, parameters)
+        judged.append(Judged(told, total, rival))
+    return judged
+
+
+def _compared(
+    own: Hypothesis,
+    rival: Hypothesis,
+    own_evidence: Evidence | None,
+    evidence: Evidence | None,
+    number: int,
+    total: float,
+    alone: Localisation,
+    parameters: LocalisationParameters,
+) -> Rival:
+    """Compare a rival in another map with a map's best hypothesis, segment by segment."""
+    assert own.looks is not None
+    assert rival.looks is not None
+    assert own.worth is not None
+    assert rival.worth is not None
+    of_own = own_evidence.support(own) if own_evidence else 0.0
+    of_rival = evidence.support(rival) if evidence else 0.0
+    ratio = (float(rival.looks.sum()) + of_rival) / max(float(own.looks.sum()) + of_own, 1e-9)
+    ahead = 0.0
+    if len(own.looks) == len(rival.looks):
+        apart, past = own.looks - rival.looks, of_own - of_rival
+        most = np.log1p(parameters.distinct / parameters.unlikely)
+        weight = max(each.weight if each else 0.0 for each in (own_evidence, evidence))
+        variance = (
+            float(apart @ apart)
+            + weight * float(np.sum((own.worth - rival.worth) ** 2))
+            + parameters.past_weight * abs(past) * most
+        )
+        ahead = (float(apart.sum()) + past) / max(np.sqrt(variance), 1e-9)
+    plausible = rival is alone.best and alone.reason in {None, "ambiguous"}
+    return Rival(number, rival, total, ratio, ahead, plausible)
+
+
+def _against(
+    own: Localisation,
+    number: int,
+    usable: int,
+    rivals: Sequence[Rival],
+    queries: Sequence[MapQuery],
+    parameters: LocalisationParameters,
+) -> tuple[Localisation, Rival | None]:
+    """Judge a map's best hypothesis against the other maps'; return also the rival to name."""
+    assert own.best is not None
+    query = queries[number]
+    alike = [each for each in rivals if queries[each.map].model == query.model]
+    foreign = [each for each in rivals if each not in alike and each.is_plausible]
+    strongest = max(alike, key=lambda each: (each.ratio, each.total), default=None)
+    rival = strongest
+    reason, detail, probability, features = own.reason, own.detail, own.probability, own.features
+    second = 0.0 if features is None else 1.0 - float(features[1])
+    if strongest is not None and strongest.ratio > second:
+        features = features_of(
+            own.best, max(float(np.exp(features[0])) if features is not None else 0.0, 1e-9),
+            min(strongest.ratio, 1.0), usable,
+        )  # fmt: skip
+        probability = min(probability, query.confidence.probability(features))
+    doubt = min((chance_of_map(each.ahead, parameters) for each in alike), default=1.0)
+    close = [each for each in alike if each.is_plausible or each.ratio >= parameters.ambiguous]
+    if close:
+        nearest = min(close, key=lambda each: each.ahead)
+        if nearest.ahead < parameters.decisive or nearest.ratio > parameters.ambiguous:
+            rival = nearest
+    other = "" if rival is None else queries[rival.map].name
+    if (
+        rival is not None
+        and rival in close
+        and rival.ahead <= -parameters.decisive
+        and (rival.ratio > 1 / parameters.ambiguous)
+    ):
+        if reason is None or reason == "ambiguous":
+            reason = "inconsistent"
+            detail = f"Map {other!r:.80} fits better. {_told(own.best, rival.hypothesis)}"
+        probability = min(probability, 1 - chance_of_map(-rival.ahead, parameters))
+    elif (
+        rival is not None
+        and rival in close
+        and (rival.ahead < parameters.decisive or rival.ratio >= parameters.ambiguous)
+    ):
+        if reason is None:
+            reason = "ambiguous"
+            detail = (
+                f"Map {other!r:.80} fits about as well. "
+                f"{_told(own.best, rival.hypothesis)} {ADVICE}"
+            )
+        probability = min(probability, 1 / (1 + max(rival.ratio, parameters.ambiguous)))
+    elif foreign and reason is None:
+        # Scores of two models are of two scales: what both find, neither decides.
+        rival = max(foreign, key=lambda each: each.total)
+        other = queries[rival.map].name
+        reason = "ambiguous"
+        detail = (
+            f"Map {other!r:.80} of another model fits too, and scores of different models cannot "
+            f"be compared. {ADVICE}"
+        )
+        probability = min(probability, 0.5)
+    else:
+        probability = min(probability, doubt)
+        if reason is None and probability < parameters.least_probability:
+            reason = "inconsistent"
+            detail = (
+                f"The best pose, with {len(own.best)} of {usable} segments as inliers, is "
+                f"unlikely to be right: map {other!r:.80} fits nearly as well."
+            )
+    told = replace(own, reason=reason, detail=detail, probability=probability, features=features)
+    return told, rival
+
+
+def chance_of_map(ahead: float, parameters: LocalisationParameters) -> float:
+    """Return the probability that the better fitting map is the right one.
+
+    Either both maps show the robot the same, and what it is ahead by is normal about 0; or they do
+    not, and it is normal about what it typically is (`apart_by`).
+
+    Args:
+        ahead: by how many standard deviations it fits better.
+    """
+    exponent = parameters.apart_by * ahead - parameters.apart_by**2 / 2
+    odds = parameters.alike * float(np.exp(-np.clip(exponent, -50.0, 50.0)))
+    return 1 - 0.5 * odds / (1 + odds)
+
+
+def _told(own: Hypothesis, rival: Hypothesis) -> str:
+    """Return how many segments support each of two maps, as text."""
+    assert own.looks is not None
+    assert rival.looks is not None
+    here, there = own.looks > 0.5 * own.looks.max(), rival.looks > 0.5 * rival.looks.max()
+    both = int(np.count_nonzero(here & there))
+    return (
+        f"{both} segments fit both maps, {int(np.count_nonzero(here)) - both} only this one, "
+        f"{int(np.count_nonzero(there)) - both} only that one."
+    )
+
+
+ADVICE = (
+    "If you know which map the robot is in, name it in 'maps'. If both maps show the same place, "
+    "merge them: POST /maps/{map}/merge."
+)
+
+
+def _same_places(
+    found: Sequence[Places], parameters: LocalisationParameters, link: Link
+) -> dict[tuple[int, int], int]:
+    """Number the places: hypotheses of linked maps at the same place share a number.
+
+    By map and index of the hypothesis.
+    """
+    nodes = [
+        (number, at) for number, places in enumerate(found) for at in range(len(places.hypotheses))
+    ]
+    groups = {node: index for index, node in enumerate(nodes)}
+    numbers = [number for number, places in enumerate(found) if places.hypotheses]
+    for place, one in enumerate(numbers):
+        for other in numbers[place + 1 :]:
+            into = link(one, other)
+            if into is None:
+                continue
+            for at, here in enumerate(found[one].hypotheses):
+                middle = here.source.mean(axis=0)
+                for there, hypothesis in enumerate(found[other].hypotheses):
+                    if same_place(here.pose, into.after(hypothesis.pose), middle, parameters):
+                        old, new = groups[other, there], groups[one, at]
+                        groups = {node: new if g == old else g for node, g in groups.items()}
+    return groups

@@ -1,0 +1,89 @@
+"""Which poses of submaps can be right together: those that put the whole map in the same place.
+
+Pairwise consistent measurements as in Mangelson et al. 2018, *Pairwise consistent measurement set
+maximization for robust multi-robot map merging*; the set around the best seed instead of the
+largest clique, for true guesses all agree with each other.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from placecell.core.types import Bool, Float64, Int64
+from placecell.localization import Pose
+from placecell.localization.registration import register
+from placecell.map_alignment.parameters import AlignmentParameters
+
+LEVER = np.concatenate([np.zeros((1, 3)), 10.0 * np.eye(3)])
+"""Metres: a pose is as good as where it puts these points about a submap's middle."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Guess:
+    """Where one submap may be.
+
+    Attributes:
+        submap: its number.
+        middle: float64 (3,), its middle, metres, in its own map's frame.
+        pose: from that frame to the other map's.
+        score: what speaks for it.
+    """
+
+    submap: int
+    middle: Float64
+    pose: Pose
+    score: float
+
+
+def consensus(guesses: Sequence[Guess], parameters: AlignmentParameters) -> list[list[Guess]]:
+    """Guesses that agree with the best seed, and so on with what is left, the weightiest first.
+
+    A submap counts once in a set, by its best guess.
+    """
+    if not guesses:
+        return []
+    graph = agreement(guesses, parameters)
+    scores = np.array([each.score for each in guesses])
+    submaps = np.array([each.submap for each in guesses])
+    left = np.ones(len(guesses), dtype=bool)
+    sets: list[list[Guess]] = []
+    while left.any() and len(sets) < parameters.alignments:
+        worth = [_best_of_each(scores, submaps, row & left).sum() for row in graph]
+        seed = int(np.where(left, worth, -np.inf).argmax())
+        members = np.flatnonzero(_best_of_each(scores, submaps, graph[seed] & left))
+        sets.append([guesses[index] for index in members.tolist()])
+        left &= ~graph[seed]
+    return sets
+
+
+def agreement(guesses: Sequence[Guess], parameters: AlignmentParameters) -> Bool:
+    """Whether each two guesses put the map in the same place, symmetric, bool (g, g)."""
+    middles = np.array([each.middle for each in guesses])
+    # [i, j]: where the pose of guess i puts the middle of j.
+    put = np.stack([each.pose.apply(middles) for each in guesses])
+    own = np.einsum("iij->ij", put)
+    off = np.linalg.norm(put - own, axis=2)
+    between = np.linalg.norm(middles[:, None] - middles, axis=2)
+    near = np.maximum(off, off.T) <= parameters.apart + parameters.slack * between
+    yaws = np.array([each.pose.yaw for each in guesses])
+    turn = np.abs((yaws[:, None] - yaws + np.pi) % (2 * np.pi) - np.pi)
+    return np.asarray(near & (turn <= np.radians(parameters.apart_yaw)))
+
+
+def common_pose(guesses: Sequence[Guess], parameters: AlignmentParameters) -> Pose:
+    """The pose that is nearest to all, by their scores, in the least-squares sense."""
+    source = np.concatenate([each.middle + LEVER for each in guesses])
+    target = np.concatenate([each.pose.apply(each.middle + LEVER) for each in guesses])
+    weights = np.repeat([each.score for each in guesses], len(LEVER))
+    return register(source, target, weights, parameters.local)
+
+
+def _best_of_each(scores: Float64, submaps: Int64, chosen: Bool) -> Float64:
+    """The scores, but 0 for what is not chosen and what is not the best one of its submap."""
+    rows = np.flatnonzero(chosen)
+    rows = rows[np.lexsort((rows, -scores[rows], submaps[rows]))]
+    best = rows[np.unique(submaps[rows], return_index=True)[1]]
+    kept = np.zeros(len(scores))
+    kept[best] = scores[best]
+    return kept

@@ -1,0 +1,80 @@
+"""Submaps: what a robot saw from about one place, out of a whole map."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from placecell.core.spatial import evenly
+from placecell.core.types import Float64, Int64
+from placecell.localization import Candidates
+from placecell.localization.correspondences import number_places
+from placecell.map_alignment.map_view import Looks, MapView
+from placecell.map_alignment.parameters import AlignmentParameters
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Submap:
+    """A part of a map.
+
+    Attributes:
+        middle: float64 (3,), mean of the centroids, metres, in the map's frame.
+        rows: int64 (n,), ascending, of the map.
+    """
+
+    middle: Float64
+    rows: Int64
+
+
+def cut(view: MapView, parameters: AlignmentParameters) -> list[Submap]:
+    """Submaps about stands that are apart from each other, evenly over the map if it is large."""
+    stands = view.stands[spread(view.stands, parameters.spacing)]
+    chosen = stands[evenly(np.arange(len(stands)), parameters.submaps)]
+    if not len(chosen):
+        return []
+    tree = cKDTree(view.stands)
+    submaps = []
+    for stand in chosen:
+        about = tree.query_ball_point(stand, parameters.stand, return_sorted=True)
+        rows = evenly(np.array(about, dtype=np.int64), parameters.rows)
+        submaps.append(Submap(view.centroids[rows].mean(axis=0), rows))
+    return submaps
+
+
+def spread(points: Float64, spacing: float) -> Int64:
+    """Points that are no closer to each other than the spacing, from one end on, int64 (m,)."""
+    numbers = number_places(np.arange(len(points)), points, spacing)
+    # The first point of each number, in the order of `number_places`, is the one that began it.
+    order = np.lexsort((*points.T[::-1], numbers))
+    return order[np.flatnonzero(np.diff(numbers[order], prepend=-1))]
+
+
+def candidates_of(
+    submap: Submap, view: MapView, other: MapView, looks: Looks, parameters: AlignmentParameters
+) -> Candidates:
+    """What each thing of a submap may be in the other map.
+
+    Views of one thing, closer to each other than `same_place`, ask together.
+    """
+    rows = submap.rows
+    numbers = number_places(rows, view.centroids[rows], parameters.local.same_place)
+    order = np.argsort(numbers, kind="stable")
+    _, starts, counts = np.unique(numbers[order], return_index=True, return_counts=True)
+    means = np.add.reduceat(view.centroids[rows][order], starts) / counts[:, None]
+    asking = evenly(np.arange(len(starts)), parameters.things)
+    starts, counts, means = starts[asking], counts[asking], means[asking]
+    # Some of the views of each, spread over them; of few views one stands more than once.
+    shares = np.arange(parameters.views) / parameters.views
+    places = starts[:, None] + np.floor(shares * counts[:, None]).astype(np.int64)
+    asked = rows[order][places]
+    repeats = np.zeros(places.shape, dtype=bool)
+    repeats[:, 1:] = places[:, 1:] == places[:, :-1]
+    found, probabilities = looks.nearest(asked.ravel())
+    probabilities = np.where(repeats.ravel()[:, None], 0.0, probabilities)
+    things = len(starts)
+    return Candidates(
+        means,
+        found.reshape(things, -1),
+        other.centroids[found].reshape(things, -1, 3),
+        probabilities.reshape(things, -1),
+    )

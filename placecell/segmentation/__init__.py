@@ -1,0 +1,1 @@
+"""Segmentation: from the scans of a drive to groups of segments (paper III-A)."""

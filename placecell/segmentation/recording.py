@@ -1,0 +1,191 @@
+"""A recording: all segments of a drive, as prepared for training and evaluation.
+
+The file is safetensors: columns as tensors, the rest as JSON in the header's metadata. Nothing in
+it is code, so a recording from elsewhere is safe to load. `docs/reference/recording-file.md`
+describes it.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import safetensors
+from numpy.typing import NDArray
+from safetensors.numpy import save_file
+
+from placecell.core.parameters import Parameters, SurroundingsParameters
+from placecell.core.segments import Segments
+from placecell.core.types import Bool, Float32, Int64
+from placecell.descriptors.neighborhood import describe_surroundings
+
+FORMAT = "placecell-recording"
+VERSION = 1
+COLUMNS = {
+    "points": ("float32", (3,)),
+    "ends": ("int64", ()),
+    "sensors": ("float32", (3,)),
+    "frames": ("int64", ()),
+    "groups": ("int64", ()),
+    "distinct": ("bool", ()),
+}
+"""Of each column: the type of its elements and the shape of a row."""
+
+
+class RecordingError(ValueError):
+    """A file that is no recording, or one of another version."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Segments of a drive in time order.
+
+    Attributes:
+        name: of the drive.
+        parameters: that made it, the protocol's name among them.
+        segments: all of them, in the drive's world frame.
+        frames: int64 (segments,): the scan at whose time each was captured.
+        groups: int64 (segments,): numbers from 0, one a surface.
+        distinct: bool (segments,): false for duplicates inside their group.
+        scans: how many the drive has.
+        scan_hashes: of each scan, to tell whether a model has seen it.
+        path_length: metres driven.
+        part: scans that it was made of, where that is not the whole drive.
+        skipped_scans: indices of scans that could not be used.
+        dropped_points: how many points of the other scans were not finite.
+    """
+
+    name: str
+    parameters: Parameters
+    segments: Segments
+    frames: Int64
+    groups: Int64
+    distinct: Bool
+    scans: int
+    scan_hashes: tuple[str, ...]
+    path_length: float
+    part: range | None = None
+    skipped_scans: tuple[int, ...] = ()
+    dropped_points: int = 0
+
+    @property
+    def frame_scans(self) -> range:
+        """Scans that are frames, whether any segment was seen there or not."""
+        scans = range(self.scans) if self.part is None else self.part
+        return scans[:: self.parameters.frame_step]
+
+    def within(self, first: int, last: int) -> Bool:
+        """Segments of the groups that lie wholly within scans first to last (both included)."""
+        count = int(self.groups.max(initial=-1)) + 1
+        earliest = np.full(count, np.iinfo(np.int64).max)
+        latest = np.full(count, -1)
+        np.minimum.at(earliest, self.groups, self.frames)
+        np.maximum.at(latest, self.groups, self.frames)
+        return ((earliest >= first) & (latest <= last))[self.groups]
+
+    def surroundings(self, parameters: SurroundingsParameters) -> Float32:
+        """What stood around each segment in its frame, float32 (segments, size)."""
+        return describe_surroundings(self.segments, self.frames, parameters)
+
+    def save(self, file: Path) -> None:
+        """Write the recording as safetensors.
+
+        Raises:
+            RecordingError: it is of a part of its drive, which the file cannot say.
+        """
+        if self.part is not None:
+            raise RecordingError(
+                f"{file}: a file is of a whole drive, not of scans {self.part.start} to "
+                f"{self.part.stop - 1} alone; record the drive without naming scans"
+            )
+        header = {
+            "format": FORMAT,
+            "version": VERSION,
+            "name": self.name,
+            "parameters": self.parameters.as_dict(),
+            "scans": self.scans,
+            "scan_hashes": list(self.scan_hashes),
+            "path_length_m": self.path_length,
+        }
+        if self.skipped_scans or self.dropped_points:
+            # Optional: the file of a drive without dropouts is as it always was.
+            header["skipped_scans"] = list(self.skipped_scans)
+            header["dropped_points"] = self.dropped_points
+        file.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = file.with_name(file.name + ".unfinished")
+        columns = {
+            "points": self.segments.points,
+            "ends": self.segments.ends,
+            "sensors": self.segments.sensors,
+            "frames": self.frames,
+            "groups": self.groups,
+            "distinct": self.distinct,
+        }
+        save_file(
+            # safetensors writes memory as it lies, a view's too.
+            {name: np.ascontiguousarray(column) for name, column in columns.items()},
+            unfinished,
+            metadata={"header": json.dumps(header, sort_keys=True)},
+        )
+        unfinished.replace(file)
+
+    @classmethod
+    def load(cls, file: Path) -> "Recording":
+        """Read a recording.
+
+        Raises:
+            RecordingError: it cannot be read, or is of another kind or version.
+        """
+        try:
+            with safetensors.safe_open(file, framework="numpy") as content:
+                header = json.loads((content.metadata() or {})["header"])
+                columns = {name: content.get_tensor(name) for name in content.keys()}  # noqa: SIM118
+            if header["format"] != FORMAT or header["version"] != VERSION:
+                raise RecordingError(
+                    f"{file}: {header['format']} version {header['version']}; "
+                    f"this program reads {FORMAT} version {VERSION}: prepare the drive again"
+                )
+            check_columns(columns, file)
+            parameters = header["parameters"]
+            return cls(
+                name=header["name"],
+                parameters=Parameters(**parameters | {"grid": tuple(parameters["grid"])}),
+                segments=Segments(columns["points"], columns["ends"], columns["sensors"]),
+                frames=columns["frames"],
+                groups=columns["groups"],
+                distinct=columns["distinct"],
+                scans=header["scans"],
+                scan_hashes=tuple(header["scan_hashes"]),
+                path_length=header["path_length_m"],
+                skipped_scans=tuple(header.get("skipped_scans", ())),
+                dropped_points=header.get("dropped_points", 0),
+            )
+        except (
+            OSError,
+            safetensors.SafetensorError,
+            KeyError,
+            TypeError,
+            json.JSONDecodeError,
+        ) as error:
+            raise RecordingError(f"{file}: not a recording of segments ({error})") from error
+
+
+def check_columns(columns: dict[str, NDArray[Any]], file: Path) -> None:
+    """Refuse columns that do not fit together: they would be read as other segments.
+
+    Raises:
+        RecordingError: a column has another type, shape or length, or holds impossible values.
+    """
+    count = len(columns["ends"])
+    for name, (kind, row) in COLUMNS.items():
+        column = columns[name]
+        if column.dtype != kind or column.shape[1:] != row:
+            raise RecordingError(f"{file}: {name} is {column.dtype} {column.shape}, not {kind}")
+        if name != "points" and len(column) != count:
+            raise RecordingError(f"{file}: {name} has {len(column)} rows, ends has {count}")
+    counts = np.diff(columns["ends"], prepend=0)
+    if (counts <= 0).any() or counts.sum() != len(columns["points"]):
+        raise RecordingError(f"{file}: ends do not divide the {len(columns['points'])} points")
+    if (columns["groups"] < 0).any():
+        raise RecordingError(f"{file}: groups has a negative number")
