@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap, moved
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.local import Local
 from bench.pose_report import bounds

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 from scipy.optimize import minimize
 
 from bench.local import Local

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import Client, encode
-from placecell_client.map_union import union
+from placecell_client.maps.union import union
 
 from bench.cutting_proxy import CuttingProxy
 from bench.made_map import Kind

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.map_content import Views, map_of
 from bench.pose_queries import random_frame

@@ -20,14 +20,14 @@ with atheris.instrument_imports(include=["placecell_client", "service.packing", 
         CompactMap,
         Delta,
         MapFileError,
-        carrier,
         decode,
         decode_delta,
         encode,
         encode_delta,
         originated,
     )
-    from placecell_client.map_edit import apply, with_optional
+    from placecell_client.maps import container
+    from placecell_client.maps.edit import apply, with_optional
     from pydantic import ValidationError
 
     from service import packing
@@ -117,7 +117,7 @@ def seeds() -> dict[str, list[bytes]]:
 def main() -> None:
     """Fuzz one of the readers; further arguments are libFuzzer's."""
     # No fuzzer guesses a SHA-256: without it, what stands behind it is reached too.
-    carrier._checksum = lambda *_: "unsealed"
+    container._checksum = lambda *_: "unsealed"
     reader = {"msgpack": read_msgpack, "map": read_map, "delta": read_delta}[sys.argv[1]]
     corpus = Path("out/fuzz") / sys.argv[1]
     corpus.mkdir(parents=True, exist_ok=True)

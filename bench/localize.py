@@ -15,7 +15,7 @@ from typing import Any
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Client, CompactMap, Description, Localisation, encode
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import VIEWS, Views, map_of

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from placecell_client import CompactMap, Info
-from placecell_client.map_edit import empty
+from placecell_client.maps.edit import empty
 
 from placecell.core.types import UInt32
 

@@ -10,7 +10,7 @@ from typing import TypeVar
 import httpx
 import numpy as np
 from placecell_client import Client, CompactMap, Delta, MapCopy, Retries, ServiceError, encode
-from placecell_client.map_edit import apply, take
+from placecell_client.maps.edit import apply, take
 
 from bench.made_map import Kind
 from placecell.core.types import UInt32

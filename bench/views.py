@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap
-from placecell_client.map_edit import empty
+from placecell_client.maps.edit import empty
 
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64

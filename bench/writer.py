@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from placecell_client import Client, CompactMap, Delta, decode, encode
-from placecell_client.map_edit import apply, take, with_optional
+from placecell_client.maps.edit import apply, take, with_optional
 
 from bench.journal import Journal
 from bench.made_map import EPOCH, Kind

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from placecell_client.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.descriptors.extractor import Extractor, Inputs

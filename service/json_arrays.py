@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from placecell_client.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.jit import compiled, compiled_part
 from placecell.core.types import Float64, Int8, Int64

@@ -11,13 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from placecell_client import CompactMap, Delta
-from placecell_client.map_edit import (
-    apply,
-    difference,
-    empty,
-    take,
-    with_optional,
-)
+from placecell_client.maps.edit import apply, difference, empty, take, with_optional
 
 from placecell.core.spatial import within
 from placecell.core.types import Bool, Float64, Int64, UInt32

@@ -12,8 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 from placecell_client import CompactMap, Delta
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import apply, take, with_optional
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import apply, take, with_optional
 
 from placecell.core.cancellation import current, is_cancelled
 from placecell.core.grid_cells import neighboring

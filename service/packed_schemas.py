@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from placecell_client.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 from pydantic import (
     BaseModel,
     ConfigDict,

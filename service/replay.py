@@ -4,7 +4,7 @@ import logging
 from collections.abc import Iterable
 
 from placecell_client import Delta, decode, decode_delta
-from placecell_client.map_edit import compose
+from placecell_client.maps.edit import compose
 
 from placecell.core.cancellation import current
 from service.layers import Layers

@@ -6,7 +6,7 @@ from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
-from placecell_client.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int64

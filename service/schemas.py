@@ -2,7 +2,7 @@
 
 from typing import Annotated, Generic, Self, TypeVar
 
-from placecell_client.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from service.settings import NAMED_MAPS

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from placecell_client import CompactMap, Delta, moved, originated
-from placecell_client.map_edit import apply, difference, empty, take, with_optional
+from placecell_client.maps.edit import apply, difference, empty, take, with_optional
 from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current

@@ -10,7 +10,7 @@ from collections import Counter
 from dataclasses import replace
 
 from placecell_client import CompactMap, Delta
-from placecell_client.canonical import canonical
+from placecell_client.maps.canonical import canonical
 
 from service.keys import Holder
 from service.layers import Layers

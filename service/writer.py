@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from placecell_client import CompactMap, Delta, encode
-from placecell_client.map_edit import apply, delta_between, take
+from placecell_client.maps.edit import apply, delta_between, take
 
 from placecell.core.types import UInt32
 from service.clock_check import check_times

@@ -15,7 +15,7 @@ from typing import Any
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import CompactMap, Delta, decode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.attack.prober import Probe, ProbePlan
 from bench.attack.target import OWNER, VICTIM, Target

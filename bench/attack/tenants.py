@@ -12,7 +12,7 @@ from urllib.parse import urljoin
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Delta, encode
-from placecell_client.map_edit import take, with_optional
+from placecell_client.maps.edit import take, with_optional
 
 from bench.attack.stage import NONE, Case, Stage, delta_of, kind_of, with_columns
 from bench.attack.target import HALL, OWNER, READER, RIGHTS, ROBOT, VICTIM, Target

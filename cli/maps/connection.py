@@ -30,7 +30,7 @@ def service(url: str) -> Iterator["Client"]:
     """A client of the service; what it refuses ends the command with a line."""
     import httpx
     from placecell_client import Client, ServiceError
-    from placecell_client.retries import may_be_done
+    from placecell_client.http.retry import may_be_done
 
     with clear_errors():
         try:

@@ -137,7 +137,7 @@ def diff(
 ) -> None:
     """Tell what was added, changed and removed from one map to the other."""
     import numpy as np
-    from placecell_client.map_edit import difference
+    from placecell_client.maps.edit import difference
 
     with service(url) as client:
         before, after = map_from(client, old), map_from(client, new)

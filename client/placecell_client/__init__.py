@@ -2,23 +2,15 @@
 
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
-from placecell_client.clouds import PrecisionWarning
-from placecell_client.errors import ServiceError
-from placecell_client.localisation import (
-    Hypothesis,
-    Inliers,
-    Localisation,
-    Localisations,
-    Pose,
-    Rival,
-)
-from placecell_client.map_alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
-from placecell_client.map_copy import ChangesPage, MapCopy
-from placecell_client.map_delta import Delta, decode_delta, encode_delta
-from placecell_client.map_file import CompactMap, MapFileError, decode, encode
-from placecell_client.map_merge import MapLoop, Merge, MergedPart, MergePair
-from placecell_client.map_move import moved, originated
-from placecell_client.results import (
+from placecell_client.http.errors import ServiceError
+from placecell_client.http.point_clouds import PrecisionWarning
+from placecell_client.http.retry import Retries
+from placecell_client.maps.delta_file import Delta, decode_delta, encode_delta
+from placecell_client.maps.map_file import CompactMap, MapFileError, decode, encode
+from placecell_client.maps.move import moved, originated
+from placecell_client.replica import ChangesPage, MapCopy
+from placecell_client.results.alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
+from placecell_client.results.core import (
     Candidate,
     Description,
     Info,
@@ -31,7 +23,15 @@ from placecell_client.results import (
     Skipped,
     Written,
 )
-from placecell_client.retries import Retries
+from placecell_client.results.localization import (
+    Hypothesis,
+    Inliers,
+    Localisation,
+    Localisations,
+    Pose,
+    Rival,
+)
+from placecell_client.results.merge import MapLoop, Merge, MergedPart, MergePair
 
 __all__ = [
     "AsyncClient",

@@ -12,19 +12,19 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client import uploading
-from placecell_client.answer import Answer
-from placecell_client.attempts import Attempt
-from placecell_client.caller import Caller, http_options
-from placecell_client.calls import ALIGNMENT_SECONDS, Call
-from placecell_client.errors import ServiceError
-from placecell_client.localisation import Localisations, Motion
-from placecell_client.map_alignment import MapAlignment
-from placecell_client.map_copy import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
-from placecell_client.map_delta import Delta
-from placecell_client.map_file import CompactMap
-from placecell_client.map_merge import Merge
-from placecell_client.results import (
+from placecell_client import map_upload
+from placecell_client.http.attempts import Attempt
+from placecell_client.http.encoding import Encoding
+from placecell_client.http.errors import ServiceError
+from placecell_client.http.requests import ALIGNMENT_SECONDS, Call
+from placecell_client.http.response import Answer
+from placecell_client.http.retry import USUAL, Retries
+from placecell_client.http.transport import Caller, http_options
+from placecell_client.maps.delta_file import Delta
+from placecell_client.maps.map_file import CompactMap
+from placecell_client.replica import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
+from placecell_client.results.alignment import MapAlignment
+from placecell_client.results.core import (
     Description,
     Info,
     Maps,
@@ -34,8 +34,8 @@ from placecell_client.results import (
     PartialUpload,
     Written,
 )
-from placecell_client.retries import USUAL, Retries
-from placecell_client.wire import Encoding
+from placecell_client.results.localization import Localisations, Motion
+from placecell_client.results.merge import Merge
 
 T = TypeVar("T")
 AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
@@ -131,7 +131,7 @@ class AsyncClient(Caller):
         create_only: bool = False,
     ) -> MapSummary:
         """`Client.put_map`."""
-        steps = uploading.put_map(self._calls, name, compact_map, if_match, create_only)
+        steps = map_upload.put_map(self._calls, name, compact_map, if_match, create_only)
         return await self._take(steps)
 
     async def uploads(self, name: str) -> tuple[PartialUpload, ...]:
@@ -251,7 +251,7 @@ class AsyncClient(Caller):
         """`Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
 
-    async def _take(self, steps: uploading.Steps) -> MapSummary:
+    async def _take(self, steps: map_upload.Steps) -> MapSummary:
         """Send the calls of some steps, one after the other."""
         try:
             call = next(steps)

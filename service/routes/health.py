@@ -5,7 +5,7 @@ from dataclasses import asdict
 import anyio.to_thread
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import PlainTextResponse
-from placecell_client.map_file import FORMAT, MEDIA_TYPE, VERSION
+from placecell_client.maps.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from placecell.descriptors.manifest import Manifest

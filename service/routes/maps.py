@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from placecell_client import encode
-from placecell_client.map_file import MEDIA_TYPE
+from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.admission import client_of
 from service.audit import tell, tell_written

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from placecell_client import encode_delta
-from placecell_client.map_delta import MEDIA_TYPE
+from placecell_client.maps.delta_file import MEDIA_TYPE
 
 from service.admission import client_of
 from service.audit import tell, tell_written

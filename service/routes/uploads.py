@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
-from placecell_client.map_file import MEDIA_TYPE
+from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.audit import tell, tell_written
 from service.bodies import OCTETS

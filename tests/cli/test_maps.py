@@ -11,7 +11,7 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, Delta, decode, encode, encode_delta, originated
-from placecell_client.map_edit import apply, take
+from placecell_client.maps.edit import apply, take
 from typer.testing import CliRunner
 
 from bench.server import running_service

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, moved
-from placecell_client.map_alignment import alignment_of
-from placecell_client.map_edit import take
-from placecell_client.map_merge import merge_of
+from placecell_client.maps.edit import take
+from placecell_client.results.alignment import alignment_of
+from placecell_client.results.merge import merge_of
 
 from cli.maps.together import is_any_laid, print_alignment, print_merge
 from tests.cli.maps_command import bad, good, run

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import placecell_client
 from placecell_client import AsyncClient, Client, CompactMap, ServiceError, decode, encode
-from placecell_client.retries import Retries
+from placecell_client.http.retry import Retries
 
 
 class Handler(BaseHTTPRequestHandler):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta
-from placecell_client.compact_map import OPTIONAL
+from placecell_client.maps.compact_map import OPTIONAL
 
 PROVENANCE = ("source", "source_ids")
 GROUPS = [*((name,) for name in OPTIONAL if name not in PROVENANCE), PROVENANCE]

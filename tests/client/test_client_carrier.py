@@ -11,17 +11,10 @@ import pytest
 import safetensors.numpy
 from hypothesis import given
 from hypothesis import strategies as st
-from placecell_client import (
-    Delta,
-    MapFileError,
-    carrier,
-    decode,
-    decode_delta,
-    encode,
-    encode_delta,
-)
-from placecell_client.carrier import HEADER_LIMIT, Content
-from placecell_client.compact_map import OPTIONAL
+from placecell_client import Delta, MapFileError, decode, decode_delta, encode, encode_delta
+from placecell_client.maps import container
+from placecell_client.maps.compact_map import OPTIONAL
+from placecell_client.maps.container import HEADER_LIMIT, Content
 
 from tests.client.file_surgery import header_length, outer_header, with_outer_header
 from tests.client.map_builders import PROVENANCE, random_map
@@ -50,7 +43,7 @@ each_kind = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
 
 def content_of(data: bytes) -> Content:
     """A file's content, unchecked."""
-    inner = carrier._json(outer_header(data)["__metadata__"]["placecell"].encode(), NOTHING)
+    inner = container._json(outer_header(data)["__metadata__"]["placecell"].encode(), NOTHING)
     inner.pop("sha256")
     return Content(inner, safetensors.numpy.load(data))
 
@@ -58,7 +51,7 @@ def content_of(data: bytes) -> Content:
 TYPES = {
     "F64": "<f8", "F32": "<f4", "U32": "<u4", "U16": "<u2", "I16": "<i2", "U8": "u1", "I8": "i1"
 }  # fmt: skip
-NOTHING = carrier.FileFormat("x", "x", 0, frozenset(), frozenset())
+NOTHING = container.FileFormat("x", "x", 0, frozenset(), frozenset())
 
 
 @contextmanager
@@ -187,7 +180,7 @@ def test_columns_of_a_wrong_shape_are_refused(
     content = content_of(kind.data)
     column = np.zeros(shape, content.columns[name].dtype)
     with pytest.raises(MapFileError):
-        kind.decode(carrier.write(Content(content.header, content.columns | {name: column})))
+        kind.decode(container.write(Content(content.header, content.columns | {name: column})))
 
 
 @each_kind
@@ -208,7 +201,7 @@ def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float)
     content = content_of(kind.data)
     column = np.full_like(content.columns[name], value)
     with pytest.raises(MapFileError, match=name):
-        kind.decode(carrier.write(Content(content.header, content.columns | {name: column})))
+        kind.decode(container.write(Content(content.header, content.columns | {name: column})))
 
 
 @pytest.mark.parametrize("kind", [KINDS["map-all-columns"], KINDS["delta-all-columns"]])
@@ -221,13 +214,13 @@ def test_sources_that_no_map_has_are_refused(kind: Kind) -> None:
         ({"source": source.astype("u1")}, "source: not of type U16"),
         ({"source_ids": ids.astype("<f4")}, "source_ids: not of type U32"),
     ]:
-        data = carrier.write(Content(content.header, content.columns | changed))
+        data = container.write(Content(content.header, content.columns | changed))
         with pytest.raises(MapFileError, match=message):
             kind.decode(data)
     for name in ("source", "source_ids"):
         columns = {key: column for key, column in content.columns.items() if key != name}
         with pytest.raises(MapFileError, match="one of them without the other"):
-            kind.decode(carrier.write(Content(content.header, columns)))
+            kind.decode(container.write(Content(content.header, columns)))
 
 
 @each_kind
@@ -237,7 +230,7 @@ def test_whole_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
     column = content.columns[name]
     other = -column if name == "frame_orientations" else column[::-1]
     with pytest.raises(MapFileError, match=r"canonical|source_ids: not its own id"):
-        kind.decode(carrier.write(Content(content.header, content.columns | {name: other})))
+        kind.decode(container.write(Content(content.header, content.columns | {name: other})))
 
 
 @pytest.mark.parametrize("name", OPTIONAL)
@@ -246,7 +239,7 @@ def test_optional_columns_of_a_wrong_shape_are_refused(name: str) -> None:
     column = content.columns[name]
     for wrong in (column[:2], column[..., None], column.reshape(-1)[:1]):
         with pytest.raises(MapFileError, match=name):
-            decode(carrier.write(Content(content.header, content.columns | {name: wrong})))
+            decode(container.write(Content(content.header, content.columns | {name: wrong})))
 
 
 SHAPES = st.lists(st.integers(0, 4), max_size=3).map(tuple)
@@ -255,7 +248,7 @@ SHAPES = st.lists(st.integers(0, 4), max_size=3).map(tuple)
 @each_kind
 @given(
     changes=st.dictionaries(
-        st.sampled_from(sorted(carrier.DTYPES)),
+        st.sampled_from(sorted(container.DTYPES)),
         st.tuples(SHAPES, st.binary(min_size=8, max_size=64), st.booleans()),
         min_size=1,
         max_size=3,
@@ -267,10 +260,10 @@ def test_columns_of_any_shape_and_values_are_read_or_refused(
     content = content_of(kind.data)
     columns = dict(content.columns)
     for name, (shape, values, is_wide) in changes.items():
-        dtype = np.dtype(TYPES[carrier.DTYPES[name][-1 if is_wide else 0]])
+        dtype = np.dtype(TYPES[container.DTYPES[name][-1 if is_wide else 0]])
         size = int(np.prod(shape)) * dtype.itemsize
         columns[name] = np.frombuffer((values * size)[:size], dtype).reshape(shape)
-    data = carrier.write(Content(content.header, columns))
+    data = container.write(Content(content.header, columns))
     try:
         read = kind.decode(data)
     except MapFileError:

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 import httpx
 import pytest
 from placecell_client import AsyncClient, Client
-from placecell_client.explaining import explained, is_loopback
-from placecell_client.retries import Retries
+from placecell_client.http.connection_errors import explained, is_loopback
+from placecell_client.http.retry import Retries
 
 ONCE = Retries(attempts=1)
 

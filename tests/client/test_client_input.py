@@ -10,7 +10,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import Client, Description, PrecisionWarning
-from placecell_client.wire import Encoding, centroids_of, codes_of, segments_of
+from placecell_client.http.encoding import Encoding, centroids_of, codes_of, segments_of
 
 CLOUD = np.random.default_rng(0).uniform(-30, 30, (40, 3))
 SENSOR = [0.0, 0.0, 1.5]

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from placecell_client import Delta, MapFileError, decode_delta, encode, encode_delta
-from placecell_client.compact_map import OPTIONAL
+from placecell_client.maps.compact_map import OPTIONAL
 
 from tests.client.file_surgery import inner_header, with_inner_header
 from tests.client.map_builders import deltas, random_map

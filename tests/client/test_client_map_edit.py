@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, MapFileError, decode, encode, encode_delta
-from placecell_client.compact_map import OPTIONAL
-from placecell_client.map_edit import (
+from placecell_client.maps.compact_map import OPTIONAL
+from placecell_client.maps.edit import (
     apply,
     compose,
     delta_between,

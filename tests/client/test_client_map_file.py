@@ -9,8 +9,8 @@ import safetensors.numpy
 from hypothesis import given
 from hypothesis import strategies as st
 from placecell_client import CompactMap, MapFileError, decode, encode
-from placecell_client.canonical import take
-from placecell_client.compact_map import OPTIONAL
+from placecell_client.maps.canonical import take
+from placecell_client.maps.compact_map import OPTIONAL
 
 from tests.client.file_surgery import inner_header, with_inner_header
 from tests.client.map_builders import (

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from placecell_client import CompactMap, Delta, MapFileError, encode, moved, originated
-from placecell_client.compact_map import OPTIONAL, SEGMENT_COLUMNS
-from placecell_client.map_edit import apply
+from placecell_client.maps.compact_map import OPTIONAL, SEGMENT_COLUMNS
+from placecell_client.maps.edit import apply
 from scipy.spatial.transform import Rotation
 
 from tests.client.map_builders import PROVENANCE, maps, random_map

@@ -16,8 +16,8 @@ from placecell_client import (
     encode,
     encode_delta,
 )
-from placecell_client.map_copy import LOST_AT_MOST
-from placecell_client.map_edit import delta_between, difference, take
+from placecell_client.maps.edit import delta_between, difference, take
+from placecell_client.replica import LOST_AT_MOST
 
 from tests.client.client_fakes import SUMMARY, WRITTEN, Blocking, client_of
 from tests.client.map_builders import random_map

@@ -8,8 +8,8 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client import Delta, Retries, ServiceError
-from placecell_client.attempts import Attempt
-from placecell_client.deadline import Deadline
+from placecell_client.http.attempts import Attempt
+from placecell_client.http.deadline import Deadline
 
 from tests.client.client_fakes import INFO, SUMMARY, Blocking, Time, client_of
 from tests.client.map_builders import random_map

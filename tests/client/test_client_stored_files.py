@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 from placecell_client import CompactMap, Delta, decode, decode_delta, encode, encode_delta
-from placecell_client.map_edit import apply
+from placecell_client.maps.edit import apply
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 MAP_FILE = FIXTURES / "version-1.map"

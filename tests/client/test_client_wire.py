@@ -8,7 +8,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import Client, Description, ServiceError
-from placecell_client.wire import Encoding, segments_of
+from placecell_client.http.encoding import Encoding, segments_of
 
 MEDIA_TYPE = "application/msgpack"
 FAR = np.array([5e5, 5.4e6, 300.0])

@@ -7,17 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from placecell_client import (
-    CompactMap,
-    Delta,
-    carrier,
-    decode,
-    encode,
-    encode_delta,
-    map_delta,
-    map_file,
-)
-from placecell_client.compact_map import OPTIONAL
+from placecell_client import CompactMap, Delta, decode, encode, encode_delta
+from placecell_client.maps import container, delta_file, map_file
+from placecell_client.maps.compact_map import OPTIONAL
 
 from tests.client.file_surgery import compact_json, inner_header
 from tests.client.map_builders import random_map
@@ -68,7 +60,7 @@ def test_the_deltas_header_is_the_codecs() -> None:
 def test_the_columns_are_the_codecs() -> None:
     rows = re.findall(r"^\| `(\w+)` \| ([A-Z]\d+)(?:; (U\d+) if [^|]*)? \|", TEXT, re.MULTILINE)
     told = {name: tuple(filter(None, dtypes)) for name, *dtypes in rows}
-    assert list(told.items()) == list(carrier.DTYPES.items())
+    assert list(told.items()) == list(container.DTYPES.items())
     costs = dict(re.findall(r"^\| `(\w+)` \| (\d) \|", TEXT, re.MULTILINE))
     sizes = {
         name: np.dtype(dtype).itemsize * max(1, *shape, 1)
@@ -79,8 +71,8 @@ def test_the_columns_are_the_codecs() -> None:
 
 def test_the_media_types_are_the_codecs() -> None:
     assert f"| map | `{map_file.MEDIA_TYPE}` |" in TEXT
-    assert f"| delta | `{map_delta.MEDIA_TYPE}` |" in TEXT
-    assert f"media type is `{map_delta.MEDIA_TYPE}`" in TEXT
+    assert f"| delta | `{delta_file.MEDIA_TYPE}` |" in TEXT
+    assert f"media type is `{delta_file.MEDIA_TYPE}`" in TEXT
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="no g++ to build the program with")

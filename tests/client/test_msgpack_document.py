@@ -7,7 +7,7 @@ import httpx
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Client, ItemError
-from placecell_client.wire import segments_of
+from placecell_client.http.encoding import segments_of
 
 from placecell.descriptors.quantizer import LEVELS, Quantiser
 

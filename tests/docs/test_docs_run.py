@@ -22,7 +22,7 @@ import placecell_client
 import pytest
 import typer
 from placecell_client import Client, CompactMap, Delta, encode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.map_content import map_of
 from bench.server import running_service

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap, Delta
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from bench.map_content import map_of
 from bench.server import running_service

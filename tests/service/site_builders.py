@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap, encode, moved
-from placecell_client.canonical import canonical
+from placecell_client.maps.canonical import canonical
 
 from placecell.localization import Pose
 from tests.segments.map_alignment.map_builders import MadeMap, Street, drive, street

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import Delta, decode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 from scipy.spatial.transform import Rotation
 
 import service.routes.align as route

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, decode, decode_delta, encode
-from placecell_client.map_delta import MEDIA_TYPE
-from placecell_client.map_edit import apply, empty, join
+from placecell_client.maps.delta_file import MEDIA_TYPE
+from placecell_client.maps.edit import apply, empty, join
 
 from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes

@@ -7,7 +7,7 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client import Client, ServiceError, encode
-from placecell_client.wire import MEDIA_TYPES
+from placecell_client.http.encoding import MEDIA_TYPES
 
 from placecell.descriptors.manifest import Manifest
 from service.bodies import MSGPACK, Body, parse, render

@@ -7,8 +7,8 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from placecell_client.answer import Answer
-from placecell_client.reading import info
+from placecell_client.http.parsing import info
+from placecell_client.http.response import Answer
 
 from placecell.core.parameters import SURROUNDINGS_V1
 from placecell.core.segments import Segments

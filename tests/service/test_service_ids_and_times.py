@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
-from placecell_client.map_edit import with_optional
+from placecell_client.maps.edit import with_optional
 
 from placecell.descriptors.manifest import Manifest
 from service.id_rules import SLACK

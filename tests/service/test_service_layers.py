@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, encode, originated
-from placecell_client.map_edit import apply, empty
+from placecell_client.maps.edit import apply, empty
 
 from placecell.descriptors.quantizer import Quantiser
 from service.layers import Layers, robots_of

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import apply, empty, take, with_optional
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import apply, empty, take, with_optional
 
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest

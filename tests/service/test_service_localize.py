@@ -9,7 +9,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, encode, encode_delta
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64, Int8, Int64

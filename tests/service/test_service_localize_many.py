@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, encode, moved, originated
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, decode, encode, encode_delta
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import take
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import take
 
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import Pose

@@ -12,7 +12,7 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client import AsyncClient, Client, CompactMap, Retries, ServiceError, decode, encode
-from placecell_client.map_edit import take
+from placecell_client.maps.edit import take
 
 from placecell.descriptors.manifest import Manifest
 from service.partial_uploads import KEEP_SECONDS, KEY_UPLOADS

@@ -14,7 +14,7 @@ from placecell_client import (
     encode_delta,
     originated,
 )
-from placecell_client.map_edit import apply, join, take
+from placecell_client.maps.edit import apply, join, take
 
 from placecell.descriptors.manifest import Manifest
 from tests.client.file_surgery import with_inner_header

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 from placecell_client import CompactMap, originated
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import difference, empty
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import difference, empty
 
 from placecell.descriptors.quantizer import Quantiser
 from placecell.localization import Pose

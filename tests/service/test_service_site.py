@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from placecell_client import CompactMap, moved, originated
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import take
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import take
 
 from placecell.localization import LocalisationParameters, Pose
 from placecell.map_alignment import AlignmentParameters

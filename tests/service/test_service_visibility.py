@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from placecell_client import CompactMap, Delta, decode, decode_delta, encode, encode_delta
-from placecell_client.canonical import canonical
-from placecell_client.map_edit import apply
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import apply
 
 from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
-from placecell_client.localisation import Pose
-from placecell_client.map_alignment import Overlap, overlap_of, pose_if_any
+from placecell_client.results.alignment import Overlap, overlap_of, pose_if_any
+from placecell_client.results.localization import Pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.localisation import Pose, pose_of
+from placecell_client.results.localization import Pose, pose_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client.results import ItemError, Skipped
+from placecell_client.results.core import ItemError, Skipped
 
 Motion = Literal["yaw", "se3"]
 """What of the pose is sought: yaw and translation, for gravity is known; or all six degrees."""

@@ -6,11 +6,11 @@ from typing import Any, TypeVar
 
 import httpx
 
-from placecell_client.attempts import Attempts, Policy
-from placecell_client.calls import Call, Calls
-from placecell_client.explaining import checked_url, explained, is_loopback
-from placecell_client.retries import Retries
-from placecell_client.wire import MEDIA_TYPES, Encoding
+from placecell_client.http.attempts import Attempts, Policy
+from placecell_client.http.connection_errors import checked_url, explained, is_loopback
+from placecell_client.http.encoding import MEDIA_TYPES, Encoding
+from placecell_client.http.requests import Call, Calls
+from placecell_client.http.retry import Retries
 
 T = TypeVar("T")
 

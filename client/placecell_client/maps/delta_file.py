@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client import carrier
-from placecell_client.canonical import canonical
-from placecell_client.carrier import Content, FileFormat
-from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError, is_ascending
-from placecell_client.map_columns import REQUIRED, columns_of, header_of, map_of
+from placecell_client.maps import container
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.columns import REQUIRED, columns_of, header_of, map_of
+from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError, is_ascending
+from placecell_client.maps.container import Content, FileFormat
 
 FORMAT = "placecell-delta"
 VERSION = 1
@@ -79,7 +79,7 @@ def encode_delta(delta: Delta) -> bytes:
     Raises:
         MapFileError: the delta is not valid, or a segment too far from its sensor.
     """
-    return carrier.write(_content(delta))
+    return container.write(_content(delta))
 
 
 def decode_delta(data: bytes) -> Delta:
@@ -88,7 +88,7 @@ def decode_delta(data: bytes) -> Delta:
     Raises:
         MapFileError: the bytes are not exactly what `encode_delta` makes of a delta.
     """
-    content, checksum = carrier.read(data, _DELTA_FILE)
+    content, checksum = container.read(data, _DELTA_FILE)
     header, columns = content.header, content.columns
     delta = Delta(
         changed=map_of(header, columns),
@@ -96,7 +96,7 @@ def decode_delta(data: bytes) -> Delta:
         since=header.get("since", -1),
         until=header.get("until", -1),
     )
-    if not carrier.is_file_of(data, _content(delta), checksum):
+    if not container.is_file_of(data, _content(delta), checksum):
         raise MapFileError("the file is not in canonical form: encode the delta again")
     return delta
 

@@ -4,9 +4,9 @@ import re
 from http import HTTPStatus
 from typing import Any
 
-from placecell_client.answer import Answer
-from placecell_client.retry_after import retry_after
-from placecell_client.wire import MEDIA_TYPES, loads
+from placecell_client.http.encoding import MEDIA_TYPES, loads
+from placecell_client.http.response import Answer
+from placecell_client.http.retry_after import retry_after
 
 UNREADABLE = "urn:placecell:problem:unreadable-answer"
 """The type of an answer that says success, yet is none of a Placecell service."""

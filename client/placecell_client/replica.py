@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from placecell_client.compact_map import CompactMap, MapFileError
-from placecell_client.map_delta import Delta
-from placecell_client.map_edit import apply, join
+from placecell_client.maps.compact_map import CompactMap, MapFileError
+from placecell_client.maps.delta_file import Delta
+from placecell_client.maps.edit import apply, join
 
 PAGE_SEGMENTS = 20_000
 """In a part, at most: about a megabyte."""

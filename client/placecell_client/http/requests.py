@@ -9,15 +9,22 @@ from urllib.parse import quote, urlencode
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client import map_delta, map_file, reading
-from placecell_client.answer import Answer
-from placecell_client.localisation import Localisations, Motion
-from placecell_client.map_alignment import MapAlignment
-from placecell_client.map_copy import ChangesPage
-from placecell_client.map_delta import Delta, encode_delta
-from placecell_client.map_file import CompactMap, decode, encode
-from placecell_client.map_merge import Merge
-from placecell_client.results import (
+from placecell_client.http import parsing
+from placecell_client.http.encoding import (
+    MEDIA_TYPES,
+    Encoding,
+    centroids_of,
+    codes_of,
+    dumps,
+    segments_of,
+)
+from placecell_client.http.response import Answer
+from placecell_client.maps import delta_file, map_file
+from placecell_client.maps.delta_file import Delta, encode_delta
+from placecell_client.maps.map_file import CompactMap, decode, encode
+from placecell_client.replica import ChangesPage
+from placecell_client.results.alignment import MapAlignment
+from placecell_client.results.core import (
     Description,
     Info,
     Maps,
@@ -27,14 +34,8 @@ from placecell_client.results import (
     PartialUpload,
     Written,
 )
-from placecell_client.wire import (
-    MEDIA_TYPES,
-    Encoding,
-    centroids_of,
-    codes_of,
-    dumps,
-    segments_of,
-)
+from placecell_client.results.localization import Localisations, Motion
+from placecell_client.results.merge import Merge
 
 T = TypeVar("T")
 
@@ -89,14 +90,14 @@ class Calls:
 
     def info(self) -> Call[Info]:
         """`GET /info`."""
-        return Call("GET", "/info", reading.info)
+        return Call("GET", "/info", parsing.info)
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
         """`POST /describe`."""
         body, dropped = segments_of(segments, sensors, self.encoding)
         count = len(segments)
         return self._post(
-            "/describe", body, lambda answer: reading.description(answer, count, dropped)
+            "/describe", body, lambda answer: parsing.description(answer, count, dropped)
         )
 
     def match(
@@ -113,13 +114,13 @@ class Calls:
             rows = _usable(description)
             body |= self._codes(description, rows)
             return self._post(
-                "/match", body, lambda answer: reading.matches_of(answer, description, rows)
+                "/match", body, lambda answer: parsing.matches_of(answer, description, rows)
             )
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
             count = len(segments)
             return self._post(
-                "/match", body | own, lambda answer: reading.matches(answer, count, dropped)
+                "/match", body | own, lambda answer: parsing.matches(answer, count, dropped)
             )
         raise ValueError("give either a description, or segments and sensors")
 
@@ -144,18 +145,18 @@ class Calls:
             return self._post(
                 "/localize",
                 body,
-                lambda answer: reading.localisations_of(answer, description, rows),
+                lambda answer: parsing.localisations_of(answer, description, rows),
             )
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
             return self._post(
-                "/localize", body | own, lambda answer: reading.localisations(answer, dropped)
+                "/localize", body | own, lambda answer: parsing.localisations(answer, dropped)
             )
         raise ValueError("give either a description, or segments and sensors")
 
     def maps(self) -> Call[Maps]:
         """`GET /maps`."""
-        return Call("GET", "/maps", reading.maps)
+        return Call("GET", "/maps", parsing.maps)
 
     def put_map(
         self,
@@ -167,19 +168,19 @@ class Calls:
         """`PUT /maps/{map}`."""
         data = encode(compact_map) if isinstance(compact_map, CompactMap) else compact_map
         headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
-        call = self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, reading.summary, headers)
+        call = self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, parsing.summary, headers)
         return replace(call, repeatable=if_match != ANY)
 
     def uploads(self, name: str) -> Call[tuple[PartialUpload, ...]]:
         """`GET /maps/{map}/uploads`."""
-        return Call("GET", _path(name, "/uploads"), reading.uploads)
+        return Call("GET", _path(name, "/uploads"), parsing.uploads)
 
     def put_part(self, name: str, digest: str, offset: int, part: bytes) -> Call[int]:
         """`PUT /maps/{map}/uploads/{digest}`: how many bytes the service has then."""
         path = _path(name, f"/uploads/{_quoted(digest)}", offset=offset)
         until = offset + len(part)
         return self._upload(
-            "PUT", path, part, OCTETS, lambda answer: reading.received(answer, until), {}
+            "PUT", path, part, OCTETS, lambda answer: parsing.received(answer, until), {}
         )
 
     def complete_upload(
@@ -190,7 +191,7 @@ class Calls:
         return Call(
             "POST",
             _path(name, f"/uploads/{_quoted(digest)}"),
-            reading.summary,
+            parsing.summary,
             headers,
             repeatable=if_match != ANY,
             timeout=timeout,
@@ -198,7 +199,7 @@ class Calls:
 
     def delete_upload(self, name: str, digest: str) -> Call[None]:
         """`DELETE /maps/{map}/uploads/{digest}`."""
-        return Call("DELETE", _path(name, f"/uploads/{_quoted(digest)}"), reading.gone)
+        return Call("DELETE", _path(name, f"/uploads/{_quoted(digest)}"), parsing.gone)
 
     def edit_map(
         self,
@@ -216,42 +217,42 @@ class Calls:
         flags = {flag: "true" for flag, wanted in asked.items() if wanted}
         path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
-        call = self._upload("POST", path, data, map_delta.MEDIA_TYPE, reading.written, headers)
+        call = self._upload("POST", path, data, delta_file.MEDIA_TYPE, parsing.written, headers)
         # Without a condition it replaces and removes only what is the robot's own.
         return replace(call, repeatable=if_match != ANY)
 
     def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
         """`GET /maps/{map}`, decoded."""
         path = _path(name, version=version)
-        return Call("GET", path, lambda answer: decode(reading.file(answer)))
+        return Call("GET", path, lambda answer: decode(parsing.file(answer)))
 
     def get_map_file(self, name: str, version: int | None) -> Call[bytes]:
         """`GET /maps/{map}`."""
-        return Call("GET", _path(name, version=version), reading.file)
+        return Call("GET", _path(name, version=version), parsing.file)
 
     def changes(
         self, name: str, since: int | str, cursor: str | None, limit: int
     ) -> Call[ChangesPage]:
         """`GET /maps/{map}/changes`."""
         path = _path(name, "/changes", since=since, cursor=cursor, limit=limit)
-        return Call("GET", path, reading.page)
+        return Call("GET", path, parsing.page)
 
     def reserve_ids(self, name: str, count: int) -> Call[NDArray[np.uint32]]:
         """`POST /maps/{map}/ids`."""
-        return Call("POST", _path(name, "/ids", count=count), reading.ids)
+        return Call("POST", _path(name, "/ids", count=count), parsing.ids)
 
     def reset_ids(self, name: str) -> Call[range]:
         """`POST /maps/{map}/ids/reset`."""
-        return Call("POST", _path(name, "/ids/reset"), reading.free_ids, repeatable=False)
+        return Call("POST", _path(name, "/ids/reset"), parsing.free_ids, repeatable=False)
 
     def versions(self, name: str, limit: int) -> Call[tuple[MapVersion, ...]]:
         """`GET /maps/{map}/versions`."""
-        return Call("GET", _path(name, "/versions", limit=limit), reading.versions)
+        return Call("GET", _path(name, "/versions", limit=limit), parsing.versions)
 
     def restore_map(self, name: str, version: int, if_match: str | None) -> Call[Written]:
         """`POST /maps/{map}/versions/{version}/restore`."""
         path = _path(name, f"/versions/{int(version)}/restore")
-        return self._tied("POST", path, reading.written, if_match)
+        return self._tied("POST", path, parsing.written, if_match)
 
     def age_map(
         self, name: str, unseen_since: float, dry_run: bool, if_match: str | None
@@ -259,7 +260,7 @@ class Calls:
         """`POST /maps/{map}/age`."""
         dry = "true" if dry_run else None
         path = _path(name, "/age", unseen_since=repr(float(unseen_since)), dry_run=dry)
-        call = self._tied("POST", path, reading.written, if_match)
+        call = self._tied("POST", path, parsing.written, if_match)
         return replace(call, repeatable=True) if dry_run else call
 
     def align_maps(
@@ -268,7 +269,7 @@ class Calls:
         """`POST /maps/{map}/align/{other}`."""
         asked = "true" if pairs else None
         path = _path(name, f"/align/{_quoted(other)}", motion=motion, pairs=asked)
-        return Call("POST", path, reading.alignment, timeout=timeout)
+        return Call("POST", path, parsing.alignment, timeout=timeout)
 
     def merge_maps(
         self,
@@ -287,7 +288,7 @@ class Calls:
             "deduplicate": deduplicate,
             "motion": motion,
         }
-        call = self._tied("POST", _path(site, "/merge"), reading.merge, if_match)
+        call = self._tied("POST", _path(site, "/merge"), parsing.merge, if_match)
         # It is JSON for all clients: there is nothing large in it.
         return replace(
             call,
@@ -300,11 +301,11 @@ class Calls:
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """`POST /maps/{map}/compact`."""
         path = _path(name, "/compact", keep=keep)
-        return Call("POST", path, reading.oldest, repeatable=False)
+        return Call("POST", path, parsing.oldest, repeatable=False)
 
     def delete_map(self, name: str, if_match: str | None) -> Call[None]:
         """`DELETE /maps/{map}`."""
-        return self._tied("DELETE", _path(name), reading.gone, if_match)
+        return self._tied("DELETE", _path(name), parsing.gone, if_match)
 
     def _tied(
         self, method: str, path: str, read: Callable[[Answer], T], if_match: str | None

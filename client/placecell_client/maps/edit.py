@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.canonical import canonical, distinct_rows, frame_rows, take
-from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError
-from placecell_client.map_delta import Delta
-from placecell_client.map_union import (
+from placecell_client.maps.canonical import canonical, distinct_rows, frame_rows, take
+from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.delta_file import Delta
+from placecell_client.maps.union import (
     check_same_kind,
     is_same_kind,
     places_of,

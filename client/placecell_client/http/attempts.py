@@ -7,12 +7,12 @@ from typing import Any, Generic, TypeVar
 
 import httpx
 
-from placecell_client.answer import Answer
-from placecell_client.calls import Call
-from placecell_client.deadline import Deadline, Timeouts
-from placecell_client.errors import ServiceError
-from placecell_client.map_file import MapFileError
-from placecell_client.retries import RETRIED, Retries, may_be_done
+from placecell_client.http.deadline import Deadline, Timeouts
+from placecell_client.http.errors import ServiceError
+from placecell_client.http.requests import Call
+from placecell_client.http.response import Answer
+from placecell_client.http.retry import RETRIED, Retries, may_be_done
+from placecell_client.maps.map_file import MapFileError
 
 T = TypeVar("T")
 

@@ -10,7 +10,7 @@ import safetensors
 import safetensors.numpy
 from numpy.typing import NDArray
 
-from placecell_client.compact_map import MapFileError
+from placecell_client.maps.compact_map import MapFileError
 
 METADATA_KEY = "placecell"
 HEADER_LIMIT = 1 << 20

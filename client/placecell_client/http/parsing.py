@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client import map_delta, map_file
-from placecell_client.answer import Answer
-from placecell_client.localisation import Localisations, localisation_of
-from placecell_client.map_alignment import MapAlignment, alignment_of
-from placecell_client.map_copy import ChangesPage
-from placecell_client.map_delta import decode_delta
-from placecell_client.map_merge import Merge, merge_of
-from placecell_client.results import (
+from placecell_client.http.encoding import loads, row_of
+from placecell_client.http.response import Answer
+from placecell_client.maps import delta_file, map_file
+from placecell_client.maps.delta_file import decode_delta
+from placecell_client.replica import ChangesPage
+from placecell_client.results.alignment import MapAlignment, alignment_of
+from placecell_client.results.core import (
     Candidate,
     Description,
     Info,
@@ -31,7 +30,8 @@ from placecell_client.results import (
     Skipped,
     Written,
 )
-from placecell_client.wire import loads, row_of
+from placecell_client.results.localization import Localisations, localisation_of
+from placecell_client.results.merge import Merge, merge_of
 
 
 def info(answer: Answer) -> Info:
@@ -151,7 +151,7 @@ def file(answer: Answer) -> bytes:
 
 def page(answer: Answer) -> ChangesPage:
     """Of `GET /maps/{map}/changes`."""
-    delta = decode_delta(_file(answer, map_delta.MEDIA_TYPE))
+    delta = decode_delta(_file(answer, delta_file.MEDIA_TYPE))
     # What compresses on the way makes the tag a weak one.
     etag = str(answer.headers["ETag"]).removeprefix("W/").strip('"')
     if not re.fullmatch("[0-9a-f]+-[0-9]+", etag):

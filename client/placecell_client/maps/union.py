@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.canonical import canonical
-from placecell_client.compact_map import (
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.compact_map import (
     FRAME_COLUMNS,
     OPTIONAL,
     SEGMENT_COLUMNS,

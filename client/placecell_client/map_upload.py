@@ -8,10 +8,10 @@ import hashlib
 from collections.abc import Generator
 from typing import Any, TypeAlias
 
-from placecell_client.calls import Call, Calls
-from placecell_client.errors import ServiceError
-from placecell_client.map_file import CompactMap, encode
-from placecell_client.results import Info, MapSummary
+from placecell_client.http.errors import ServiceError
+from placecell_client.http.requests import Call, Calls
+from placecell_client.maps.map_file import CompactMap, encode
+from placecell_client.results.core import Info, MapSummary
 
 Steps: TypeAlias = Generator[Call[Any], Any, MapSummary]
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import httpx
 
-from placecell_client.errors import ServiceError
+from placecell_client.http.errors import ServiceError
 
 TOO_MANY_REQUESTS = 429
 RETRIED = frozenset({TOO_MANY_REQUESTS, 502, 503, 504})

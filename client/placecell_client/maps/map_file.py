@@ -4,11 +4,11 @@
 exactly what `encode` gives: equal maps are equal files, and any other bytes are refused.
 """
 
-from placecell_client import carrier
-from placecell_client.canonical import canonical
-from placecell_client.carrier import Content, FileFormat
-from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError
-from placecell_client.map_columns import REQUIRED, columns_of, header_of, map_of
+from placecell_client.maps import container
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.columns import REQUIRED, columns_of, header_of, map_of
+from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.container import Content, FileFormat
 
 __all__ = ["FORMAT", "MEDIA_TYPE", "VERSION", "CompactMap", "MapFileError", "decode", "encode"]
 
@@ -29,7 +29,7 @@ def encode(compact_map: CompactMap) -> bytes:
         MapFileError: the map is not valid, or a segment is more than 327.67 m along an axis from
             the sensor that took it.
     """
-    return carrier.write(_content(compact_map))
+    return container.write(_content(compact_map))
 
 
 def decode(data: bytes) -> CompactMap:
@@ -38,10 +38,10 @@ def decode(data: bytes) -> CompactMap:
     Raises:
         MapFileError: the bytes are not exactly what `encode` makes of a map.
     """
-    content, checksum = carrier.read(data, _MAP_FILE)
+    content, checksum = container.read(data, _MAP_FILE)
     compact_map = map_of(content.header, content.columns)
     # One rule for all that is left: order, widths, rounding, spelling of the header.
-    if not carrier.is_file_of(data, _content(compact_map), checksum):
+    if not container.is_file_of(data, _content(compact_map), checksum):
         raise MapFileError("the file is not in canonical form: encode the map again")
     return compact_map
 

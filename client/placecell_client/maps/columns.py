@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.canonical import centimetres
-from placecell_client.carrier import Columns
-from placecell_client.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.canonical import centimetres
+from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.container import Columns
 
 REQUIRED = frozenset(
     {

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client.compact_map import SOURCE_LIMIT, CompactMap, MapFileError
-from placecell_client.map_union import with_optional
+from placecell_client.maps.compact_map import SOURCE_LIMIT, CompactMap, MapFileError
+from placecell_client.maps.union import with_optional
 
 
 def moved(

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.compact_map import SEGMENT_COLUMNS, CompactMap, is_ascending
+from placecell_client.maps.compact_map import SEGMENT_COLUMNS, CompactMap, is_ascending
 
 Rows = NDArray[np.bool_] | NDArray[np.integer] | slice
 

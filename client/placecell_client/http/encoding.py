@@ -8,7 +8,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client.clouds import Clouds, rows_of
+from placecell_client.http.point_clouds import Clouds, rows_of
 
 Encoding = Literal["msgpack", "json"]
 MEDIA_TYPES: dict[Encoding, str] = {"msgpack": "application/msgpack", "json": "application/json"}

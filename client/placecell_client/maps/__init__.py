@@ -1,0 +1,1 @@
+"""Compact maps: their canonical form, files, edits and unions."""
