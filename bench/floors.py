@@ -21,16 +21,16 @@ from bench.pose_queries import random_frame
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalisationParameters, Pose
 from placecell.segmentation.pipeline import Progress, silent
-from service.layers import Layers
-from service.locating import Group, InMap, localise_among
-from service.map_index import LayeredIndex
-from service.map_store import Head
-from service.metrics import Metrics
-from service.models import Model, Models
-from service.settings import Settings
-from service.shared_index import SharedIndexes
-from service.stored_map import StoredMap
-from service.timing import Timing
+from service.core.metrics import Metrics
+from service.core.settings import Settings
+from service.core.timing import Timing
+from service.inference.model_registry import Model, Models
+from service.maps.index import LayeredIndex
+from service.maps.layers import Layers
+from service.maps.snapshot import StoredMap
+from service.maps.store import Head
+from service.search.localization import Group, InMap, localise_among
+from service.search.shared_index import SharedIndexes
 from training.evaluation import machine
 
 SIZE = np.array([90.0, 40.0, 4.0])

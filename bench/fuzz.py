@@ -13,7 +13,9 @@ from pathlib import Path
 
 import atheris
 
-with atheris.instrument_imports(include=["placecell_client", "service.packing", "service.packed"]):
+with atheris.instrument_imports(
+    include=["placecell_client", "service.api.body.msgpack_codec", "service.api.schemas.msgpack"]
+):
     import msgpack  # type: ignore[import-untyped]
     import numpy as np
     from placecell_client import (
@@ -30,14 +32,14 @@ with atheris.instrument_imports(include=["placecell_client", "service.packing", 
     from placecell_client.maps.edit import apply, with_optional
     from pydantic import ValidationError
 
-    from service import packing
-    from service.packed_schemas import (
+    from service.api.body import msgpack_codec
+    from service.api.schemas.msgpack import (
         PackedDescribeRequest,
         PackedLocalizeRequest,
         PackedMatchRequest,
     )
-    from service.problems import Problem, invalid
-    from service.settings import Limits
+    from service.core.problems import Problem, invalid
+    from service.core.settings import Limits
 
 MEGABYTES = 1024
 """Of memory that an input may take, everything that is imported included."""
@@ -49,7 +51,7 @@ def read_msgpack(data: bytes) -> None:
     """A body, as `/describe`, `/match` or `/localize` would take it."""
     schema = (PackedDescribeRequest, PackedMatchRequest, PackedLocalizeRequest)[len(data) % 3]
     try:
-        schema.model_validate(packing.unpack(data, LIMITS))
+        schema.model_validate(msgpack_codec.unpack(data, LIMITS))
     except Problem:
         pass
     except ValidationError as error:

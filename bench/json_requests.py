@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from service.json_requests import read_json
-from service.scan import Scan
-from service.schemas import DescribeRequest
-from service.settings import Limits
+from service.api.body.json_requests import read_json
+from service.api.schemas.recognition import DescribeRequest
+from service.core.settings import Limits
+from service.inference.scan import Scan
 
 BASELINE = "pydantic's parser, an object for each number (until this version)"
 

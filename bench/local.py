@@ -16,16 +16,16 @@ from placecell.descriptors.manifest import Manifest
 from placecell.localization import Localisation, LocalisationParameters
 from placecell.localization.evidence import Evidence
 from placecell.map_alignment import AlignmentParameters, MapAlignment
-from service.aligning import MapSide, align_maps
-from service.keys import ANYONE
-from service.locating import localise_in
-from service.models import Model
-from service.preconditions import Preconditions
-from service.scan import Scan
-from service.settings import Settings
-from service.state import State, open_state
-from service.timing import Timing
-from service.writer import Writer
+from service.api.state import State, open_state
+from service.core.auth import ANYONE
+from service.core.preconditions import Preconditions
+from service.core.settings import Settings
+from service.core.timing import Timing
+from service.inference.model_registry import Model
+from service.inference.scan import Scan
+from service.maps.writes.writer import Writer
+from service.merging.alignment import MapSide, align_maps
+from service.search.localization import localise_in
 
 
 class Local:

@@ -24,7 +24,7 @@ from bench.serve import percentiles
 from bench.server import address_of, running_service
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
-from service.bodies import MSGPACK
+from service.api.body.body import MSGPACK
 from training.evaluation import machine
 
 MAP = "road"

@@ -26,7 +26,7 @@ from placecell.core.types import Int64
 from placecell.descriptors.quantizer import Quantiser
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
 from placecell.segmentation.pipeline import Progress, silent
-from service.bodies import MSGPACK
+from service.api.body.body import MSGPACK
 from training.evaluation import machine
 from training.figure import figure
 

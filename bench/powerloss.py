@@ -20,11 +20,11 @@ from placecell_client import encode
 from bench.disk import KEEPS, Disk, write
 from bench.disk_log import Step
 from bench.recorded_run import NAME, UNKEPT, Outline, RecordedRun, record
-from service.map_cache import MapCache
-from service.map_store import Note, StoreError
-from service.replay import newest
-from service.sqlite_store import SqliteMapStore
-from service.stored_map import tag_of
+from service.maps.cache import MapCache
+from service.maps.replay import newest
+from service.maps.snapshot import tag_of
+from service.maps.sqlite.store import SqliteMapStore
+from service.maps.store import Note, StoreError
 from training.evaluation import machine
 
 TOLD = 20

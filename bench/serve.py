@@ -21,7 +21,7 @@ from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from placecell.segmentation.pipeline import Progress, silent
-from service.bodies import JSON, MSGPACK
+from service.api.body.body import JSON, MSGPACK
 from training.evaluation import machine
 from training.figure import figure
 

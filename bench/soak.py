@@ -22,7 +22,7 @@ from bench.serve import Plan, percentiles
 from bench.server import address_of, running_service
 from bench.workload import Case, fill, requests
 from placecell.core.segments import Segments
-from service.bodies import MSGPACK
+from service.api.body.body import MSGPACK
 from training.evaluation import machine
 from training.figure import figure
 

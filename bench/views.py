@@ -10,7 +10,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
-from service.living import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
+from service.maps.deduplication import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
 from training.evaluation import machine
 from training.recognition import CANDIDATES, CROSS_VIEW_METRES, distance_rows
 

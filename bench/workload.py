@@ -13,7 +13,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Int8
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
-from service.bodies import MSGPACK
+from service.api.body.body import MSGPACK
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,13 @@ def config(as_json: JsonFlag = False) -> None:
     """
     from pydantic import BaseModel
 
-    from service.settings import PREFIX, Settings, is_service_link, read_settings, settings_file
+    from service.core.settings import (
+        PREFIX,
+        Settings,
+        is_service_link,
+        read_settings,
+        settings_file,
+    )
 
     with clear_errors():
         settings = Settings()

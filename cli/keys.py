@@ -35,7 +35,7 @@ def keys(
 
     A running service takes it up at once. To withdraw a key, delete its section from the file.
     """
-    from service.keys import Key, new_key, read_keys
+    from service.core.auth import Key, new_key, read_keys
 
     with clear_errors():
         known = {holder.name for holder in read_keys(file)} if file.exists() else set()
@@ -60,7 +60,7 @@ def replace(file: Path, content: str) -> None:
     Raises:
         ValueError: the name cannot stand in it.
     """
-    from service.keys import KEYS
+    from service.core.auth import KEYS
 
     try:
         KEYS.validate_python(tomllib.loads(content))

@@ -16,7 +16,7 @@ import typer
 from pydantic import ValidationError
 
 if TYPE_CHECKING:
-    from service.settings import Settings
+    from service.core.settings import Settings
 
 
 def serve(
@@ -79,11 +79,12 @@ def serve(
     """
     # Requests are searched side by side; threads within a search would be in each other's way.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    from service import logs, memory
+    from service.api.state import StartError, open_state
     from service.app import create_app, version
+    from service.core import logging as logs
+    from service.core import memory
+    from service.core.settings import Settings
     from service.server import Server
-    from service.settings import Settings
-    from service.state import StartError, open_state
 
     given: dict[str, Any] = {
         "host": host,

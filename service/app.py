@@ -7,12 +7,12 @@ from importlib import metadata
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
-from service import docs_pages, openapi, problems
-from service.account import Account
-from service.head import Head
-from service.limits import BodyLimit
-from service.origins import OriginGuard
-from service.routes import (
+from service.api import docs_pages, openapi
+from service.api.middleware.body_limit import BodyLimit
+from service.api.middleware.head import Head
+from service.api.middleware.origin_guard import OriginGuard
+from service.api.middleware.request_log import Account
+from service.api.routes import (
     align,
     describe,
     health,
@@ -24,8 +24,9 @@ from service.routes import (
     uploads,
     versions,
 )
-from service.settings import Settings
-from service.state import State, open_state
+from service.api.state import State, open_state
+from service.core import problems
+from service.core.settings import Settings
 
 EXPOSED_HEADERS = (
     "ETag",

@@ -16,9 +16,9 @@ from fastapi import FastAPI
 from h11._receivebuffer import ReceiveBuffer
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from service.addresses import client_network
-from service.problems import Problem
-from service.state import State
+from service.api.admission.addresses import client_network
+from service.api.state import State
+from service.core.problems import Problem
 
 HEAD_BYTES = 32 << 10
 """Of a request's line and headers, at most."""

@@ -14,7 +14,7 @@ from placecell_client import Client, Retries
 
 from bench.server import Service, address_of
 from placecell.core.types import UInt32
-from service.keys import new_key
+from service.core.auth import new_key
 
 CORES = 2
 """Processor cores that the service may use."""

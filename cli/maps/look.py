@@ -111,8 +111,8 @@ def verify(
 
 
 def _wrong_with(data_dir: Path) -> list[str]:
-    from service.map_store import StoreError, StoreLockedError
-    from service.sqlite_store import FILE, SqliteMapStore
+    from service.maps.sqlite.store import FILE, SqliteMapStore
+    from service.maps.store import StoreError, StoreLockedError
 
     if not (data_dir / FILE).is_file():
         raise ValueError(f"{data_dir}: holds no {FILE}")

@@ -3,8 +3,8 @@
 from prometheus_client import Histogram
 
 from cli.reference.markdown import code, table
-from service.metrics import Metrics
-from service.timing import STAGES
+from service.core.metrics import Metrics
+from service.core.timing import STAGES
 
 
 def metric_pages() -> dict[str, str]:

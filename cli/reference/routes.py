@@ -11,7 +11,7 @@ JSON, PROBLEM = "application/json", "application/problem+json"
 def openapi() -> dict[str, Any]:
     """Return the OpenAPI document of the service with its default settings."""
     from service.app import create_app
-    from service.settings import Settings
+    from service.core.settings import Settings
 
     document: dict[str, Any] = create_app(Settings()).openapi()
     return document

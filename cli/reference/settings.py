@@ -10,7 +10,7 @@ from pydantic.fields import FieldInfo
 
 from cli.reference.markdown import code, table
 from cli.reference.paths import shown
-from service.settings import OTHER_NAMES, PREFIX, Settings, is_group
+from service.core.settings import OTHER_NAMES, PREFIX, Settings, is_group
 
 HEAD = ["Setting", "Environment", "Type", "Default", "Meaning"]
 

@@ -11,7 +11,7 @@ from bench.floors import CASES, Case, bench, loaded, run
 from bench.map_content import Views
 from cli import app
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
-from service.models import Model
+from service.inference.model_registry import Model
 from tests.bench.test_ladder import recorded_from_two_places
 
 NAMES = (DEFAULT_MODEL, "group")

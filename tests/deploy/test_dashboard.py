@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from prometheus_client import Counter, Gauge, Histogram
 
-from service.metrics import Metrics
-from service.timing import STAGES
+from service.core.metrics import Metrics
+from service.core.timing import STAGES
 
 DEPLOY = Path(__file__).resolve().parents[2] / "deploy"
 DASHBOARD = json.loads((DEPLOY / "dashboard.json").read_text())

@@ -7,7 +7,7 @@ import pytest
 
 from placecell.descriptors.manifest import Manifest
 from service.app import create_app
-from service.settings import Settings
+from service.core.settings import Settings
 from tests.service.service_builders import write_eigenvalue_model, write_onnx_model
 
 with warnings.catch_warnings():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.addresses import client_network
+from service.api.admission.addresses import client_network
 
 
 @pytest.mark.parametrize(

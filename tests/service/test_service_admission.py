@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from placecell.descriptors.extractor import EigenvalueExtractor, Inputs
+from service.api.state import open_state
 from service.app import create_app
-from service.settings import Settings
-from service.state import open_state
+from service.core.settings import Settings
 from tests.service.service_builders import (
     ask_app,
     assert_problem,

@@ -11,10 +11,10 @@ from placecell_client import Delta, decode, encode_delta
 from placecell_client.maps.edit import take
 from scipy.spatial.transform import Rotation
 
-import service.routes.align as route
+import service.api.routes.align as route
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import Pose
-from service import aligning
+from service.merging import alignment
 from tests.segments.map_alignment.map_builders import drive
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 from tests.service.site_builders import (
@@ -261,7 +261,7 @@ def test_too_many_at_once_are_told_to_come_again(
     def slow(*args: Any) -> Any:
         begun.set()
         assert go.wait(30)
-        return aligning.align_maps(*args)
+        return alignment.align_maps(*args)
 
     monkeypatch.setattr(route, "align_maps", slow)
     answers: list[Any] = []
@@ -289,14 +289,14 @@ def test_too_many_at_once_are_told_to_come_again(
 
 def test_a_deadline_is_kept(start: Any, manifest: Manifest, monkeypatch: Any) -> None:
     asked: list[int] = []
-    real = aligning.MapLooks.nearest
+    real = alignment.MapLooks.nearest
 
     def slow(self: Any, rows: Any) -> Any:
         asked.append(len(rows))
         threading.Event().wait(0.2)
         return real(self, rows)
 
-    monkeypatch.setattr(aligning.MapLooks, "nearest", slow)
+    monkeypatch.setattr(alignment.MapLooks, "nearest", slow)
     with start() as service:
         put(service, "east", driven(manifest.model_id, "east", 0, 150))
         answer = service.post("/maps/east/align/east", headers={"Placecell-Timeout": "0.3"})

@@ -8,8 +8,8 @@ import pytest
 
 from placecell.core.cancellation import Cancelled
 from placecell.core.types import Float64, Int8, Int64
-from service import aligning
-from service.aligning import MapLooks
+from service.merging import alignment
+from service.merging.alignment import MapLooks
 
 
 class Index:
@@ -27,9 +27,9 @@ class Index:
 @pytest.fixture
 def looks(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Looks of two maps, the index, and what is left of the client's patience."""
-    monkeypatch.setattr(aligning, "SEARCHED", 10)
-    monkeypatch.setattr(aligning, "BLOCK", 10)
-    monkeypatch.setattr(aligning, "likely", lambda model, one, other: (one == other).mean(axis=1))
+    monkeypatch.setattr(alignment, "SEARCHED", 10)
+    monkeypatch.setattr(alignment, "BLOCK", 10)
+    monkeypatch.setattr(alignment, "likely", lambda model, one, other: (one == other).mean(axis=1))
     patience = SimpleNamespace(left=100)
 
     def check() -> None:

@@ -10,9 +10,9 @@ from prometheus_client import CollectorRegistry
 
 from placecell.core.types import Float32
 from placecell.descriptors.extractor import Extractor, Inputs
-from service.batcher import Batcher
-from service.metrics import Metrics
-from service.timing import Timing
+from service.core.metrics import Metrics
+from service.core.timing import Timing
+from service.inference.batcher import Batcher
 
 
 class Doubling(Extractor):

@@ -177,7 +177,7 @@ def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
     assert len(changes._pinned) == 8
     changes.forget()
     assert len(changes._pinned) == 8
-    monkeypatch.setattr("service.changes.PIN_SECONDS", -1.0)
+    monkeypatch.setattr("service.maps.sync.PIN_SECONDS", -1.0)
     changes.forget()
     assert not changes._pinned
 

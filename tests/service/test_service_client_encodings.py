@@ -10,11 +10,15 @@ from placecell_client import Client, ServiceError, encode
 from placecell_client.http.encoding import MEDIA_TYPES
 
 from placecell.descriptors.manifest import Manifest
-from service.bodies import MSGPACK, Body, parse, render
-from service.packed_schemas import PackedDescribeRequest, PackedDescribeResponse, PackedDescriptor
-from service.scan import Scan
-from service.schemas import DescribeRequest, Failed, ItemErrorOut
-from service.settings import Limits
+from service.api.body.body import MSGPACK, Body, parse, render
+from service.api.schemas.msgpack import (
+    PackedDescribeRequest,
+    PackedDescribeResponse,
+    PackedDescriptor,
+)
+from service.api.schemas.recognition import DescribeRequest, Failed, ItemErrorOut
+from service.core.settings import Limits
+from service.inference.scan import Scan
 from tests.client.test_msgpack_document import CLOUD, ORIGIN, example
 from tests.service.service_builders import cloud, map_of, random_codes
 

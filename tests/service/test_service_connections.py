@@ -11,8 +11,8 @@ import uvicorn
 from uvicorn.server import ServerState
 
 from service import server
+from service.api.admission.streaming import Answers
 from service.server import Protocol
-from service.streaming import Answers
 
 Served = tuple[str, int]
 SECONDS = 60
@@ -194,7 +194,7 @@ def test_A7_slow_readers_of_one_file_hold_it_once(tmp_path: Any) -> None:
 
 
 def test_A7_bytes_of_answers_under_way_are_bounded(tmp_path: Any) -> None:
-    from service.problems import Problem
+    from service.core.problems import Problem
 
     async def main() -> None:
         answers = Answers(tmp_path, 40 << 20, 60.0)
@@ -218,7 +218,7 @@ def test_A7_bytes_of_answers_under_way_are_bounded(tmp_path: Any) -> None:
 def test_A7_answer_for_a_full_disk_is_refused(tmp_path: Any, monkeypatch: Any) -> None:
     import errno
 
-    from service.problems import Problem
+    from service.core.problems import Problem
 
     def full(*_: Any, **__: Any) -> Any:
         raise OSError(errno.ENOSPC, "No space left on device")

@@ -15,7 +15,7 @@ from placecell.core.segments import Segments
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import voxels_by_owner
 from placecell.map_alignment import AlignmentParameters
-from service.cost import (
+from service.core.cost import (
     RATES,
     Cost,
     check_cost,
@@ -24,8 +24,8 @@ from service.cost import (
     cost_of_search,
     near_voxels,
 )
-from service.problems import Problem
-from service.settings import Limits
+from service.core.problems import Problem
+from service.core.settings import Limits
 from tests.service.service_builders import assert_problem, cloud, request_of
 from tests.service.site_builders import driven, merge, models_that_judge, put
 

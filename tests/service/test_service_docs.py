@@ -7,7 +7,7 @@ from urllib.parse import urljoin
 
 import pytest
 
-from service.docs_pages import FILES
+from service.api.docs_pages import FILES
 from tests.service.service_builders import assert_problem
 
 OPEN = {"/livez", "/readyz", "/metrics"}

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from service import fair_threads
-from service.fair_threads import FairThreads
+from service.api.admission import fair_threads
+from service.api.admission.fair_threads import FairThreads
 
 
 def run(main: Any) -> Any:

@@ -8,10 +8,10 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.database import Database
-from service.disk_reserve import DiskReserve
-from service.map_store import Head, Note, StoreError
-from service.sqlite_store import SqliteMapStore
+from service.maps.sqlite.database import Database
+from service.maps.sqlite.disk_reserve import DiskReserve
+from service.maps.sqlite.store import SqliteMapStore
+from service.maps.store import Head, Note, StoreError
 from tests.service.faulty_disk import small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.test_service_faults import put

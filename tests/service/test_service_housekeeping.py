@@ -12,9 +12,9 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.housekeeping import Bounds, Housekeeper
-from service.map_cache import MapCache
-from service.state import State
+from service.api.state import State
+from service.maps.cache import MapCache
+from service.maps.writes.maintenance import Bounds, Housekeeper
 from tests.service.service_builders import edit_of, map_of, random_codes
 
 EAGER = Bounds(recent=3, share=0.0, commits=1_000)

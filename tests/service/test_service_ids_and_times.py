@@ -11,8 +11,8 @@ from placecell_client import CompactMap, Delta, decode, encode, encode_delta
 from placecell_client.maps.edit import with_optional
 
 from placecell.descriptors.manifest import Manifest
-from service.id_rules import SLACK
-from service.map_store import IDS, Ids
+from service.maps.store import IDS, Ids
+from service.maps.writes.id_rules import SLACK
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 from tests.service.test_service_keys import made
 
@@ -112,7 +112,7 @@ def test_A8_a_key_reserves_only_so_many_ids_ahead(
 ) -> None:
     ann, zoe = (made(file, name, "--write", "--robot", name) for name in ("ann", "zoe"))
     now = [1.8e9]
-    monkeypatch.setattr("service.sqlite_store.time.time", lambda: now[0])
+    monkeypatch.setattr("service.maps.sqlite.store.time.time", lambda: now[0])
     with start(keys_file=file, limits={"reserved_ids": 100}) as service:
         assert edited(service, edit_of(random_codes(1), manifest.model_id, 0), ann).is_success
         assert reserved(service, 60, ann).json()["first"] == 1
@@ -256,7 +256,7 @@ def test_A16_recorded_drives_and_a_service_whose_clock_is_not_set(
     for number, moment in enumerate((0.0, -1.5, 1.3e9)):
         path = f"/maps/drive-{number}"
         assert service.put(path, content=encode(seen_at(content, moment))).is_success
-    monkeypatch.setattr("service.clock_check.time.time", lambda: 12.0)
+    monkeypatch.setattr("service.maps.writes.clock_check.time.time", lambda: 12.0)
     assert service.put("/maps/new", content=encode(content)).is_success
 
 

@@ -13,12 +13,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from service.json_arrays import cut_arrays
-from service.json_requests import CUT, read_json
-from service.localise_schemas import LocalizeRequest
-from service.problems import Problem, invalid
-from service.schemas import DescribeRequest, MatchRequest
-from service.settings import Limits
+from service.api.body.json_arrays import cut_arrays
+from service.api.body.json_requests import CUT, read_json
+from service.api.schemas.localization import LocalizeRequest
+from service.api.schemas.recognition import DescribeRequest, MatchRequest
+from service.core.problems import Problem, invalid
+from service.core.settings import Limits
 from tests.service.service_builders import assert_problem, cloud, request_of
 
 LIMITS = Limits()

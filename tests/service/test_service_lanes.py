@@ -19,10 +19,10 @@ from placecell_client import encode
 from placecell.core.cancellation import Cancelled, current
 from placecell.descriptors.extractor import EigenvalueExtractor
 from placecell.descriptors.manifest import Manifest
+from service.api.state import State, open_state
 from service.app import create_app
-from service.keys import new_key
-from service.settings import Settings
-from service.state import State, open_state
+from service.core.auth import new_key
+from service.core.settings import Settings
 from tests.service.service_builders import (
     ask_app,
     assert_problem,
@@ -68,7 +68,7 @@ def held(monkeypatch: pytest.MonkeyPatch, place: str) -> Iterator[threading.Sema
 
 
 PREPARE = "placecell.descriptors.extractor.EigenvalueExtractor.prepare"
-VERSION = "service.routes.maps.version_file"
+VERSION = "service.api.routes.maps.version_file"
 
 
 def put(service: Any, name: str, manifest: Manifest, headers: Any = None) -> Any:
@@ -114,14 +114,14 @@ def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
     ("place", "method", "path"),
     [
         (VERSION, "GET", "/maps/yard"),
-        ("service.routes.maps.summary_of", "GET", "/maps"),
-        ("service.routes.versions.commits_of", "GET", "/maps/yard/versions"),
-        ("service.routes.segments._page", "GET", "/maps/yard/changes"),
-        ("service.writer.Writer.restore", "POST", "/maps/yard/versions/1/restore"),
-        ("service.writer.Writer.compact", "POST", "/maps/yard/compact"),
-        ("service.writer.Writer.age", "POST", "/maps/yard/age?unseen_since=0"),
-        ("service.writer.Writer.reserve", "POST", "/maps/yard/ids?count=1"),
-        ("service.writer.Writer.delete", "DELETE", "/maps/yard"),
+        ("service.api.routes.maps.summary_of", "GET", "/maps"),
+        ("service.api.routes.versions.commits_of", "GET", "/maps/yard/versions"),
+        ("service.api.routes.segments._page", "GET", "/maps/yard/changes"),
+        ("service.maps.writes.writer.Writer.restore", "POST", "/maps/yard/versions/1/restore"),
+        ("service.maps.writes.writer.Writer.compact", "POST", "/maps/yard/compact"),
+        ("service.maps.writes.writer.Writer.age", "POST", "/maps/yard/age?unseen_since=0"),
+        ("service.maps.writes.writer.Writer.reserve", "POST", "/maps/yard/ids?count=1"),
+        ("service.maps.writes.writer.Writer.delete", "DELETE", "/maps/yard"),
     ],
 )
 def test_A5_every_path_ends_at_its_deadline(
@@ -382,7 +382,7 @@ def test_A14_some_members_are_one_body(service: Any, coding: str) -> None:
 
 def test_A14_decompression_stops_when_cancelled() -> None:
     from placecell.core.cancellation import CancelToken, cancelled_by
-    from service.compression import decompress
+    from service.api.body.compression import decompress
 
     token = CancelToken()
     token.cancel()

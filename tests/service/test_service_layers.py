@@ -10,8 +10,8 @@ from placecell_client import CompactMap, Delta, encode, originated
 from placecell_client.maps.edit import apply, empty
 
 from placecell.descriptors.quantizer import Quantiser
-from service.layers import Layers, robots_of
-from service.map_index import LayeredIndex, index_of
+from service.maps.index import LayeredIndex, index_of
+from service.maps.layers import Layers, robots_of
 from tests.service.service_builders import map_of
 
 QUANTISER = Quantiser(0.1)

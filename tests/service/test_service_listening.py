@@ -12,7 +12,7 @@ from placecell_client import encode
 
 from cli.serve import _listening_socket
 from placecell.descriptors.manifest import Manifest
-from service.settings import Settings
+from service.core.settings import Settings
 from tests.service.service_builders import map_of, random_codes
 from tests.service.test_service_process import command, running
 

@@ -16,8 +16,8 @@ from placecell_client.maps.edit import apply, empty, take, with_optional
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantiser
-from service import living
-from service.living import (
+from service.maps import deduplication
+from service.maps.deduplication import (
     NONE,
     RADIUS,
     SAME_STAND,
@@ -401,7 +401,7 @@ def test_A1_segment_is_compared_with_the_latest_so_many(
     same = SameView(Quantiser(0.01), 0.5)
     nothing = take(upload, slice(0))
     for most, repeats in ((60, 1), (59, 0), (0, 0)):
-        monkeypatch.setattr(living, name, most)
+        monkeypatch.setattr(deduplication, name, most)
         assert sighting(upload, nothing, same, same_stand=-1.0).repeats == repeats
 
 

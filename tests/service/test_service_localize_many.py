@@ -12,9 +12,9 @@ from placecell_client.maps.edit import take
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import LocalisationParameters
-from service import ranking, shared_index
-from service.ranking import FULL, best_of, votes_of
-from service.shared_index import SharedIndexes
+from service.search import ranking, shared_index
+from service.search.ranking import FULL, best_of, votes_of
+from service.search.shared_index import SharedIndexes
 from tests.service.service_builders import edit_of, map_of, post_packed, random_codes
 from tests.service.test_service_keys import made
 from tests.service.test_service_localize import (
@@ -236,16 +236,16 @@ def stocked(service: Any, manifest: Manifest) -> Any:
 def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_told(
     stocked: Any, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from service import locating
+    from service.search import localization
 
     searched = []
-    query_in = locating.query_in
+    query_in = localization.query_in
 
     def counted(*args: Any) -> Any:
         searched.append(args[3].name)
         return query_in(*args)
 
-    monkeypatch.setattr(locating, "query_in", counted)
+    monkeypatch.setattr(localization, "query_in", counted)
     for name in ("map-000", "map-039"):
         searched.clear()
         told = ask(stocked, by_codes(manifest, *seen_in(many(manifest)[name])))

@@ -5,8 +5,8 @@ import pytest
 
 from placecell.core.types import Bool, Float64, Int8, Int64
 from placecell.descriptors.quantizer import LEVELS, Quantiser
-from service import map_index
-from service.map_index import MARGIN, FlatIndex, NibbleIndex, index_of
+from service.maps import index as map_index
+from service.maps.index import MARGIN, FlatIndex, NibbleIndex, index_of
 
 
 def codes_of(rows: int, per_byte: int, width: int = 12, seed: int = 0) -> Int8:

@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-from service import map_store
-from service.database import ADVICE, VACUUM_PAGES
-from service.id_ledger import SKIPPED
-from service.map_store import IDS, Head, Ids, Note, OutOfIdsError, StoreError, StoreLockedError
-from service.sqlite_store import FILE, SqliteMapStore
-from service.sqlite_tables import PART_BYTES
+from service.maps import store as map_store
+from service.maps.sqlite.database import ADVICE, VACUUM_PAGES
+from service.maps.sqlite.id_ledger import SKIPPED
+from service.maps.sqlite.store import FILE, SqliteMapStore
+from service.maps.sqlite.tables import PART_BYTES
+from service.maps.store import IDS, Head, Ids, Note, OutOfIdsError, StoreError, StoreLockedError
 
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"

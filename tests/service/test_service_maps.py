@@ -11,7 +11,7 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.state import StartError
+from service.api.state import StartError
 from tests.service.service_builders import (
     assert_problem,
     cloud,

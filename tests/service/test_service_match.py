@@ -10,8 +10,8 @@ from placecell_client import encode
 
 from placecell.core.types import Int8
 from placecell.descriptors.manifest import Manifest
-from service.bodies import render
-from service.packing import Items
+from service.api.body.body import render
+from service.api.body.msgpack_codec import Items
 from tests.service.service_builders import (
     STEP,
     assert_problem,

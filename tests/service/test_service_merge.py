@@ -17,11 +17,12 @@ from placecell.descriptors.manifest import Manifest
 from placecell.localization import Pose
 from placecell.localization.registration import register_yaw
 from placecell.map_alignment import MapAlignment
-from service import aligning, merging
-from service.layers import Layers
-from service.map_index import index_of
-from service.sqlite_owners import Owners
-from service.sqlite_tables import row_of, save_head
+from service.maps.index import index_of
+from service.maps.layers import Layers
+from service.maps.sqlite.owners import Owners
+from service.maps.sqlite.tables import row_of, save_head
+from service.merging import alignment
+from service.merging import plan as merging
 from tests.service.service_builders import assert_problem, map_of, random_codes
 from tests.service.site_builders import driven, merge, models_that_judge, put, relative
 from tests.service.test_service_keys import made
@@ -584,7 +585,7 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
         return index_of(codes, quantiser)
 
     monkeypatch.setattr(Layers, "content", counted)
-    monkeypatch.setattr("service.aligning.index_of", indexing)
+    monkeypatch.setattr("service.merging.alignment.index_of", indexing)
     told = merge(stocked, "site", names)
     assert told.status_code == 201, told.text
     assert all(part["merged"] for part in told.json()["parts"])
@@ -596,7 +597,7 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
 @pytest.fixture
 def misled(monkeypatch: pytest.MonkeyPatch) -> None:
     """East and west are laid on each other wrongly, with a great score."""
-    real = aligning.align_maps
+    real = alignment.align_maps
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
         found = real(a, b, *rest)
@@ -765,7 +766,7 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
             acts.pop()()
         return plan
 
-    monkeypatch.setattr("service.merger.plan_merge", then)
+    monkeypatch.setattr("service.merging.merge.plan_merge", then)
 
 
 def test_a_site_that_was_replaced_meanwhile_is_not_written(
@@ -855,7 +856,7 @@ def test_it_is_whole_after_a_restart(start: Any, maps: dict[str, CompactMap]) ->
 
 def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
-    real = aligning.align_maps
+    real = alignment.align_maps
 
     def slow(a: Any, b: Any, *rest: Any) -> Any:
         asked.append(b.stored.name)

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from placecell.descriptors.manifest import Manifest
-from service import bodies
-from service.packed_schemas import PackedDescribeRequest, PackedMatchRequest
-from service.problems import Problem
-from service.schemas import DescribeRequest, MatchRequest
-from service.settings import Limits
+from service.api.body import body as bodies
+from service.api.schemas.msgpack import PackedDescribeRequest, PackedMatchRequest
+from service.api.schemas.recognition import DescribeRequest, MatchRequest
+from service.core.problems import Problem
+from service.core.settings import Limits
 from tests.service.service_builders import (
     assert_problem,
     cloud,

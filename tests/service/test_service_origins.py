@@ -8,8 +8,8 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.origins import OriginGuard
-from service.settings import Settings
+from service.api.middleware.origin_guard import OriginGuard
+from service.core.settings import Settings
 from tests.service.service_builders import assert_problem, map_of, random_codes
 
 PATHS = [

@@ -16,12 +16,12 @@ import pytest
 from placecell_client import MapFileError, decode, encode
 
 from placecell.descriptors.manifest import Manifest
-from service.database import Database
-from service.id_ledger import LEASE, SKIPPED
-from service.map_store import Ids, Note, StoreError, StoreLockedError
-from service.replay import version_of
-from service.sqlite_store import FILE, LEDGER, SqliteMapStore
-from service.sqlite_tables import VERSION
+from service.maps.replay import version_of
+from service.maps.sqlite.database import Database
+from service.maps.sqlite.id_ledger import LEASE, SKIPPED
+from service.maps.sqlite.store import FILE, LEDGER, SqliteMapStore
+from service.maps.sqlite.tables import VERSION
+from service.maps.store import Ids, Note, StoreError, StoreLockedError
 from tests.fixtures.killed_service import EXPECTED
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
@@ -245,7 +245,7 @@ def test_A28_a_migration_without_room_changes_nothing(
 ) -> None:
     shutil.copytree(OLD, data_dir)
     with monkeypatch.context() as full:
-        full.setattr("service.disk_reserve.DiskReserve.free_bytes", lambda _: 1_000)
+        full.setattr("service.maps.sqlite.disk_reserve.DiskReserve.free_bytes", lambda _: 1_000)
         with pytest.raises(StoreError, match="free bytes") as raised:
             SqliteMapStore(data_dir)
         assert raised.value.kind == "full"

@@ -15,7 +15,7 @@ from placecell_client import AsyncClient, Client, CompactMap, Retries, ServiceEr
 from placecell_client.maps.edit import take
 
 from placecell.descriptors.manifest import Manifest
-from service.partial_uploads import KEEP_SECONDS, KEY_UPLOADS
+from service.maps.writes.partial_uploads import KEEP_SECONDS, KEY_UPLOADS
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 LIMIT = 4_000

@@ -203,7 +203,7 @@ def test_a_service_that_cannot_start_says_why(
         assert f"cannot listen on 127.0.0.1 port {port}" in said
 
     # How a process ends is seen; what else it says is seen without one.
-    monkeypatch.setattr("service.logs.install", lambda *_: None)
+    monkeypatch.setattr("service.core.logging.install", lambda *_: None)
 
     def why(*arguments: str, models: Path = models_dir, data: Path = data_dir) -> str:
         words = command(models, data, *arguments)

@@ -15,12 +15,12 @@ from typer.testing import CliRunner
 from cli import app
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantiser
-from service import housekeeping
-from service.housekeeping import Bounds, Housekeeper
-from service.layers import Layers
-from service.map_cache import MapCache
-from service.map_index import FlatIndex, MapIndex, NibbleIndex, Nibbles
-from service.settings import Limits
+from service.core.settings import Limits
+from service.maps.cache import MapCache
+from service.maps.index import FlatIndex, MapIndex, NibbleIndex, Nibbles
+from service.maps.layers import Layers
+from service.maps.writes import maintenance
+from service.maps.writes.maintenance import Bounds, Housekeeper
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 
@@ -238,7 +238,7 @@ def test_B19_a_fold_leaves_one_copy(
 ) -> None:
     monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
     released: list[float] = []
-    monkeypatch.setattr(housekeeping, "release", lambda: released.append(time.monotonic()))
+    monkeypatch.setattr(maintenance, "release", lambda: released.append(time.monotonic()))
     layers: weakref.WeakSet[Layers] = weakref.WeakSet()
     indexes: weakref.WeakSet[MapIndex] = weakref.WeakSet()
     made_layers, made_index = Layers.__init__, MapIndex.__init__
@@ -286,7 +286,7 @@ def test_B19_free_memory_goes_back_after_many_writes(
 ) -> None:
     monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
     released: list[int] = []
-    monkeypatch.setattr(housekeeping, "release", lambda: released.append(1))
+    monkeypatch.setattr(maintenance, "release", lambda: released.append(1))
     with start() as service:
         keeper = keeper_of(service, data_dir, Bounds(handled=1_000))
         file = encode(map_of(random_codes(900), manifest.model_id))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from placecell.localization import Hypothesis, LocalisationParameters, Pose
-from service.sessions import SessionKey, Sessions
+from service.search.sessions import SessionKey, Sessions
 
 BEFORE, NOW = np.zeros(3), np.array([5.0, 0.0, 0.0])
 """The middle of what a robot saw, and sees now that it has moved on."""

@@ -11,8 +11,8 @@ from placecell_client.maps.edit import difference, empty
 from placecell.descriptors.quantizer import Quantiser
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
-from service.living import RADIUS, VIEWS, SameView
-from service.site import ROUNDED, Part, Share, join, join_settled, laid_before
+from service.maps.deduplication import RADIUS, VIEWS, SameView
+from service.merging.join import ROUNDED, Part, Share, join, join_settled, laid_before
 
 PARAMETERS = AlignmentParameters()
 SAME = SameView(Quantiser(0.01), 40.0)

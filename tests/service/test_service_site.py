@@ -10,7 +10,7 @@ from placecell_client.maps.edit import take
 
 from placecell.localization import LocalisationParameters, Pose
 from placecell.map_alignment import AlignmentParameters
-from service.site import laid_before
+from service.merging.join import laid_before
 from tests.service.site_builders import driven
 
 TRUTH = Pose.of_yaw(2.5, np.array([300.0, -800.0, 4.0]))

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from service.map_store import Note
-from service.replay import version_of
-from service.sqlite_store import FILE, SqliteMapStore
+from service.maps.replay import version_of
+from service.maps.sqlite.store import FILE, SqliteMapStore
+from service.maps.store import Note
 from tests.fixtures.killed_service import EXPECTED
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"

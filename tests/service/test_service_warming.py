@@ -6,7 +6,8 @@ from typing import Any
 from placecell_client import encode
 
 from placecell.localization import clique, consistency, correspondences
-from service import json_arrays, ranking
+from service.api.body import json_arrays
+from service.search import ranking
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 

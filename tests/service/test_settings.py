@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cli import app
-from service.settings import Limits, Settings
+from service.core.settings import Limits, Settings
 
 
 @pytest.fixture(autouse=True)

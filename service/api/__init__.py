@@ -1,0 +1,1 @@
+"""HTTP API: routes, schemas, bodies, middleware and admission control."""

@@ -1,0 +1,1 @@
+"""Admission control: lanes, fair threads, and receiving and streaming of bodies."""

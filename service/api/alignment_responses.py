@@ -1,0 +1,136 @@
+"""What routes answer about alignments, made of what was found."""
+
+from collections.abc import Sequence
+
+from placecell.core.types import UInt32
+from placecell.map_alignment import MapAlignment, Overlap
+from service.api.responses import pose_of
+from service.api.schemas.alignment import (
+    AlignmentOut,
+    LaidOut,
+    LoopOut,
+    MergedOut,
+    MergedPartOut,
+    MergePairOut,
+    OverlapOut,
+    PairOut,
+)
+from service.api.schemas.localization import PoseOut
+from service.maps.snapshot import StoredMap
+from service.merging.join import Share
+from service.merging.merge import Merged
+from service.merging.plan import Pairing, Plan
+
+
+def alignment_of(
+    found: MapAlignment,
+    one: StoredMap,
+    other: StoredMap,
+    ids: tuple[UInt32, UInt32] | None = None,
+) -> AlignmentOut:
+    """How two maps lie to each other.
+
+    Args:
+        ids: of the rows of both, for the pairs that agree; None: they are not told.
+    """
+    best, pose = found.best, found.pose
+    others = [found.second] if pose is not None else [best, found.second]
+    told = best if pose is not None else None
+    return AlignmentOut(
+        map=one.name,
+        etag=one.tag,
+        frame=one.frame,
+        other=other.name,
+        other_etag=other.tag,
+        other_frame=other.frame,
+        aligned=pose is not None,
+        reason=found.reason,
+        detail=found.detail,
+        pose=None if pose is None else PoseOut(**pose_of(pose)),
+        covariance=None if told is None else told.covariance.tolist(),
+        overlap=None if told is None else OverlapOut(of_map=told.parts[0], of_other=told.parts[1]),
+        score=0.0 if best is None else best.score,
+        agreement=0.0 if best is None else best.agreement,
+        pairs=0 if told is None else len(told),
+        inliers=[] if told is None or ids is None else pairs_of(told, ids),
+        others=[laid(each) for each in others if each is not None],
+    )
+
+
+def laid(overlap: Overlap) -> LaidOut:
+    """A way to lay one map on the other."""
+    return LaidOut(
+        pose=PoseOut(**pose_of(overlap.pose)),
+        score=overlap.score,
+        agreement=overlap.agreement,
+        pairs=len(overlap),
+    )
+
+
+def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
+    """The segments that agree."""
+    here, there = ids
+    rows = zip(
+        here[overlap.rows_a].tolist(),
+        there[overlap.rows_b].tolist(),
+        overlap.residuals.tolist(),
+        strict=True,
+    )
+    return [PairOut(id=id_, other_id=other, residual=metres) for id_, other, metres in rows]
+
+
+def merged_of(merged: Merged, name: str, names: Sequence[str]) -> MergedOut:
+    """What a merge did, or would do.
+
+    Args:
+        names: of the maps, in the order of the request.
+    """
+    plan, written = merged.plan, merged.written
+    numbers = {stored.name: number for number, stored in enumerate(plan.maps)}
+    return MergedOut(
+        map=name,
+        frame=plan.maps[0].frame,
+        dry_run=written is None,
+        sequence=None if written is None else written.stored.head.sequence,
+        etag=None if written is None else written.stored.tag,
+        previous=merged.previous,
+        segments=merged.segments,
+        changed=merged.changed,
+        removed=merged.removed,
+        parts=[_part(merged, numbers[each]) for each in names],
+        alignments=[_pairing(plan, each) for each in plan.pairings],
+        loops=[
+            LoopOut(
+                maps=[plan.maps[number].name for number in loop.maps],
+                metres=loop.metres,
+                degrees=loop.degrees,
+                closes=loop.closes,
+            )
+            for loop in plan.checked.loops
+        ],
+    )
+
+
+def _part(merged: Merged, number: int) -> MergedPartOut:
+    stored, is_merged = merged.plan.maps[number], number in merged.shares
+    pose = merged.plan.poses[number] if is_merged else None
+    share = merged.shares.get(number, Share(0, 0, 0, 0))
+    return MergedPartOut(
+        map=stored.name,
+        etag=stored.tag,
+        merged=is_merged,
+        pose=None if pose is None else PoseOut(**pose_of(pose)),
+        added=share.added,
+        known=share.known,
+        repeats=share.repeats,
+        removed=share.removed,
+    )
+
+
+def _pairing(plan: Plan, pairing: Pairing) -> MergePairOut:
+    told = alignment_of(pairing.found, plan.maps[pairing.one], plan.maps[pairing.other])
+    return MergePairOut(
+        rejected=pairing.is_rejected,
+        proven=pairing.is_proven,
+        **told.model_dump(include=set(MergePairOut.model_fields)),
+    )

@@ -1,0 +1,1 @@
+"""Request and response bodies: JSON, msgpack and compression."""

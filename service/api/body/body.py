@@ -1,0 +1,106 @@
+"""Reading a request's body and writing a response's: media type, then bytes, then schema."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
+
+from fastapi import Request
+from pydantic import BaseModel, ValidationError
+from pydantic_core import to_json
+
+from service.api.body import msgpack_codec
+from service.api.body.json_requests import read_json
+from service.api.schemas.msgpack import PackedRequest
+from service.core.problems import Problem, invalid
+from service.core.settings import Limits
+
+JSON = "application/json"
+MSGPACK = "application/msgpack"
+OCTETS = "application/octet-stream"
+ENCODINGS = (JSON, MSGPACK)
+"""The first one unless the client says otherwise."""
+
+Schema = TypeVar("Schema", bound=BaseModel)
+Packed = TypeVar("Packed", bound=PackedRequest)
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A request's body, and its media type: empty if the request names none."""
+
+    media_type: str
+    content: bytes
+
+
+def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:
+    """Of the media types on offer, the one that the request's Accept likes best; ties: the first.
+
+    Raises:
+        Problem: 406 if none fits.
+    """
+    accept = ",".join(request.headers.getlist("accept"))
+    if not accept.strip():
+        return offered[0]
+    best = max(offered, key=lambda media_type: _quality(media_type, accept))
+    if _quality(best, accept) <= 0:
+        raise Problem(
+            406, "not-acceptable", f"The answer can be {' or '.join(offered)}, not {accept!r:.80}."
+        )
+    return best
+
+
+def _quality(media_type: str, accept: str) -> float:
+    """What an Accept header gives a media type, 0 to 1; the range that fits closest decides."""
+    fits = (media_type, media_type.partition("/")[0] + "/*", "*/*")
+    qualities: dict[str, float] = {}
+    for part in accept.lower().split(","):
+        name, *parameters = (piece.strip() for piece in part.split(";"))
+        weights = [piece[2:] for piece in parameters if piece.startswith("q=")]
+        # A weight that cannot be read is none; `float` alone would take `nan`.
+        good = all(re.fullmatch(r"[01](\.\d*)?", weight) for weight in weights)
+        quality = float(weights[0]) if good and weights else float(good)
+        qualities[name] = max(quality, qualities.get(name, 0.0))
+    return next((qualities[name] for name in fits if name in qualities), 0.0)
+
+
+def parse(
+    schema: type[Schema], packed: type[Packed], body: Body, limits: Limits
+) -> Schema | Packed:
+    """The body as its schema says: the one for JSON, or the one for msgpack.
+
+    Raises:
+        Problem: 413 if it holds too many values, 400 if it is not in its encoding, 422 if it does
+            not fit the schema.
+    """
+    try:
+        if body.media_type == MSGPACK:
+            return packed.model_validate(msgpack_codec.unpack(body.content, limits))
+        return cast(Schema, read_json(schema, body.content, limits))
+    except ValidationError as error:
+        raise invalid(error) from error
+
+
+def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
+    """Encode a response.
+
+    Its lists are encoded one item after the other, so that other threads get their turn.
+    """
+    content = response.model_dump() if isinstance(response, BaseModel) else response
+    return msgpack_codec.pack(content) if media_type == MSGPACK else b"".join(_json_parts(content))
+
+
+def _json_parts(content: dict[str, Any]) -> Iterator[bytes]:
+    """Yield the JSON of an object, lists item by item."""
+    before = b"{"
+    for key, value in content.items():
+        yield before + to_json(key) + b":"
+        before = b","
+        if isinstance(value, list | msgpack_codec.Items):
+            yield b"["
+            for number, item in enumerate(value):
+                yield b"," + to_json(item) if number else to_json(item)
+            yield b"]"
+        else:
+            yield to_json(value)
+    yield b"}" if content else b"{}"

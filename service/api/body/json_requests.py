@@ -1,0 +1,193 @@
+"""JSON requests whose arrays are read without the interpreter's lock; see `json_arrays`.
+
+The schemas of `schemas` and `localise_schemas` say what is right, and name what is wrong. Those
+here take the same bodies with each array cut out, and give the same values as NumPy arrays.
+"""
+
+from typing import Annotated, Any, TypeVar
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, PlainValidator, ValidationError, ValidationInfo
+
+from placecell.core.types import Float64, Int8
+from service.api.body.json_arrays import CENTROIDS, NAMES, POINTS, Arrays, cut_arrays, moved
+from service.api.schemas.localization import LocalizeQuery, LocalizeRequest
+from service.api.schemas.recognition import (
+    DescribeRequest,
+    MatchRequest,
+    Point,
+    QueryRequest,
+    Request,
+    ScanRequest,
+)
+from service.core.problems import Problem, errors_of, invalid
+from service.core.settings import Limits
+
+Schema = TypeVar("Schema", bound=BaseModel)
+
+CODE_VALUES = 1_000
+"""Largest number of values of a code that are kept; no model has as many."""
+REST_BYTES = 2_048
+"""Bytes of a body per segment outside of its arrays."""
+
+
+def _arrays(info: ValidationInfo) -> Arrays:
+    assert isinstance(info.context, Arrays)
+    return info.context
+
+
+def _points(value: object, info: ValidationInfo) -> Float64:
+    if value == []:
+        return np.zeros((0, 3))
+    found = _arrays(info).rows(value, POINTS)
+    if found is None:
+        raise ValueError("no points")
+    return found
+
+
+def _centroids(value: object, info: ValidationInfo) -> Float64:
+    found = _arrays(info).rows(value, CENTROIDS)
+    if found is None:
+        raise ValueError("no centroids")
+    return found
+
+
+def _codes(value: object, info: ValidationInfo) -> Int8 | list[list[int]]:
+    found = _arrays(info).code_rows(value)
+    if found is None:
+        raise ValueError("no codes")
+    return found
+
+
+class CutSegment(Request):
+    """`SegmentIn` with its points cut out."""
+
+    model_config = ConfigDict(arbitrary_types_allowed=True)
+
+    points: Annotated[Float64, PlainValidator(_points)]
+    sensor: Point
+
+
+CutCodes = Annotated[Any, PlainValidator(_codes)]
+CutCentroids = Annotated[Any, PlainValidator(_centroids)]
+
+
+class CutDescribeRequest(ScanRequest[CutSegment]):
+    """`DescribeRequest` with its arrays cut out."""
+
+
+class CutMatchRequest(QueryRequest[CutSegment, CutCodes]):
+    """`MatchRequest` with its arrays cut out."""
+
+
+class CutLocalizeRequest(LocalizeQuery[CutSegment, CutCodes, CutCentroids]):
+    """`LocalizeRequest` with its arrays cut out."""
+
+
+CUT: dict[type[BaseModel], type[BaseModel]] = {
+    DescribeRequest: CutDescribeRequest,
+    MatchRequest: CutMatchRequest,
+    LocalizeRequest: CutLocalizeRequest,
+}
+
+
+def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
+    """Parse a JSON body by its schema, with arrays as NumPy arrays.
+
+    Raises:
+        Problem: 413 if it holds too much, 400 if it is not JSON, 422 if it does not fit the schema.
+    """
+    arrays = cut_arrays(
+        body,
+        points=limits.points,
+        segments=limits.segments,
+        values=CODE_VALUES * limits.segments,
+    )
+    if arrays.syntax is not None:
+        what, offset = arrays.syntax
+        raise not_json(f"{what} at line {body.count(10, 0, offset) + 1} "
+                       f"column {offset - body.rfind(10, 0, offset)}")  # fmt: skip
+    _check_amounts(arrays, limits)
+    arrays.cut()
+    if len(arrays.text) > REST_BYTES * (limits.segments + 32):
+        raise Problem(
+            413,
+            "too-many-values",
+            f"The body has {len(arrays.text)} bytes outside of its points and codes. The limit is "
+            f"{REST_BYTES * (limits.segments + 32)}.",
+        )
+    try:
+        return CUT[schema].model_validate_json(arrays.text, context=arrays)
+    except ValidationError:
+        return _told(schema, arrays)
+
+
+def _told(schema: type[Schema], arrays: Arrays) -> Schema:
+    """Raise the problem of an invalid body.
+
+    Only what may be wrong is read again, so that it takes no time worth mentioning.
+
+    Raises:
+        Problem: as `read_json`.
+    """
+    try:
+        named = arrays.named()
+    except ValueError as error:
+        raise Problem(422, "invalid-request", f"The body: {error}.") from error
+    try:
+        schema.model_validate_json(named)
+    except ValidationError as error:
+        found = errors_of(error)
+        for item in found:
+            item["loc"] = _moved(item["loc"], arrays)
+            item["msg"] = moved(str(item["msg"]), arrays, named)
+        raise invalid(error, found) from error
+    # The two ways to read disagree; the plain one is right.
+    try:
+        return schema.model_validate_json(arrays.body)
+    except ValidationError as error:
+        raise invalid(error) from error
+
+
+def _moved(place: tuple[int | str, ...], arrays: Arrays) -> tuple[int | str, ...]:
+    """Return an error's position in the body, if only one row of an array was shown."""
+    for kind, name in enumerate(NAMES):
+        if name not in place:
+            continue
+        at = place.index(name) + 1
+        if len(place) > at and place[at] == 0:
+            return (*place[:at], arrays.row_of(kind), *place[at + 1 :])
+    return place
+
+
+def _check_amounts(arrays: Arrays, limits: Limits) -> None:
+    segments, points, codes = arrays.amounts
+    for kind, what, amount, limit in (
+        ("points", "points", points, limits.points),
+        ("segments", "segments", segments, limits.segments),
+        ("segments", "queries", codes, limits.segments),
+    ):
+        if amount > limit:
+            detail = f"{amount} {what} in a request; the limit is {limit}."
+            raise Problem(413, f"too-many-{kind}", detail)
+    # A segment has five, and its sensor's; the rest is for the names of maps.
+    limit = 16 * limits.segments + 1_000
+    if not arrays.complete:
+        raise Problem(
+            413,
+            "too-many-values",
+            "The body holds too many values in its points, codes and centroids. The limit is what "
+            f"{limits.points} points in {limits.segments} segments need.",
+        )
+    if arrays.values > limit:
+        raise Problem(
+            413,
+            "too-many-values",
+            f"The body holds {arrays.values} lists, objects and values outside of its points and "
+            f"codes; the limit is {limit}. {limits.segments} segments need fewer.",
+        )
+
+
+def not_json(reason: str) -> Problem:
+    """Return the problem of a body that is not JSON."""
+    return Problem(400, "not-json", f"The body is not JSON: {reason}.")

@@ -1,0 +1,97 @@
+"""API documentation pages `/docs` and `/redoc`, served from local files only.
+
+Robots work where there is no way to a CDN, and a page that runs a CDN's scripts trusts it with the
+keys that a user types. The scripts come with the package `fastapi-offline`.
+"""
+
+from importlib.resources import files
+from pathlib import Path
+
+from fastapi import FastAPI, Response
+from fastapi.responses import FileResponse, HTMLResponse
+
+from service.core.problems import Problem
+
+FILES = {
+    "swagger-ui-bundle.js": "text/javascript",
+    "swagger-ui.css": "text/css",
+    "redoc.standalone.js": "text/javascript",
+    "favicon.png": "image/png",
+}
+"""Files of the package and their media types."""
+
+# Addresses are relative to the page, so that they hold behind a proxy's path prefix, too.
+SWAGGER = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Placecell: API</title>
+<link rel="icon" href="docs/favicon.png">
+<link rel="stylesheet" href="docs/swagger-ui.css">
+</head>
+<body>
+<div id="swagger-ui"></div>
+<script src="docs/swagger-ui-bundle.js"></script>
+<script src="docs/start.js"></script>
+</body>
+</html>
+"""
+
+START = """SwaggerUIBundle({
+  url: "openapi.json",
+  dom_id: "#swagger-ui",
+  deepLinking: true,
+  validatorUrl: null,
+  presets: [SwaggerUIBundle.presets.apis, SwaggerUIBundle.SwaggerUIStandalonePreset],
+});
+"""
+"""Template of /docs; without `validatorUrl` the page would send the description to the Internet."""
+
+REDOC = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Placecell: API</title>
+<link rel="icon" href="docs/favicon.png">
+</head>
+<body>
+<redoc spec-url="openapi.json"></redoc>
+<script src="docs/redoc.standalone.js"></script>
+</body>
+</html>
+"""
+
+HEADERS = {
+    # Both pages make styles as they run, and draw pictures from data; Redoc searches in a worker.
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; connect-src 'self'; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self' data:; "
+    "worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+}
+
+CACHED = {"Cache-Control": "public, max-age=3600"}
+
+
+def install(app: FastAPI) -> None:
+    """Serve the pages without a key: the description shows no maps or keys."""
+    folder = Path(str(files("fastapi_offline"))) / "static"
+
+    @app.get("/docs", include_in_schema=False)
+    async def _() -> Response:
+        return HTMLResponse(SWAGGER, headers=HEADERS)
+
+    @app.get("/redoc", include_in_schema=False)
+    async def _() -> Response:
+        return HTMLResponse(REDOC, headers=HEADERS)
+
+    @app.get("/docs/{name}", include_in_schema=False)
+    async def _(name: str) -> Response:
+        if name == "start.js":
+            return Response(START, media_type="text/javascript", headers=HEADERS | CACHED)
+        if name not in FILES:
+            raise Problem(404, "not-found", f"No such file: {name!r:.80}.")
+        return FileResponse(folder / name, media_type=FILES[name], headers=HEADERS | CACHED)

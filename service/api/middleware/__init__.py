@@ -1,0 +1,1 @@
+"""Middleware: request log, body limit, origin guard and HEAD requests."""

@@ -1,0 +1,88 @@
+"""The API's description, with the bodies' schemas.
+
+FastAPI does not see them: the routes parse bodies themselves, off the event loop.
+"""
+
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import BaseModel
+
+from service.api.body.body import JSON, MSGPACK
+from service.api.schemas.alignment import MergeRequest
+from service.api.schemas.localization import LocalizeRequest
+from service.api.schemas.msgpack import (
+    PackedDescribeRequest,
+    PackedDescribeResponse,
+    PackedLocalizeRequest,
+    PackedMatchRequest,
+)
+from service.api.schemas.recognition import DescribeRequest, MatchRequest
+from service.core.problems import ProblemBody
+
+_REFERENCE = "#/components/schemas/{model}"
+_SCHEMAS: tuple[type[BaseModel], ...] = (
+    DescribeRequest,
+    LocalizeRequest,
+    MatchRequest,
+    MergeRequest,
+    PackedDescribeRequest,
+    PackedDescribeResponse,
+    PackedLocalizeRequest,
+    PackedMatchRequest,
+    ProblemBody,
+)
+
+
+def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
+    """The description of a body, JSON or msgpack, for a route's `openapi_extra`."""
+    return {
+        "requestBody": {
+            "required": True,
+            "content": {
+                JSON: {"schema": _reference(schema)},
+                MSGPACK: {"schema": _reference(packed)},
+            },
+        }
+    }
+
+
+def json_body(schema: type[BaseModel]) -> dict[str, Any]:
+    """The description of a body that is JSON alone."""
+    return {"requestBody": {"required": True, "content": {JSON: {"schema": _reference(schema)}}}}
+
+
+def packed_response(schema: type[BaseModel]) -> dict[int | str, dict[str, Any]]:
+    """The description of an answer as msgpack, beside the JSON that FastAPI describes."""
+    return {200: {"content": {MSGPACK: {"schema": _reference(schema)}}}}
+
+
+def file_body(*media_types: str) -> dict[str, Any]:
+    """The description of a file as a body, for a route's `openapi_extra`."""
+    file = {"schema": {"type": "string", "format": "binary"}}
+    return {"requestBody": {"required": True, "content": dict.fromkeys(media_types, file)}}
+
+
+def install(app: FastAPI) -> None:
+    """Complete the description that `/docs` and `/openapi.json` show."""
+
+    def described() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            document = get_openapi(
+                title=app.title, version=app.version, description=app.description, routes=app.routes
+            )
+            components = document.setdefault("components", {}).setdefault("schemas", {})
+            for schema in _SCHEMAS:
+                content = schema.model_json_schema(ref_template=_REFERENCE)
+                components.update(content.pop("$defs", {}))
+                components[schema.__name__] = content
+            app.openapi_schema = document
+        return app.openapi_schema
+
+    # FastAPI's documented way to extend the description.
+    app.openapi = described  # type: ignore[method-assign]
+
+
+def _reference(schema: type[BaseModel]) -> dict[str, str]:
+    return {"$ref": _REFERENCE.format(model=schema.__name__)}

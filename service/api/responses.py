@@ -1,0 +1,69 @@
+"""What routes answer, made of what the service holds."""
+
+from typing import Any
+
+from scipy.spatial.transform import Rotation
+
+from placecell.localization import Pose
+from service.api.schemas.maps import MapOut, VersionOut, WrittenOut
+from service.core.auth import Holder
+from service.maps.snapshot import StoredMap, tag_of
+from service.maps.store import Commit
+from service.maps.visibility import author_for, sources_for
+from service.maps.writes.writer import Written
+
+
+def summary_of(stored: StoredMap, holder: Holder) -> MapOut:
+    """Summarize a map as a key may see it; reads all of it, so not for the event loop."""
+    head, layers = stored.head, stored.layers
+    return MapOut(
+        name=stored.name,
+        segments=len(stored),
+        sequence=head.sequence,
+        etag=stored.tag,
+        bytes=head.bytes,
+        model_id=stored.model_id,
+        frame=stored.frame,
+        robots=dict(sorted(layers.robots.items())),
+        sources=sources_for(holder, layers.sources),
+        time_span=layers.time_span,
+        optional=sorted(layers.optional),
+    )
+
+
+def outcome_of(written: Written) -> WrittenOut:
+    """What a write did."""
+    stored = written.stored
+    return WrittenOut(
+        map=stored.name,
+        sequence=stored.head.sequence,
+        etag=stored.tag,
+        segments=len(stored),
+        changed=written.changed,
+        removed=written.removed,
+        repeats=written.repeats,
+    )
+
+
+def version_of(commit: Commit, holder: Holder) -> VersionOut:
+    """Return a version of the history as a key may see it."""
+    note = commit.note
+    return VersionOut(
+        sequence=commit.sequence,
+        etag=tag_of(commit.sequence, commit.mark),
+        time=note.time,
+        author=author_for(holder, note.author),
+        operation=note.operation,
+        changed=note.changed,
+        removed=note.removed,
+    )
+
+
+def pose_of(pose: Pose) -> dict[str, Any]:
+    """A pose, as `PoseOut` says."""
+    rotation = Rotation.from_matrix(pose.rotation).as_quat(canonical=True)
+    return {
+        "translation": pose.translation.tolist(),
+        "rotation": rotation.tolist(),
+        "yaw": pose.yaw,
+    }

@@ -1,0 +1,90 @@
+"""`/livez`, `/readyz`, `/info`: for those who run the service, and for clients' limits."""
+
+from dataclasses import asdict
+
+import anyio.to_thread
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import PlainTextResponse
+from placecell_client.maps.map_file import FORMAT, MEDIA_TYPE, VERSION
+from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
+
+from placecell.descriptors.manifest import Manifest
+from service.api.schemas.info import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
+from service.api.state import HolderOf, StateOf
+from service.core.cost import MACHINE, RATES
+from service.core.problems import Problem, documented
+
+router = APIRouter(tags=["health"])
+
+BAD_KEYS = (
+    "The key file is missing or cannot be read; see the log for the reason. Until you repair it, "
+    "no new key works, and keys that it no longer holds are refused after a minute."
+)
+
+
+@router.get("/livez", summary="The process answers", response_model_exclude_none=True)
+async def livez() -> HealthResponse:
+    """Restart the service if this fails."""
+    return HealthResponse(status="alive")
+
+
+@router.get(
+    "/readyz",
+    summary="The service can work",
+    responses=documented(503),
+    response_model_exclude_none=True,
+)
+async def readyz(state: StateOf) -> HealthResponse:
+    """Readiness: model and maps are loaded and maps can be stored; send no requests if not.
+
+    `warnings` lists problems that need an operator although the service still works, such as an
+    unreadable key file.
+    """
+    if state.draining:
+        raise Problem(503, "not-ready", "The service is about to stop.")
+    # In a thread of its own: a disk may hang, and no request waits for it.
+    trouble = await anyio.to_thread.run_sync(state.maps.trouble)
+    if trouble is not None:
+        raise Problem(503, "not-ready", f"Maps cannot be written. {trouble}")
+    if state.keys.is_good():
+        return HealthResponse(status="ready")
+    if not state.keys.any_works():
+        raise Problem(503, "not-ready", f"{BAD_KEYS} No key works now.")
+    return HealthResponse(status="ready", warnings=[BAD_KEYS])
+
+
+@router.get("/metrics", summary="For Prometheus", response_class=PlainTextResponse)
+async def metrics(state: StateOf) -> Response:
+    """Counts and times, in Prometheus' text format."""
+    return Response(generate_latest(state.metrics.registry), media_type=CONTENT_TYPE_LATEST)
+
+
+@router.get("/info", summary="Version, models, limits", responses=documented(401))
+async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoResponse:
+    """What a client needs to know before it sends anything."""
+    del holder  # any key will do
+    models = [_told(model.manifest) for model in state.models.all()]
+    return InfoResponse(
+        version=request.app.version,
+        model=models[0],
+        models=models,
+        limits=state.settings.limits,
+        costs=CostsOut(machine=MACHINE, **asdict(RATES)),
+        map_file=MapFileOut(format=FORMAT, version=VERSION, media_type=MEDIA_TYPE),
+    )
+
+
+def _told(manifest: Manifest) -> ModelOut:
+    return ModelOut(
+        model_id=manifest.model_id,
+        name=manifest.name,
+        method=manifest.method,
+        network=manifest.network,
+        dimension=manifest.dimension,
+        code_bytes=manifest.code_bytes,
+        per_byte=manifest.quantiser.per_byte,
+        surroundings=manifest.surroundings is not None,
+        step=manifest.quantiser.step,
+        pair_threshold=manifest.pair_threshold,
+        preprocessing=manifest.preprocessing,
+    )

@@ -1,0 +1,34 @@
+"""`/models`: what the service runs."""
+
+from fastapi import APIRouter, Request
+
+from placecell.descriptors.manifest import ModelError
+from service.api.audit import logger
+from service.api.schemas.info import ReloadResponse
+from service.api.state import HolderOf, State, StateOf
+from service.core.problems import Problem, documented
+
+router = APIRouter(tags=["models"])
+
+
+@router.post("/models/reload", summary="Load the models anew", responses=documented(401, 403, 409))
+async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadResponse:
+    """After a model's folder was replaced. Requests at work end with the model they began with.
+
+    A model that cannot be used is refused with the reason, and the old one goes on. Models that
+    stored maps were made with stay loaded.
+    """
+    holder.check_admin()
+    try:
+        await state.compute(_reload, state)
+    except ModelError as error:
+        raise Problem(409, "broken-model", f"The old model goes on. {error}.") from error
+    ids = [model.id for model in state.models.all()]
+    facts = {"key": holder.name, "request_id": request.scope["state"]["request_id"]}
+    logger.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
+    return ReloadResponse(model_id=ids[0], models=ids)
+
+
+def _reload(state: State) -> None:
+    state.models.reload()
+    state.maps.index_all()

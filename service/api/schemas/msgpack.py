@@ -1,0 +1,164 @@
+"""What goes over the wire as msgpack: the schemas of JSON, with arrays as blobs.
+
+`docs/reference/msgpack.md` describes it byte by byte, for clients in any language.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails
+
+from placecell.core.types import Float32, Float64, Int8
+from service.api.schemas.localization import LocalizeQuery
+from service.api.schemas.recognition import (
+    DescriptorsResponse,
+    Point,
+    QueryRequest,
+    Request,
+    ScanRequest,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """A msgpack map as it was read, before anyone asked whether a key stands twice."""
+
+    items: list[tuple[object, object]]
+
+
+def _points(blob: object) -> Float32:
+    """Decode the points of a blob, float32 (n, 3); some may not be finite."""
+    return np.asarray(_coordinates(blob, np.dtype("<f4"), infinite=True), np.float32)
+
+
+def _centroids(blob: object) -> Float64:
+    """The centroids of a blob, float64 (n, 3)."""
+    return np.asarray(_coordinates(blob, np.dtype("<f8")), np.float64)
+
+
+def _coordinates(
+    blob: object, kind: "np.dtype[np.floating[Any]]", *, infinite: bool = False
+) -> "NDArray[np.floating[Any]]":
+    """Decode the points of a blob, (n, 3), without a check per point.
+
+    Args:
+        blob: the bytes.
+        kind: type of a coordinate.
+        infinite: whether NaN and infinity may stand there.
+
+    Raises:
+        ValueError: it holds no such points; the place and the words are those of JSON.
+    """
+    data = _bin(blob)
+    size = 3 * kind.itemsize
+    if len(data) % size:
+        raise ValueError(f"{len(data)} bytes, not a multiple of {size}: x, y, z as {kind.name}")
+    points = np.frombuffer(data, kind).reshape(-1, 3)
+    # Written so that NaN fails too.
+    if not (
+        points.max(initial=0) <= COORDINATE_LIMIT and points.min(initial=0) >= -COORDINATE_LIMIT
+    ):
+        wrong = ~(np.abs(points) <= COORDINATE_LIMIT)
+        if infinite:
+            wrong &= np.isfinite(points)
+        if wrong.any():
+            row, axis = (int(place) for place in np.argwhere(wrong)[0])
+            raise _out_of_range((row, axis), float(points[row, axis]))
+    return points
+
+
+def _codes(blob: object) -> Int8:
+    """The codes of a blob, int8 (q * c,): only the model knows c, the bytes of a code."""
+    data = _bin(blob)
+    if not data:
+        raise ValueError("no codes")
+    return np.frombuffer(data, np.int8)
+
+
+def _bin(value: object) -> bytes:
+    if not isinstance(value, bytes):
+        raise ValueError("not a bin")
+    return value
+
+
+def _out_of_range(place: tuple[int, int], value: float) -> ValidationError:
+    error = InitErrorDetails(type="finite_number", loc=place, input=value)
+    if np.isfinite(value):
+        limit = COORDINATE_LIMIT
+        if value > 0:
+            error |= {"type": "less_than_equal", "ctx": {"le": limit}}
+        else:
+            error |= {"type": "greater_than_equal", "ctx": {"ge": -limit}}
+    return ValidationError.from_exception_data("points", [error])
+
+
+_BLOB = WithJsonSchema({"type": "string", "format": "binary"})
+PointsBlob = Annotated[Float32, PlainValidator(_points), _BLOB]
+CentroidsBlob = Annotated[Float64, PlainValidator(_centroids), _BLOB]
+CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
+
+
+class PackedRequest(Request):
+    """A msgpack map whose keys are strings, each once."""
+
+    model_config = ConfigDict(arbitrary_types_allowed=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keys(cls, value: object) -> dict[str, object]:
+        if not isinstance(value, Pairs):
+            raise ValueError("not a map")
+        content: dict[str, object] = {}
+        for key, item in value.items:
+            if not isinstance(key, str):
+                raise ValueError("a key is not a string")
+            if key in content:
+                raise ValueError(f"the key {key!r:.100} stands twice")
+            content[key] = item
+        return content
+
+
+class PackedSegment(PackedRequest):
+    """A segment: the points of one object, and where it was seen from."""
+
+    points: PointsBlob = Field(
+        description="float32, little-endian: x, y, z of the first point in meters, then of the "
+        "next. Points with NaN or infinity are left out and counted in the answer."
+    )
+    sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
+
+
+class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
+    """`DescribeRequest` as msgpack."""
+
+
+class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
+    """`MatchRequest` as msgpack; codes: int8, one query after the other."""
+
+
+class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):
+    """`LocalizeRequest` as msgpack; codes as there, centroids: float64, little-endian: x, y, z."""
+
+
+class PackedDescriptor(BaseModel):
+    """A segment's descriptor."""
+
+    codes: bytes = Field(description="int8, `code_bytes` of them: the stored form.")
+    descriptor: bytes = Field(description="float32, little-endian, d of them.")
+    centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
+
+
+class PackedDescribeResponse(DescriptorsResponse[PackedDescriptor]):
+    """`DescribeResponse` as msgpack."""

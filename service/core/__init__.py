@@ -1,0 +1,1 @@
+"""Core of the service: settings, problems, keys, preconditions, metrics and cost."""

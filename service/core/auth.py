@@ -1,0 +1,236 @@
+"""Keys: who may read, and who may write, which maps.
+
+A file names each key by its SHA-256; the key itself is shown once, when it is made. The file is
+looked at again when it has changed. While it cannot be read, a key works on if its hash still
+stands in the file; any other key works for a minute more, as a file that is being edited may be
+incomplete for a moment.
+
+    [robot-7]
+    sha256 = "9f86d081884c7d65..."
+    write = true
+    maps = ["yard", "hall-*"]
+    robot = "robot-7"
+"""
+
+import hashlib
+import hmac
+import logging
+import re
+import secrets
+import tomllib
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+from time import monotonic
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from service.core.problems import Problem
+
+PREFIX = "placecell_"
+"""Of a key, so that whoever finds one knows what it opens."""
+
+GRACE_SECONDS = 60.0
+"""Seconds for which a key that was removed from an unreadable file still works."""
+
+logger = logging.getLogger("placecell")
+
+
+class Key(BaseModel):
+    """What a key opens."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="Of the key.")
+    write: bool = Field(default=False, description="May change maps.")
+    admin: bool = Field(default=False, description="May reload models and free ids.")
+    maps: tuple[str, ...] = Field(default=("*",), description="Names of maps, with * and ?.")
+    robot: str | None = Field(default=None, description="May write this robot's segments alone.")
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """Who sent a request, and what they may do."""
+
+    name: str
+    key: Key
+
+    def check_map(self, name: str) -> None:
+        """See that the key opens a map; 403 if not."""
+        if not self.opens(name):
+            raise Problem(403, "forbidden", f"This key does not open the map {name!r:.80}.")
+
+    def opens(self, name: str) -> bool:
+        """Whether the key opens a map."""
+        return any(fnmatchcase(name, pattern) for pattern in self.key.maps)
+
+    @property
+    def opens_all(self) -> bool:
+        """Return whether the key opens every map, future ones too."""
+        return "*" in self.key.maps
+
+    def check_write(self, name: str) -> None:
+        """See that the key may change a map; 403 if not."""
+        self.check_map(name)
+        if not self.key.write:
+            raise Problem(403, "forbidden", "This key reads, but does not write.")
+
+    def check_robots(self, robots: Iterable[str]) -> None:
+        """See that the key may store, replace or remove these robots' segments; 403 if not."""
+        if self.key.robot is not None and {*robots} - {self.key.robot}:
+            raise self._own_alone()
+
+    def check_all(self) -> None:
+        """See that the key may store, replace or remove all robots' segments; 403 if not."""
+        if self.key.robot is not None:
+            raise self._own_alone()
+
+    def check_admin(self) -> None:
+        """See that the key may change what the service runs; 403 if not."""
+        if not self.key.admin:
+            raise Problem(403, "forbidden", "This key does not administer the service.")
+
+    def _own_alone(self) -> Problem:
+        return Problem(
+            403, "forbidden", f"This key writes segments of {self.key.robot!r:.80} alone."
+        )
+
+
+ANYONE = Holder("anyone", Key(sha256="0" * 64, write=True, admin=True))
+"""Who may do all, where there are no keys."""
+
+KEYS = TypeAdapter(dict[str, Key])
+
+
+class Keys:
+    """The keys of a file; without a file everyone may do everything."""
+
+    def __init__(self, file: Path | None, clock: Callable[[], float] = monotonic) -> None:
+        """Read the keys.
+
+        Args:
+            file: of the keys.
+            clock: gives seconds that only grow.
+
+        Raises:
+            ValueError: the file is missing or is no file of keys.
+        """
+        self._file = file
+        self._mark = _mark(file)
+        self._holders = read_keys(file) if file else []
+        self._clock = clock
+        self._bad_since: float | None = None
+        self._standing: frozenset[str] = frozenset()
+
+    def __bool__(self) -> bool:
+        return self._file is not None
+
+    @property
+    def patterns(self) -> tuple[tuple[str, ...], ...]:
+        """Return the distinct lists of map name patterns that keys open."""
+        return tuple(sorted({holder.key.maps for holder in self._holders}))
+
+    def holder(self, authorization: str | None) -> Holder:
+        """Who sent a request with this Authorization header.
+
+        Raises:
+            Problem: 401 if it names no key that is known.
+        """
+        if self._file is None:
+            return ANYONE
+        self.is_good()
+        scheme, _, token = (authorization or "").partition(" ")
+        digest = hashlib.sha256(token.strip().encode()).hexdigest()
+        found = None
+        # All are compared, each in constant time: how long it takes tells nothing.
+        for holder in self._holders:
+            if hmac.compare_digest(holder.key.sha256, digest):
+                found = holder
+        if found is None or scheme.lower() != "bearer" or not self._works(found):
+            raise Problem(
+                401,
+                "unauthorized",
+                "A known key is needed: Authorization: Bearer KEY.",
+                headers={"WWW-Authenticate": "Bearer"},
+            )
+        return found
+
+    def is_good(self) -> bool:
+        """Read the file again if it has changed; return whether it is readable."""
+        mark = _mark(self._file)
+        if self._file is not None and mark != self._mark:
+            try:
+                self._holders = read_keys(self._file)
+            except ValueError as error:
+                if self._bad_since is None:
+                    self._bad_since = self._clock()
+                self._standing = _hashes_in(self._file)
+                logger.error(
+                    "%s; keys whose hash is still in the file keep working, all others work for "
+                    "%g s more",
+                    error,
+                    GRACE_SECONDS,
+                )
+            else:
+                if self._bad_since is not None:
+                    logger.warning("the key file can be read again")
+                self._bad_since = None
+            self._mark = mark
+        return self._bad_since is None
+
+    def any_works(self) -> bool:
+        """Return whether any key can be accepted; see `is_good`."""
+        return self._file is None or any(self._works(holder) for holder in self._holders)
+
+    def _works(self, holder: Holder) -> bool:
+        """Return whether a key of the last readable file still works."""
+        if self._bad_since is None or holder.key.sha256 in self._standing:
+            return True
+        return self._clock() - self._bad_since <= GRACE_SECONDS
+
+
+def read_keys(file: Path) -> list[Holder]:
+    """The keys of a file.
+
+    Raises:
+        ValueError: it is missing or is no file of keys; the message does not show its content.
+    """
+    try:
+        keys = KEYS.validate_python(tomllib.loads(file.read_text(encoding="utf-8-sig")))
+    except OSError as error:
+        raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{file}: is no TOML ({type(error).__name__})") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"]))
+        raise ValueError(f"{file}: {where}: {first['msg']}") from error
+    return [Holder(name, key) for name, key in keys.items()]
+
+
+def _hashes_in(file: Path) -> frozenset[str]:
+    """Return the hashes in a file that cannot be read as keys, without its comments."""
+    try:
+        text = file.read_bytes().decode(errors="replace")
+    except OSError:
+        return frozenset()
+    lines = [line.partition("#")[0] for line in text.splitlines()]
+    return frozenset(re.findall(r"[0-9a-f]{64}", "\n".join(lines)))
+
+
+def new_key() -> tuple[str, str]:
+    """A new key, and its SHA-256 in hex."""
+    key = PREFIX + secrets.token_urlsafe(32)
+    return key, hashlib.sha256(key.encode()).hexdigest()
+
+
+def _mark(file: Path | None) -> tuple[int, ...] | None:
+    """Changes when the file does."""
+    try:
+        status = file.stat() if file else None
+    except OSError:
+        return None
+    if status is None:
+        return None
+    return status.st_mtime_ns, status.st_ctime_ns, status.st_ino, status.st_size

@@ -1,0 +1,175 @@
+"""Cost of a request: an estimate in seconds of one core, made before the work.
+
+A request within the limits on size can still be more work than its deadline allows: 1,000 queries
+in maps of a hundred million segments, or two maps of a million to be aligned. Such a request is
+refused at once (413), with its cost, the limit and what to do. What cannot be told before is left
+out (how many poses are tried, how many requests share the machine): the deadline stops such work.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from placecell.core.parameters import SurroundingsParameters
+from placecell.core.types import Float32, Int64
+from placecell.map_alignment import AlignmentParameters
+from service.core.problems import Problem
+
+MACHINE = "one core of an Intel Xeon (Emerald Rapids), processor time, best of 3"
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """Seconds of one core per unit of work, measured with the default model on `MACHINE`."""
+
+    point: float = 4.0e-8
+    """Seconds per point of a segment: neighborhood voxels, orientation, the network's grid."""
+    segment: float = 2.3e-4
+    """Seconds per segment in the network."""
+    near_voxel: float = 2.9e-9
+    """Seconds per pair of a segment and another segment's voxel within reach, for a model with a
+    neighborhood."""
+    compared: float = 1.2e-9
+    """Seconds per pair of a query and a map segment."""
+    compared_k: float = 2.8e-11
+    """Seconds per pair of a query and a map segment, for each candidate wanted."""
+    candidate: float = 1.1e-6
+    """Seconds per candidate of a query whose match probability is computed."""
+
+
+RATES = Rates()
+
+
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """Cost of a request by kind of work, seconds of one core."""
+
+    points: float = 0.0
+    network: float = 0.0
+    neighborhoods: float = 0.0
+    search: float = 0.0
+    candidates: float = 0.0
+
+    @property
+    def seconds(self) -> float:
+        """Return the sum over all kinds of work."""
+        return sum(float(getattr(self, field.name)) for field in fields(self))
+
+    def __add__(self, other: "Cost") -> "Cost":
+        return Cost(
+            **{
+                field.name: getattr(self, field.name) + getattr(other, field.name)
+                for field in fields(self)
+            }
+        )
+
+    @property
+    def largest(self) -> str:
+        """Return the kind of work that costs most."""
+        return max((field.name for field in fields(self)), key=lambda name: getattr(self, name))
+
+
+NOTHING = Cost()
+
+REMEDIES = {
+    "points": "Send fewer points, such as one for each voxel of 0.1 m.",
+    "network": "Send fewer segments.",
+    "neighborhoods": "Send fewer segments, or fewer points of each.",
+    "search": "Name fewer maps, or send fewer segments.",
+    "candidates": "Ask for fewer candidates (k), or send fewer segments.",
+}
+
+
+def check_cost(cost: Cost, limit: float, remedy: str | None = None) -> None:
+    """Refuse work that costs more than a limit.
+
+    Args:
+        cost: of the request.
+        limit: seconds that it may cost.
+        remedy: what to do instead; that of the largest kind unless given.
+
+    Raises:
+        Problem: 413, it costs more.
+    """
+    if cost.seconds > limit:
+        raise Problem(
+            413,
+            "too-much-work",
+            f"The request would cost {cost.seconds:.1f} s of one core, most of it for "
+            f"{cost.largest}; the limit is {limit:g} s. {remedy or REMEDIES[cost.largest]}",
+        )
+
+
+def cost_of_describing(
+    points: Float32, counts: Int64, looks: SurroundingsParameters | None
+) -> Cost:
+    """Return the cost of describing segments.
+
+    Args:
+        points: float32 (n, 3), of the segments, one after the other.
+        counts: int64 (segments,), points of each, 1 or more.
+        looks: how the model looks around; None if it does not.
+    """
+    near = 0 if looks is None else near_voxels(points, counts, looks)
+    return Cost(
+        points=len(points) * RATES.point,
+        network=len(counts) * RATES.segment,
+        neighborhoods=near * RATES.near_voxel,
+    )
+
+
+def near_voxels(points: Float32, counts: Int64, looks: SurroundingsParameters) -> int:
+    """Estimate the pairs of a segment and a voxel within reach; seldom too low.
+
+    Along each axis by itself, of which the one with the fewest pairs counts; so it takes no longer
+    than to sort the segments.
+    """
+    if not len(counts):
+        return 0
+    starts = np.cumsum(counts) - counts
+    low = np.minimum.reduceat(points, starts, axis=0).astype(np.float64)
+    high = np.maximum.reduceat(points, starts, axis=0).astype(np.float64)
+    fit = np.prod(np.floor((high - low) / looks.voxel) + 1, axis=1)
+    voxels = np.minimum(np.nan_to_num(fit, nan=1.0, posinf=np.inf), counts)
+    middles, reach = (low + high) / 2, float(looks.rings[-1])
+    fewest = np.inf
+    for axis in (0, 1):
+        along = middles[:, axis]
+        order = np.argsort(along)
+        total = np.append(0.0, np.cumsum(voxels[order]))
+        begin = np.searchsorted(along[order], along - reach, side="left")
+        end = np.searchsorted(along[order], along + reach, side="right")
+        fewest = min(fewest, float((total[end] - total[begin]).sum()))
+    return int(fewest)
+
+
+def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
+    """Return the cost of searching candidates.
+
+    Args:
+        queries: segments, or codes, of the request.
+        rows: segments of all maps that are searched.
+        k: candidates wanted of each.
+        models: by which the queries are searched, each in its own maps.
+    """
+    return Cost(
+        search=queries * rows * (RATES.compared + RATES.compared_k * k),
+        candidates=queries * min(k * models, rows) * RATES.candidate,
+    )
+
+
+def cost_of_aligning(sizes: Sequence[int], k: int, parameters: AlignmentParameters) -> Cost:
+    """Return the cost of aligning every pair of some maps.
+
+    Args:
+        sizes: segments of each map; each is searched for those of all after it.
+        k: candidates of each.
+        parameters: of the alignment.
+    """
+    asked = parameters.submaps * parameters.things
+    total = NOTHING
+    for place, rows in enumerate(sizes):
+        for other in sizes[place + 1 :]:
+            total += cost_of_search(min(other, asked), rows, k, 1)
+    return total

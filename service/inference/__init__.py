@@ -1,0 +1,1 @@
+"""Inference: from request segments to descriptors, with the loaded models."""

@@ -1,0 +1,1 @@
+"""Stored maps: snapshots, indexes, history and the repository that holds them."""

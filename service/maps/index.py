@@ -1,0 +1,269 @@
+"""Nearest descriptors among many: exact, whatever the size of the map.
+
+Two dimensions of two bits fill a nibble, as does one of four: that is a product quantiser whose
+codebook needs no training. FAISS scans such codes 32 at a time in registers (André et al., *Cache
+locality is not enough*, VLDB 2015). What it rounds on the way has a bound: distances of what it
+finds are computed anew from the codes, and where the bound leaves a doubt it is asked for more.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import faiss
+import numpy as np
+
+from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
+from placecell.descriptors.quantizer import LEVELS, Quantiser
+from service.maps.layers import Layers
+
+MARGIN = 12
+"""Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
+
+MOST = 1 << 13
+"""Rows fetched for the sake of ties: of more that are equally near, some are left out."""
+
+ROWS = 1 << 14
+"""Rows of codes converted to levels per step: as floats they are 4 to 16 times as large."""
+
+BLOCK = 1 << 21
+"""Bytes of codes that are compared at once: of many ties it would be gigabytes."""
+
+
+class MapIndex(ABC):
+    """Searches stored descriptors by Euclidean distance."""
+
+    def __init__(self, codes: Int8) -> None:
+        """Of int8 (n, code bytes)."""
+        self._codes = codes
+
+    def __len__(self) -> int:
+        return len(self._codes)
+
+    def search(
+        self, codes: Int8, k: int, gone: Bool | None = None, margin: int = MARGIN
+    ) -> tuple[Float64, Int64]:
+        """The nearest rows to each query; the same whatever the other queries are.
+
+        Args:
+            codes: int8 (q, code bytes).
+            k: so many, or all if there are fewer.
+            gone: of each row, whether it is not to be found.
+            margin: rows to fetch beyond k.
+
+        Returns:
+            Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows,
+            int64, of the same shape, ascending among equal distances.
+        """
+        k = min(k, len(self) - (0 if gone is None else int(np.count_nonzero(gone))))
+        if not k or not len(codes):
+            return np.zeros((len(codes), k)), np.zeros((len(codes), k), dtype=np.int64)
+        # Requests are searched side by side: a thread each wastes less than all threads for each.
+        faiss.omp_set_num_threads(1)
+        fetch = min(k + margin, len(self))
+        squared, rows, complete = self._nearest(codes, fetch)
+        if gone is not None:
+            squared[gone[rows]] = np.inf
+        order = np.lexsort((rows, squared), axis=1)[:, :k]
+        squared = np.take_along_axis(squared, order, axis=1)
+        distances, found = np.sqrt(squared), np.take_along_axis(rows, order, axis=1)
+        if fetch < len(self):
+            farthest = squared[:, -1]
+            doubt = ~(farthest < complete) if fetch < MOST else np.isinf(farthest)
+            again = np.flatnonzero(doubt)
+            if len(again):
+                distances[again], found[again] = self.search(codes[again], k, gone, 4 * margin)
+        return distances, found
+
+    @abstractmethod
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return about the k nearest rows to each query, for choosing maps to search exactly.
+
+        Args:
+            codes: int8 (q, code bytes).
+            k: at most as many as there are rows.
+
+        Returns:
+            Squared distances in steps, rounded, float32 (q, k), ascending; and rows, int64 (q, k);
+            -1 where there is none.
+        """
+
+    @abstractmethod
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        """Rows near to each query.
+
+        Returns:
+            Squared distances in steps, float64 (q, fetch), exact; their rows, int64 (q, fetch); and
+            the squared distance below which none is missing, float64 (q,).
+        """
+
+
+class FlatIndex(MapIndex):
+    """Compares with every row, dimension by dimension.
+
+    Levels are whole numbers, and squared distances of up to 258 dimensions stay below 2^24: exact
+    in float32, so a distance depends neither on the batch nor on the order of summation.
+    """
+
+    def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+        super().__init__(codes)
+        self._quantiser = quantiser
+        self._index = faiss.IndexFlatL2(codes.shape[1] * quantiser.per_byte)
+        self._index.codes.resize(4 * len(codes) * self._index.d)  # else it grows by doubling
+        self._index.codes.resize(0)
+        for start in range(0, len(codes), ROWS):
+            levels = quantiser.levels(codes[start : start + ROWS])
+            self._index.add(levels.astype(np.float32))
+
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return the k nearest rows; exact in this index."""
+        faiss.omp_set_num_threads(1)
+        return self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
+
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        squared, rows = self._index.search(levels, fetch)
+        return squared.astype(np.float64), rows, squared[:, -1].astype(np.float64)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nibbles:
+    """Product quantizer tables over nibbles, one set for all indexes of a code.
+
+    Attributes:
+        apart: uint16 (65,536,), squared distance of two bytes, at 256 times the one plus the other.
+        faiss_bytes: uint8 (256,), the byte that FAISS reads in place of a code's byte.
+        codebook: float32 (16, dimensions of a nibble), the levels that a nibble stands for.
+        per_nibble: dimensions of a nibble.
+        widest: the largest squared distance of two nibbles.
+    """
+
+    apart: UInt16
+    faiss_bytes: UInt8
+    codebook: Float32
+    per_nibble: int
+    widest: int
+
+    @classmethod
+    @lru_cache(maxsize=len(LEVELS))
+    def of(cls, per_byte: int) -> "Nibbles":
+        """Return the tables of codes with 2 or 4 dimensions per byte, for any step.
+
+        A table of 128 kB for each index would be a megabyte for each map, however empty.
+        """
+        quantiser = Quantiser(1.0, per_byte)
+        every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
+        levels = quantiser.levels(every).astype(np.int32)
+        apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
+        per_nibble = per_byte // 2
+        # A nibble's value: its dimensions' digits, as the quantiser counts them.
+        places = LEVELS[per_byte] ** np.arange(per_nibble)
+        digits = (levels + quantiser.highest) // quantiser.spacing
+        low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
+        codebook = np.zeros((16, per_nibble), dtype=np.float32)
+        codebook[low] = levels[:, :per_nibble]
+        widest = per_nibble * (2 * quantiser.highest) ** 2
+        faiss_bytes = (low | high << 4).astype(np.uint8)
+        return cls(apart.astype(np.uint16), faiss_bytes, codebook, per_nibble, widest)
+
+    def index(self, codes: Int8) -> Any:
+        """Return a FAISS index over codes, which are held a second time while it is built."""
+        nibbles = 2 * codes.shape[1]
+        plain = faiss.IndexPQ(nibbles * self.per_nibble, nibbles, 4)
+        faiss.copy_array_to_vector(np.tile(self.codebook, (nibbles, 1)).ravel(), plain.pq.centroids)
+        plain.is_trained = True
+        plain.codes.resize(codes.size)
+        room = faiss.rev_swig_ptr(plain.codes.data(), codes.size).reshape(codes.shape)
+        for start in range(0, len(codes), ROWS):  # as indices they take eight times as much
+            some = slice(start, start + ROWS)
+            room[some] = self.faiss_bytes[codes[some].view(np.uint8)]
+        plain.ntotal = len(codes)
+        return faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+
+
+class NibbleIndex(MapIndex):
+    """Index that adds up the distances of nibbles.
+
+    Takes the codes' own bytes a segment in memory, beside the codes. An empty one takes nothing.
+    """
+
+    def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+        """Index codes with 2 or 4 dimensions per byte."""
+        super().__init__(codes)
+        self._quantiser = quantiser
+        self._tables = Nibbles.of(quantiser.per_byte)
+        self._index = self._tables.index(codes) if len(codes) else None
+        # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
+        nibbles = 2 * codes.shape[1]
+        self._bound = nibbles * self._tables.widest / 2 * max(1 / 255, nibbles / 65_535)
+
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return about the k nearest rows, by distances as FAISS rounds them."""
+        assert self._index is not None  # nothing is fetched of an empty one
+        faiss.omp_set_num_threads(1)
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        squared, rows = self._index.search(levels, k)
+        return squared, rows
+
+    def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        levels = self._quantiser.levels(codes).astype(np.float32)
+        assert self._index is not None  # nothing is fetched of an empty one
+        told, rows = self._index.search(levels, fetch)
+        asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
+        stored = self._codes.view(np.uint8)
+        squared = np.empty(rows.shape)
+        step = max(1, BLOCK // max(1, rows.shape[1] * stored.shape[1]))
+        for begin in range(0, len(rows), step):
+            some = slice(begin, begin + step)
+            squared[some] = self._tables.apart[asked[some] | stored[rows[some]]].sum(axis=2)
+        return squared, rows, told[:, -1].astype(np.float64) - self._bound
+
+
+def index_of(codes: Int8, quantiser: Quantiser) -> MapIndex:
+    """The index that suits the codes: the quickest by far, where they are made of nibbles."""
+    kind = NibbleIndex if quantiser.per_byte in {2, 4} else FlatIndex
+    return kind(codes, quantiser)
+
+
+@dataclass(frozen=True, slots=True)
+class LayeredIndex:
+    """An index over each layer of a map."""
+
+    base: MapIndex
+    recent: MapIndex
+
+    @classmethod
+    def of(
+        cls, layers: Layers, quantiser: Quantiser, base: MapIndex | None = None
+    ) -> "LayeredIndex":
+        """Over both layers.
+
+        Args:
+            layers: of the map.
+            quantiser: of the model that made it.
+            base: the base's, if it is there already.
+        """
+        recent = index_of(layers.recent.codes, quantiser)
+        return cls(base or index_of(layers.base.codes, quantiser), recent)
+
+    def search(self, layers: Layers, codes: Int8, k: int) -> tuple[Float64, Int64]:
+        """The nearest segments to each query, over both layers.
+
+        Args:
+            layers: that it was made of.
+            codes: int8 (q, code bytes).
+            k: so many, or all if the map has fewer.
+
+        Returns:
+            Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows of
+            `layers`, int64, of the same shape, by id among equal distances.
+        """
+        distances, rows = self.base.search(codes, k, layers.gone if layers.buried else None)
+        if not len(layers.recent):
+            return distances, rows
+        nearer, above = self.recent.search(codes, k)
+        distances = np.concatenate([distances, nearer], axis=1)
+        rows = np.concatenate([rows, above + len(layers.base)], axis=1)
+        order = np.lexsort((layers.column("ids", rows), distances), axis=1)[:, :k]
+        return np.take_along_axis(distances, order, axis=1), np.take_along_axis(rows, order, axis=1)

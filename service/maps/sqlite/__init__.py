@@ -1,0 +1,1 @@
+"""Map store in SQLite: the log of each map in one database file."""

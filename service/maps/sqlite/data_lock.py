@@ -1,0 +1,83 @@
+"""Lock of a data directory: one service owns it, even if the lock file is removed."""
+
+import errno
+import logging
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import filelock
+
+from service.maps.store import StoreLockedError
+
+try:
+    import fcntl
+except ImportError:  # a system without it has the lock file alone
+    fcntl = None  # type: ignore[assignment]
+
+logger = logging.getLogger("placecell")
+
+
+@dataclass(frozen=True, slots=True)
+class DataLock:
+    """Lock on the file `DATA_DIR/lock` and on the directory itself.
+
+    The file may be removed while it is locked, and another process may then make and lock a new
+    one. The directory's own lock stands all the same.
+
+    Attributes:
+        file: that is locked.
+        inode: device and inode of the file.
+    """
+
+    file: Path
+    inode: tuple[int, int]
+
+    def trouble(self) -> str | None:
+        """Return the problem of the lock as a text; None if there is none."""
+        try:
+            found = _inode_of(self.file)
+        except OSError:
+            found = None
+        if found == self.inode:
+            return None
+        return (
+            f"The file {self.file.name} in the data directory was removed or replaced while the "
+            "service ran, so another service may use the directory. Restart this service."
+        )
+
+
+@contextmanager
+def locked(data_dir: Path) -> Iterator[DataLock]:
+    """Hold the locks of a data directory until the context ends.
+
+    Raises:
+        StoreLockedError: another process holds one of them.
+        OSError: the lock file cannot be made.
+    """
+    in_use = f"{data_dir} is in use by another service"
+    folder = os.open(data_dir, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        if fcntl is not None:
+            try:
+                fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError as error:
+                if error.errno in {errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES}:
+                    raise StoreLockedError(in_use) from error
+                # Network file systems may not lock directories.
+                logger.info("%s itself cannot be locked: %s", data_dir, error)
+        try:
+            lock = filelock.FileLock(data_dir / "lock").acquire(timeout=0)
+        except filelock.Timeout as error:
+            raise StoreLockedError(in_use) from error
+        with lock:
+            yield DataLock(data_dir / "lock", _inode_of(data_dir / "lock"))
+    finally:
+        os.close(folder)
+
+
+def _inode_of(path: Path) -> tuple[int, int]:
+    status = path.stat()
+    return status.st_dev, status.st_ino

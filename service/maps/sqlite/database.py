@@ -1,0 +1,503 @@
+"""An SQLite file that keeps what it has been given: its settings, its errors, its transactions."""
+
+import logging
+import os
+import sqlite3
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Lock
+from typing import Literal, TypeVar
+
+from service.maps.sqlite.disk_reserve import FULL, DiskReserve
+from service.maps.store import StoreError, Trouble
+
+Result = TypeVar("Result")
+
+APPLICATION = 0x506C6C63
+"""In the file's header, so that a foreign database is not taken for one of ours: `Pllc`."""
+
+WAL_BYTES = 16 << 20
+"""That the write-ahead log keeps on disk after a large write."""
+
+VACUUM_PAGES = 1_000
+"""Given back to the disk at once, 4 kB each."""
+
+FULL_DISK_PAGES = 50
+"""Pages returned per step on a full disk: each step needs as much space in the log."""
+
+MIGRATION_BYTES = 1 << 20
+MIGRATION_PAGE_BYTES = 64
+"""Free disk bytes that a migration needs, and as many more for each page of the database."""
+
+BUSY_SECONDS = 5.0
+"""To wait for another process, such as a backup, to let go."""
+
+logger = logging.getLogger("placecell")
+
+_KINDS: dict[str, Trouble] = {
+    # The shared-memory file could not grow.
+    "SQLITE_IOERR_SHMSIZE": "full",
+    "SQLITE_FULL": "full",
+    "SQLITE_READONLY": "read-only",
+    "SQLITE_BUSY": "busy",
+    "SQLITE_LOCKED": "busy",
+    "SQLITE_CORRUPT": "damaged",
+    "SQLITE_NOTADB": "damaged",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Tables of a database and the migrations from earlier versions.
+
+    Attributes:
+        version: of the tables.
+        schema: statements that make them in an empty database.
+        fill: puts into them what an empty database has.
+        migrations: by the version that is found, makes the next one of it.
+    """
+
+    version: int
+    schema: str
+    fill: Callable[[sqlite3.Connection], None]
+    migrations: Mapping[int, Callable[[sqlite3.Connection], None]]
+
+
+Origin = Literal["made", "migrated", "found"]
+
+
+class Database:
+    """One connection that writes, and one for each reader. For use from many threads.
+
+    Attributes:
+        path: of the file; other files beside it begin with the same name.
+        origin: whether the file was made, migrated or found as it is.
+    """
+
+    def __init__(
+        self, path: Path, layout: Layout, lock_trouble: Callable[[], str | None] = lambda: None
+    ) -> None:
+        """Open or create the file.
+
+        Args:
+            path: of the file.
+            layout: of its tables.
+            lock_trouble: says what is wrong with the lock on the directory, if anything.
+
+        Raises:
+            StoreError: it cannot be used; the message says what to do.
+        """
+        self.path = path
+        self.origin: Origin = "found"
+        self._log_path = path.with_name(path.name + "-wal")
+        self._lock_trouble = lock_trouble
+        self._writing = Lock()
+        self._failed: StoreError | None = None
+        with _translated_os(path):
+            self._reserve = DiskReserve(path.parent)
+            if not path.exists():
+                _make(path, layout)
+                self.origin = "made"
+            elif not path.stat().st_size:
+                # SQLite would take it for a new one, and throw the log beside it away.
+                raise StoreError("damaged", f"{path} is empty because it was cut; {ADVICE}")
+        try:
+            self._connection = self._opened(layout)
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+            # Its files need a little room on a disk that has none.
+            self._reserve.lend(self._reserve.size // 4)
+            try:
+                self._connection = self._opened(layout)
+            except StoreError:
+                self._reserve.hold()
+                raise
+        with _translated_os(path):
+            self._file = _inode_of(path)
+            self._log = _inode_of(self._log_path)
+            with _translated(path):
+                self._reserve.hold_for_log(self._log_growth())
+
+    def close(self) -> None:
+        """Let go of the file; what the log holds goes into it."""
+        with self._writing:
+            self._reserve.release(self._reserve.size)
+            self._connection.close()
+        # On a full disk, the room that the log had is for the next start.
+        self._reserve.hold_for_log(0)
+
+    @contextmanager
+    def transaction(self, frees: bool = False) -> Iterator[sqlite3.Connection]:
+        """Run writes as one transaction, durable when the context ends, or undo all of them.
+
+        Args:
+            frees: whether they are to free the disk, so that they may use what is kept for that.
+
+        Raises:
+            StoreError: none of them happened.
+        """
+        with self._writing, self._noted(), _translated(self.path):
+            if told := self._misplaced() or self._lock_trouble():
+                raise StoreError("moved", told)
+            if not frees and not self._holds_reserve():
+                raise StoreError("full", f"{self.path}: the disk is full")
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._connection
+                if not frees and not self._reserve.hold_for_log(self._log_growth()):
+                    raise StoreError("full", f"{self.path}: the disk is full")
+                self._connection.execute("COMMIT")
+            except BaseException:
+                # Some errors have ended the transaction already.
+                if self._connection.in_transaction:
+                    self._connection.rollback()
+                raise
+            if not frees and self._reserve.log_bytes:
+                self._reserve.hold_for_log(self._log_growth())
+
+    def _holds_reserve(self) -> bool:
+        """Allocate the reserve with room for what the log holds; the caller holds the lock."""
+        if self._reserve.hold() or self._reserve.hold_for_log(self._log_growth()):
+            return True
+        # What has room in the database needs none beside it.
+        self._move_log("RESTART")
+        return self._reserve.hold_for_log(self._log_growth())
+
+    def _log_growth(self) -> int:
+        """Return by how many bytes the file grows when the log moves into it."""
+        (pages,) = self._connection.execute("PRAGMA page_count").fetchone()
+        (page_bytes,) = self._connection.execute("PRAGMA page_size").fetchone()
+        return int(pages) * int(page_bytes) - self.path.stat().st_size
+
+    def freeing(self, work: Callable[[sqlite3.Connection], Result], share: float = 1.0) -> Result:
+        """Run writes that free the disk; a full disk lends them its reserve.
+
+        Args:
+            work: a transaction; it may be done twice, for the first time does not count.
+            share: of the reserve that may be used; the rest is left for others.
+        """
+        try:
+            with self.transaction(frees=True) as connection:
+                done = work(connection)
+            is_short = self._reserve.free_bytes() < self._reserve.size // 4
+            if is_short or not self._reserve.is_held():
+                self._give_back_all(self._reserve.release_share(share))
+            return done
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+        left = self._reserve.release_share(share)
+        # A log that begins anew is written over: that takes no room, if there is no reserve either.
+        self._empty_log("RESTART")
+        try:
+            with self.transaction(frees=True) as connection:
+                done = work(connection)
+        except StoreError:
+            self._reserve.hold()
+            raise
+        self._give_back_all(left)
+        return done
+
+    def _give_back_all(self, bytes_left: int) -> None:
+        """Return freed pages to a full disk; `bytes_left` of the reserve stay."""
+        self._reserve.release(bytes_left)
+        try:
+            self.give_back()
+        except StoreError as error:
+            # The work is done. What it freed is given back as soon as there is room to do that.
+            logger.warning("freed room was not given back to the disk: %s", error)
+
+    @contextmanager
+    def snapshot(self) -> Iterator[sqlite3.Connection]:
+        """Reads of one state of the database; they neither wait for writers nor hold them up."""
+        self._check_placed()
+        with _translated(self.path), closing(_connect(self.path)) as connection:
+            connection.execute("PRAGMA query_only = ON")
+            connection.execute("BEGIN")
+            connection.execute("PRAGMA user_version").fetchone()  # the state is that of now
+            self._check_placed()
+            yield connection
+
+    def trouble(self) -> str | None:
+        """Return why no write can be taken; None if it can. Retries a failed write in small."""
+        if told := self._misplaced() or self._lock_trouble():
+            return told
+        if not os.access(self.path, os.W_OK) or not os.access(self.path.parent, os.W_OK):
+            return f"{self.path.name} cannot be written: the disk or the file is read-only."
+        return self._lacks_room() or (self._tried(self._failed) if self._failed else None)
+
+    def _lacks_room(self) -> str | None:
+        free, failed = self._reserve.free_bytes(), self._failed
+        is_full = failed is not None and failed.kind == "full"
+        least = self._reserve.size if is_full else self._reserve.size // 4
+        if not self._reserve.hold() and self._writing.acquire(blocking=False):
+            try:
+                with _translated(self.path):
+                    self._holds_reserve()
+            except (OSError, StoreError) as error:
+                return str(error)
+            finally:
+                self._writing.release()
+        if not self._reserve.is_held() or free < least:
+            return (
+                f"The disk is full: {free:,} bytes are free, and {self._reserve.size:,} are kept "
+                "for deletions. Delete or compact maps, or free disk space."
+            )
+        if is_full:
+            self._failed = None
+        return None
+
+    def _tried(self, failed: StoreError) -> str | None:
+        if self._writing.locked():
+            return str(failed)
+        try:
+            with self.transaction() as connection:
+                (version,) = connection.execute("PRAGMA user_version").fetchone()
+                connection.execute(f"PRAGMA user_version = {version}")
+        except StoreError as error:
+            return str(error)
+        return None
+
+    def give_back(self) -> None:
+        """Return freed pages to the disk in steps, so that no writer waits long.
+
+        Fewer are left, to be written to again. Where the disk is full all are returned.
+        """
+        if told := self._misplaced() or self._lock_trouble():
+            raise StoreError("moved", told)
+        before, free = 0, self._free_pages()
+        step, least = VACUUM_PAGES, VACUUM_PAGES
+        if not self._reserve.is_held():
+            # A shorter database needs less room when the log moves into it, so an error here may be
+            # one that does not last.
+            self._empty_log()
+            step, least = FULL_DISK_PAGES, 0
+        while free > least and free != before:
+            with self._writing, _translated(self.path):
+                self._connection.execute(f"PRAGMA incremental_vacuum({step})").fetchall()
+            if step == FULL_DISK_PAGES:
+                self._empty_log()
+            before, free = free, self._free_pages()
+        with self._writing, _translated_os(self.path), _translated(self.path):
+            self._reserve.hold_for_log(self._log_growth())
+
+    def _empty_log(self, mode: Literal["TRUNCATE", "RESTART"] = "TRUNCATE") -> bool:
+        """Move the log into the database; return its space to the disk, or reuse it.
+
+        Returns:
+            Whether it was moved; false if the disk is full or somebody reads.
+        """
+        with self._writing:
+            return self._move_log(mode)
+
+    def _move_log(self, mode: Literal["TRUNCATE", "RESTART"]) -> bool:
+        try:
+            with _translated(self.path):
+                pragma = f"PRAGMA wal_checkpoint({mode})"
+                (busy, *_), *_ = self._connection.execute(pragma).fetchall()
+        except StoreError as error:
+            if error.kind != "full":
+                raise
+            return False
+        return not busy
+
+    def _free_pages(self) -> int:
+        with self._writing, _translated(self.path):
+            return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
+
+    def _misplaced(self) -> str | None:
+        """Return a text if the files are no longer those that were opened; None otherwise.
+
+        SQLite goes on writing to a file that was removed, and would take a file that is put in its
+        place, or an empty one, for the database.
+        """
+        for path, inode, advice in (
+            (self.path, self._file, "Move the same file back"),
+            (
+                self._log_path,
+                self._log,
+                "Stop the service, which then moves all data into the database",
+            ),
+        ):
+            try:
+                found = _inode_of(path)
+            except OSError:
+                found = None
+            if found != inode:
+                return (
+                    f"{path.name} in the data directory was moved, removed or replaced while the "
+                    f"service ran. {advice}, or restart it to use what is there now."
+                )
+        return None
+
+    def _check_placed(self) -> None:
+        if told := self._misplaced():
+            raise StoreError("moved", told)
+
+    @contextmanager
+    def _noted(self) -> Iterator[None]:
+        """Remember a write that failed because of the disk, until one succeeds."""
+        try:
+            yield
+        except StoreError as error:
+            if error.kind in {"full", "read-only", "failing"}:
+                self._failed = error
+            raise
+        self._failed = None
+
+    def _opened(self, layout: Layout) -> sqlite3.Connection:
+        """Connect, and check that the file is whole and has these tables."""
+        with _translated(self.path):
+            connection = _connect(self.path)
+        try:
+            with _translated(self.path):
+                found = self._checked(connection, layout)
+                if found != layout.version:
+                    self._migrate(connection, found, layout)
+        except BaseException:
+            connection.close()
+            raise
+        return connection
+
+    def _migrate(self, connection: sqlite3.Connection, found: int, layout: Layout) -> None:
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        needed = MIGRATION_BYTES + pages * MIGRATION_PAGE_BYTES
+        if (free := self._reserve.free_bytes()) < needed:
+            raise StoreError(
+                "full",
+                f"{self.path} has version {found}. A migration to version {layout.version} needs "
+                f"{needed:,} free bytes; the disk has {free:,}. The file was not changed.",
+            )
+        connection.execute("BEGIN IMMEDIATE")
+        try:
+            for version in range(found, layout.version):
+                layout.migrations[version](connection)
+                connection.execute(f"PRAGMA user_version = {version + 1}")
+            connection.execute("COMMIT")
+        except BaseException:
+            if connection.in_transaction:
+                connection.rollback()
+            raise
+        self.origin = "migrated"
+        logger.info("%s was of version %d and is now of %d", self.path, found, layout.version)
+
+    def integrity(self, table: str = "") -> list[str]:
+        """What SQLite finds wrong with the file, or with one table and its indices, if anything."""
+        part = f"({table})" if table else ""
+        with self.snapshot() as connection:
+            found = [str(row[0]) for row in connection.execute(f"PRAGMA integrity_check{part}")]
+        return [] if found == ["ok"] else found
+
+    def _checked(self, connection: sqlite3.Connection, layout: Layout) -> int:
+        """Check that the file is whole and return the version of its tables."""
+        (application,) = connection.execute("PRAGMA application_id").fetchone()
+        (found,) = connection.execute("PRAGMA user_version").fetchone()
+        if application != APPLICATION:
+            raise StoreError("damaged", f"{self.path} is no database of Placecell; {ADVICE}")
+        if found != layout.version and found not in layout.migrations:
+            raise StoreError(
+                "damaged",
+                f"{self.path} has version {found}; this program reads versions "
+                f"{min(layout.migrations, default=layout.version)} to {layout.version}. Use the "
+                "program that wrote it, or a later one",
+            )
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()
+        # What the log holds may still have to go into the file. Without one the file is all there
+        # is, and SQLite itself would take a last page that is cut for one that ends in zeros.
+        has_log = self._log_path.exists() and self._log_path.stat().st_size
+        if not has_log and self.path.stat().st_size < pages * page_bytes:
+            raise StoreError("damaged", f"{self.path} was cut; {ADVICE}")
+        return int(found)
+
+
+ADVICE = "bring it back from a backup, or move it and the files beside it away to begin anew"
+
+
+def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connection:
+    """Connect to an existing file; mode `rwc` may create it."""
+    connection = sqlite3.connect(
+        f"{path.absolute().as_uri()}?mode={mode}",
+        timeout=BUSY_SECONDS,
+        isolation_level=None,
+        check_same_thread=False,
+        uri=True,
+    )
+    # FULL: a commit is on disk when it returns, not when the log is next moved into the database.
+    # On macOS only a full fsync reaches the disk. Freed pages need not be overwritten.
+    for pragma in (
+        "synchronous = FULL",
+        "fullfsync = ON",
+        "checkpoint_fullfsync = ON",
+        "secure_delete = OFF",
+        "trusted_schema = OFF",
+        f"journal_size_limit = {WAL_BYTES}",
+    ):
+        connection.execute(f"PRAGMA {pragma}")
+    return connection
+
+
+def _make(path: Path, layout: Layout) -> None:
+    """Make the database under another name: one that is there under its own is complete."""
+    left = [path.with_name(path.name + tail) for tail in ("-wal", "-journal")]
+    if found := [file for file in left if file.exists()]:
+        raise StoreError("damaged", f"{found[0]} is there, but not {path.name}; {ADVICE}")
+    unfinished = path.with_name(path.name + ".unfinished")
+    for tail in ("", "-wal", "-shm", "-journal"):
+        unfinished.with_name(unfinished.name + tail).unlink(missing_ok=True)
+    with _translated(path):
+        with closing(_connect(unfinished, "rwc")) as connection:
+            connection.execute("PRAGMA auto_vacuum = INCREMENTAL")
+            connection.execute("PRAGMA journal_mode = WAL")
+            connection.executescript(
+                f"BEGIN; {layout.schema} PRAGMA application_id = {APPLICATION};"
+                f"PRAGMA user_version = {layout.version};"
+            )
+            layout.fill(connection)
+            connection.execute("COMMIT")
+        unfinished.replace(path)
+        sync_folder(path.parent)
+
+
+def sync_folder(folder: Path) -> None:
+    """Make new names, renames and removals in a folder last."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _inode_of(path: Path) -> tuple[int, int]:
+    status = path.stat()
+    return status.st_dev, status.st_ino
+
+
+@contextmanager
+def _translated_os(path: Path) -> Iterator[None]:
+    """Translate errors of the disk into the store's own."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in FULL
+        raise StoreError("full" if full else "failing", f"{path}: {error}") from error
+
+
+@contextmanager
+def _translated(path: Path) -> Iterator[None]:
+    """SQLite's errors as the store's own."""
+    try:
+        yield
+    except UnicodeDecodeError as error:
+        # A schema was altered: SQLite quotes it in a message that Python cannot read.
+        raise StoreError("damaged", f"{path}: its schema was altered; {ADVICE}") from error
+    except sqlite3.Error as error:
+        name = getattr(error, "sqlite_errorname", "")
+        # Extended codes begin with the one they belong to.
+        matching = [kind for code, kind in _KINDS.items() if name.startswith(code)]
+        kind = matching[0] if matching else "failing"
+        advice = f"; {ADVICE}" if kind == "damaged" else ""
+        raise StoreError(kind, f"{path}: {error} ({name or 'no code'}){advice}") from error

@@ -1,0 +1,83 @@
+"""The log of one map in `maps.sqlite`, read and checked against its marks."""
+
+import hashlib
+import sqlite3
+from collections.abc import Iterator
+
+from service.maps.sqlite.tables import COMMIT, commit_from, follows, is_own_mark
+from service.maps.store import Commit, Head, StoreError
+
+
+class SqliteHistory:
+    """One map's log as it stood at one moment."""
+
+    def __init__(self, connection: sqlite3.Connection, row: int, head: Head) -> None:
+        self._connection = connection
+        self._row = row
+        self._head = head
+
+    @property
+    def head(self) -> Head:
+        """Where the map stood."""
+        return self._head
+
+    def commits(self) -> list[Commit]:
+        """From the base's own to the newest."""
+        rows = self._connection.execute(
+            f"{COMMIT} FROM commits WHERE map = ? ORDER BY sequence", (self._row,)
+        )
+        found = [commit_from(row) for row in rows]
+        head = self._head
+        for sequence, commit in enumerate(found, head.oldest):
+            if commit.sequence != sequence or not is_own_mark(commit):
+                raise self._damaged(f"version {sequence}")
+        if not found or (found[-1].sequence, found[-1].mark) != (head.sequence, head.mark):
+            raise self._damaged(f"version {head.sequence}")
+        if found[0].bytes or sum(commit.bytes for commit in found) != head.log_bytes:
+            raise self._damaged("list of versions")
+        return found
+
+    def mark(self, sequence: int) -> str:
+        """Of one version; KeyError if it is not kept."""
+        found = self._connection.execute(
+            f"{COMMIT} FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
+        ).fetchone()
+        if not self._head.oldest <= sequence <= self._head.sequence:
+            raise KeyError(sequence)
+        if found is None or not is_own_mark(commit_from(found)):
+            raise self._damaged(f"version {sequence}")
+        return str(commit_from(found).mark)
+
+    def base(self) -> bytes:
+        """The oldest version's file; StoreError if it is damaged."""
+        parts: list[bytes] = []
+        for part, sha256, data in self._connection.execute(
+            "SELECT part, sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
+        ):
+            is_next = part == len(parts) and isinstance(data, bytes)
+            if not is_next or hashlib.sha256(data).hexdigest() != sha256:
+                raise self._damaged("base")
+            parts.append(data)
+        if sum(map(len, parts)) != self._head.base_bytes:
+            raise self._damaged("base")
+        return b"".join(parts)
+
+    def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
+        """The commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
+        before, sequence = self.mark(after), after
+        for *columns, blob in self._connection.execute(
+            f"{COMMIT}, delta FROM commits "
+            "WHERE map = ? AND sequence > ? AND sequence <= ? ORDER BY sequence",
+            (self._row, after, until),
+        ):
+            commit, sequence = commit_from(columns), sequence + 1
+            is_next = commit.sequence == sequence and isinstance(blob, bytes)
+            if not is_next or not follows(before, commit, blob):
+                raise self._damaged(f"version {sequence}")
+            yield commit, blob
+            before = commit.mark
+        if sequence != until or (until == self._head.sequence and before != self._head.mark):
+            raise self._damaged(f"version {until}")
+
+    def _damaged(self, part: str) -> StoreError:
+        return StoreError("damaged", f"map {self._head.name!r}: its {part} was altered or lost")

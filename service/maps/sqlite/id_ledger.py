@@ -1,0 +1,145 @@
+"""Id ledger: how far ids were given out, in the file `DATA_DIR/ids` beside the database.
+
+A database that is brought back from a backup does not know which ids were given out since. This
+file does: it is written before the ids are given out, and stays where it is when the database is
+replaced. A file that is missing, or was itself copied from somewhere, does not know either.
+
+The first line names the database's token and when `DATA_DIR/ids.place` was last changed, which a
+copy cannot imitate. Each further line names a map's uid and an id, with a checksum: all ids of that
+map below it may have been given out.
+"""
+
+import errno
+import logging
+import os
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+
+from service.maps.sqlite.database import sync_folder
+from service.maps.sqlite.disk_reserve import FULL
+from service.maps.store import StoreError
+
+LEASE = 4_096
+"""Ids recorded ahead, so that not every write needs a sync."""
+
+SKIPPED = 1 << 22
+"""Ids of each map that are skipped when the number given out is unknown."""
+
+logger = logging.getLogger("placecell")
+
+
+class IdLedger:
+    """Ledger file of one data directory. Calls come one at a time.
+
+    Attributes:
+        limits: by the uid of a map, the end of the ids that may have been given out.
+        is_trusted: whether the file is the one that was written here last, for this database.
+    """
+
+    def __init__(self, path: Path, token: str) -> None:
+        self._path = path
+        self._place = path.with_name(path.name + ".place")
+        self._token = token
+        self.limits: dict[str, int] = {}
+        self.is_trusted = self._read()
+
+    @property
+    def is_there(self) -> bool:
+        """Return whether the ledger file exists, whatever it holds."""
+        return self._path.exists()
+
+    def rewrite(self, limits: Mapping[str, int]) -> None:
+        """Replace the ledger's content atomically.
+
+        Raises:
+            OSError: it is as it was.
+        """
+        unfinished = self._path.with_name(self._path.name + ".unfinished")
+        # Copies of what the file was before are told from it, too.
+        place = _touch(self._place)
+        with unfinished.open("wb") as file:
+            lines = [f"{self._token} {place}", *(f"{uid} {end}" for uid, end in limits.items())]
+            file.write("".join(map(_line, lines)).encode())
+            file.flush()
+            os.fsync(file.fileno())
+        unfinished.replace(self._path)
+        sync_folder(self._path.parent)
+        self.limits = dict(limits)
+        self.is_trusted = True
+
+    def raise_to(self, uid: str, end: int) -> None:
+        """Record that ids below `end` may be given out; StoreError if that fails."""
+        if self.limits.get(uid, 0) >= end:
+            return
+        line = _line(f"{uid} {end + LEASE}").encode()
+        try:
+            if not self.is_trusted:
+                self.rewrite(self.limits | {uid: end + LEASE})
+                return
+            _append(self._path, line)
+        except OSError as error:
+            full = error.errno in FULL
+            raise StoreError("full" if full else "failing", f"{self._path}: {error}") from error
+        self.limits[uid] = end + LEASE
+
+    def forget(self, uid: str) -> None:
+        """Forget a map's ids; the next call rewrites the file with a lower end."""
+        self.limits.pop(uid, None)
+        self.is_trusted = False
+
+    def _read(self) -> bool:
+        try:
+            place = _place_of(self._place.stat())
+            first, *lines = self._path.read_bytes().decode().split("\n")
+            stated = _text(first).split(" ")
+            for line in lines[:-1]:  # the last is empty, or was cut short and not relied on
+                uid, end = _text(line).split(" ")
+                self.limits[uid] = max(int(end), self.limits.get(uid, 0))
+        except FileNotFoundError:
+            return False
+        except (OSError, ValueError) as error:
+            logger.warning("%s cannot be used: %s", self._path, error)
+            return False
+        return stated == [self._token, place]
+
+
+def _touch(path: Path) -> str:
+    """Create a file, or change only its modification time."""
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    try:
+        os.utime(descriptor)
+        os.fsync(descriptor)
+        return _place_of(os.fstat(descriptor))
+    finally:
+        os.close(descriptor)
+
+
+def _place_of(status: os.stat_result) -> str:
+    return f"{status.st_ino}.{status.st_ctime_ns}"
+
+
+def _append(path: Path, line: bytes) -> None:
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    try:
+        before = os.fstat(descriptor).st_size
+        try:
+            if os.pwrite(descriptor, line, before) < len(line):
+                raise OSError(errno.ENOSPC, "only a part was written")
+            os.fsync(descriptor)
+        except OSError:
+            os.ftruncate(descriptor, before)
+            raise
+    finally:
+        os.close(descriptor)
+
+
+def _line(text: str) -> str:
+    return f"{text} {zlib.crc32(text.encode()):08x}\n"
+
+
+def _text(line: str) -> str:
+    text, _, told = line.rpartition(" ")
+    if told != f"{zlib.crc32(text.encode()):08x}":
+        raise ValueError(f"a line was altered: {line:.60}")
+    return text

@@ -1,0 +1,351 @@
+"""Maps in one SQLite file: `DATA_DIR/maps.sqlite`."""
+
+import logging
+import secrets
+import sqlite3
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from service.maps.sqlite.data_lock import locked
+from service.maps.sqlite.database import ADVICE, Database, Layout, sync_folder
+from service.maps.sqlite.history import SqliteHistory
+from service.maps.sqlite.id_ledger import SKIPPED, IdLedger
+from service.maps.sqlite.owners import Owners
+from service.maps.sqlite.tables import (
+    HEAD,
+    SCHEMA,
+    VERSION,
+    commit_after,
+    fill,
+    head_from,
+    head_of,
+    insert_base,
+    insert_commit,
+    migrate,
+    row_of,
+    save_head,
+)
+from service.maps.store import (
+    IDS,
+    NO_IDS,
+    Head,
+    Ids,
+    Note,
+    OutOfIdsError,
+    Owner,
+    StoreError,
+    TooManyIdsError,
+)
+
+FILE = "maps.sqlite"
+LEDGER = "ids"
+
+LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate})
+
+RESERVED_SECONDS = 7 * 24 * 3600.0
+"""Seconds for which a reserved, unwritten id counts against the key's limit."""
+
+logger = logging.getLogger("placecell")
+
+
+class SqliteMapStore:
+    """The store of one data directory. For use from many threads."""
+
+    def __init__(
+        self,
+        data_dir: Path,
+        lock_trouble: Callable[[], str | None] = lambda: None,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
+        """Open the store; hold `owned` first, because one process at a time may use it.
+
+        Args:
+            data_dir: the directory.
+            lock_trouble: says what is wrong with the lock on it, if anything.
+            clock: seconds.
+
+        Raises:
+            StoreError: the database cannot be used; the message says what to do.
+        """
+        self._folder = data_dir
+        self._clock = clock
+        self._database = Database(data_dir / FILE, LAYOUT, lock_trouble)
+        try:
+            # The name's index must agree with the table; and the table is small.
+            if wrong := self._database.integrity("maps"):
+                raise StoreError("damaged", f"{data_dir / FILE}: {wrong[0]}; {ADVICE}")
+            self._ledger = self._opened_ledger()
+        except StoreError:
+            self._database.close()
+            raise
+
+    @classmethod
+    @contextmanager
+    def owned(cls, data_dir: Path) -> "Iterator[SqliteMapStore]":
+        """The store of a data directory, which nobody else has until the context ends.
+
+        Raises:
+            StoreLockedError: another process has it.
+            StoreError: the database cannot be used.
+            OSError: the directory cannot be made or written.
+        """
+        data_dir.mkdir(parents=True, exist_ok=True)
+        with locked(data_dir) as lock:
+            sync_folder(data_dir)
+            sync_folder(data_dir.absolute().parent)
+            if old := sorted((data_dir / "maps").glob("*.safetensors")):
+                logger.warning(
+                    "%d map files in %s are of version 0 and are not read; let the robots put "
+                    "their maps again",
+                    len(old),
+                    data_dir / "maps",
+                )
+            with closing(cls(data_dir, lock.trouble)) as store:
+                yield store
+
+    def close(self) -> None:
+        """Let go of the database."""
+        try:
+            # What was written ahead was not given out.
+            self._ledger.rewrite({head.uid: head.next_id for head in self.heads()})
+        except (StoreError, OSError) as error:
+            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
+        self._database.close()
+
+    def heads(self) -> list[Head]:
+        """Of the maps, by name."""
+        with self._database.snapshot() as connection:
+            return [head_from(row) for row in connection.execute(f"{HEAD} ORDER BY name")]
+
+    @contextmanager
+    def read(self, uid: str) -> Iterator[SqliteHistory]:
+        """A map's log; KeyError if there is none."""
+        with self._database.snapshot() as connection:
+            yield SqliteHistory(connection, row_of(connection, uid), head_of(connection, uid))
+
+    def create(self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS) -> Head:
+        """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
+        uid = secrets.token_hex(8)
+        commit = commit_after(uid, 1, note, file, 0)
+        with self._database.transaction() as connection:
+            if connection.execute("SELECT 1 FROM maps WHERE name = ?", (name,)).fetchone():
+                raise ValueError(f"there is a map {name!r} already")
+            first, end = ids.leave(next_id, IDS)
+            head = Head(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
+            row = connection.execute(
+                "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
+                " VALUES (?, ?, 1, ?, 1, ?, ?, 0)",
+                (name, uid, commit.mark, next_id, len(file)),
+            ).lastrowid
+            assert row is not None
+            Owners(connection, row).write(ids.written, note.author)
+            insert_commit(connection, row, commit, None)
+            insert_base(connection, row, file)
+            return save_head(connection, row, head)
+
+    def append(
+        self,
+        head: Head,
+        blob: bytes,
+        note: Note,
+        next_id: int,
+        ids: Ids = NO_IDS,
+        frees: bool = False,
+    ) -> Head:
+        """Add a commit that follows a head; KeyError if the map stands elsewhere.
+
+        Args:
+            frees: whether it makes the map smaller, so that it may use what is kept for that.
+        """
+
+        def add(connection: sqlite3.Connection) -> Head:
+            row, found = row_of(connection, head.uid), head_of(connection, head.uid)
+            if found.mark != head.mark:
+                raise KeyError(head.name)
+            commit = commit_after(head.mark, head.sequence + 1, note, blob, len(blob))
+            first, end = ids.leave(max(found.next_id, next_id), found.end_id)
+            after = replace(
+                found,
+                sequence=commit.sequence,
+                mark=commit.mark,
+                next_id=first,
+                end_id=end,
+                log_bytes=found.log_bytes + len(blob),
+            )
+            if after.next_id > found.next_id:
+                self._ledger.raise_to(head.uid, after.next_id)
+            Owners(connection, row).write(ids.written, note.author)
+            insert_commit(connection, row, commit, blob)
+            return save_head(connection, row, after)
+
+        if frees:
+            return self._database.freeing(add, share=0.5)
+        with self._database.transaction() as connection:
+            return add(connection)
+
+    def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
+        """Reserve ids that nobody has had, and return the first; errors as of `MapStore`."""
+        with self._database.transaction() as connection:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+            owners = Owners(connection, row)
+            now = self._clock()
+            reserved = owners.reserved(author, now - RESERVED_SECONDS)
+            if reserved + count > most:
+                raise TooManyIdsError(
+                    f"this key has {reserved:,} reserved ids that it has not written; the limit is "
+                    f"{most:,}"
+                )
+            if head.next_id + count > head.end_id:
+                # Around an id that somebody chose far from the others there may be more.
+                first, end = owners.largest_gap()
+                if end - first < max(count, head.end_id - head.next_id):
+                    first, end = head.next_id, head.end_id
+                if first + count > end:
+                    raise OutOfIdsError(f"only {max(end - first, 0)} ids are left")
+                head = replace(head, next_id=first, end_id=end)
+                self._ledger.forget(uid)
+            first = head.next_id
+            self._ledger.raise_to(uid, first + count)
+            owners.reserve(first, first + count, author, now)
+            save_head(connection, row, replace(head, next_id=first + count))
+            return first
+
+    def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
+        """Return who wrote or reserved each of these ids last; None where nobody did."""
+        with self._database.snapshot() as connection:
+            return Owners(connection, row_of(connection, uid)).of(ids)
+
+    def free_ids(self, uid: str, used: Iterable[int]) -> Head:
+        """Forget who owned ids that are not used, and let the free ones begin after the used.
+
+        Args:
+            uid: of the map; KeyError if there is none.
+            used: ids that are used, ascending.
+        """
+        with self._database.transaction() as connection:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+            owners = Owners(connection, row)
+            owners.keep_only(used)
+            first, end = owners.largest_gap()
+            after = save_head(connection, row, replace(head, next_id=first, end_id=end))
+        try:
+            # Else the next start would take what was given up for given out.
+            self._ledger.forget(uid)
+            self._ledger.rewrite(self._ledger.limits | {uid: first})
+        except OSError as error:
+            raise StoreError("failing", f"{self._folder / LEDGER}: {error}") from error
+        return after
+
+    def compact(self, uid: str, sequence: int, file: bytes) -> Head:
+        """Let go of the versions before one, whose file is given; KeyError if it is not there."""
+
+        def shorten(connection: sqlite3.Connection) -> Head:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+            found = connection.execute(
+                "UPDATE commits SET delta = NULL, bytes = 0 WHERE map = ? AND sequence = ?",
+                (row, sequence),
+            )
+            if not found.rowcount:
+                raise KeyError(sequence)
+            connection.execute(
+                "DELETE FROM commits WHERE map = ? AND sequence < ?", (row, sequence)
+            )
+            connection.execute("DELETE FROM bases WHERE map = ?", (row,))
+            insert_base(connection, row, file)
+            (left,) = connection.execute(
+                "SELECT coalesce(sum(bytes), 0) FROM commits WHERE map = ?", (row,)
+            ).fetchone()
+            after = replace(head, oldest=sequence, base_bytes=len(file), log_bytes=left)
+            save_head(connection, row, after)
+            return head_of(connection, uid)
+
+        return self._database.freeing(shorten)
+
+    def delete(self, uid: str) -> None:
+        """Remove a map with all its versions; KeyError if there is none."""
+
+        def remove(connection: sqlite3.Connection) -> None:
+            row = row_of(connection, uid)
+            for table in ("commits", "bases", "owners", "maps"):
+                connection.execute(f"DELETE FROM {table} WHERE map = ?", (row,))
+
+        self._database.freeing(remove)
+
+    def give_back(self) -> None:
+        """Return the room of what was removed to the disk."""
+        self._database.give_back()
+
+    def trouble(self) -> str | None:
+        """Say why the store cannot take a write, if so; None if it can."""
+        return self._database.trouble()
+
+    def _opened_ledger(self) -> IdLedger:
+        """Read the end of the ids given out, and skip ids that the database does not know."""
+        with self._database.snapshot() as connection:
+            (token,) = connection.execute("SELECT token FROM opened").fetchone() or ("",)
+        ledger = IdLedger(self._folder / LEDGER, token)
+        is_new = self._database.origin != "found" and not ledger.is_there
+        skipped = 0 if is_new or ledger.is_trusted else SKIPPED
+        heads = self.heads()
+        behind = {
+            head.uid: _skipped(head, ledger.limits.get(head.uid, 0), skipped)
+            for head in heads
+            if skipped or ledger.limits.get(head.uid, 0) > head.next_id
+        }
+        behind = {uid: next_id for uid, next_id in behind.items() if next_id}
+        if skipped and heads:
+            logger.warning(
+                "%s is not the file that the service wrote last: the maps may come from a backup. "
+                "The service skips %d ids of each map, so that no id is given out twice.",
+                *(self._folder / LEDGER, SKIPPED),
+            )
+        if behind:
+            # On a disk that is full, too, or it could not be freed.
+            self._database.freeing(lambda connection: _skip(connection, behind), share=0.5)
+        try:
+            ledger.rewrite({head.uid: behind.get(head.uid, head.next_id) for head in heads})
+        except OSError as error:
+            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
+        return ledger
+
+    def verify(self) -> list[str]:
+        """What is wrong with the database, if anything: its structure, and every blob's mark."""
+        found = self._database.integrity()
+        with self._database.snapshot() as connection:
+            (lost,) = connection.execute(
+                "SELECT count(*) FROM owners WHERE map NOT IN (SELECT map FROM maps)"
+            ).fetchone()
+        found += [f"{lost} rows of the table owners are of no map"] if lost else []
+        for head in self.heads():
+            try:
+                with self.read(head.uid) as history:
+                    history.commits()
+                    history.base()
+                    for _ in history.blobs(head.oldest, head.sequence):
+                        pass
+                with self._database.snapshot() as connection:
+                    Owners(connection, row_of(connection, head.uid)).check()
+            except StoreError as error:
+                found.append(str(error))
+        return found
+
+
+def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None:
+    """Skip ids of each map, up to its first free id."""
+    for uid, next_id in first_free.items():
+        try:
+            row, head = row_of(connection, uid), head_of(connection, uid)
+        except StoreError:
+            continue  # the map is damaged and not served
+        # Nobody knows by whom.
+        Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
+        save_head(connection, row, replace(head, next_id=next_id))
+
+
+def _skipped(head: Head, given_out: int, count: int) -> int:
+    """Return a map's first free id after those that may have been given out."""
+    first = min(max(head.next_id, given_out), head.end_id)
+    return max(first, min(first + count, (first + head.end_id) // 2))

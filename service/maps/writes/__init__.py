@@ -1,0 +1,1 @@
+"""Writes to maps: validation, rules, partial uploads and maintenance."""

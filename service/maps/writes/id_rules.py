@@ -1,0 +1,83 @@
+"""Rules about the ids that a key may write: its own or reserved ones, and new ones near them."""
+
+import numpy as np
+
+from placecell.core.types import UInt32
+from service.core.auth import Holder
+from service.core.problems import Problem
+from service.maps.store import Head, MapStore
+
+SLACK = 1 << 20
+"""Number of ids above the highest one in use that a robot may choose without reservation."""
+
+
+def check_new(store: MapStore, holder: Holder, head: Head | None, ids: UInt32) -> None:
+    """Check that new ids are reserved by this key, or near those in use; 409 if not.
+
+    Args:
+        store: of the map.
+        holder: of the key; one that may administer the service is not asked.
+        head: where the map stands; None if it is new.
+        ids: of segments that the map does not have, ascending.
+    """
+    first = head.next_id if head is not None else 0
+    limit = first + len(ids) + SLACK
+    far = ids[ids >= limit]
+    if holder.key.admin or not len(far):
+        return
+    if head is not None:
+        owners = store.owners(head.uid, far.tolist())
+        known = [owner is not None and owner.author == holder.name for owner in owners]
+        far = far[~np.array(known)]
+    if len(far):
+        raise Problem(
+            409,
+            "id-not-reserved",
+            f"{len(far)} ids, such as {int(far[-1])}, are not reserved and far above those in use. "
+            f"Reserve ids (POST /maps/MAP/ids), or use ids below {limit}.",
+            ids=far.tolist(),
+        )
+
+
+def check_authors(store: MapStore, holder: Holder, head: Head, old: UInt32, new: UInt32) -> None:
+    """Check that no other key wrote or reserved these ids; 409 if one did.
+
+    Two robots may have one name; their keys tell them apart.
+
+    Args:
+        store: of the map.
+        holder: of the key.
+        head: where the map stands.
+        old: ids of segments that are replaced or removed, ascending.
+        new: ids of segments that are added, ascending.
+    """
+    ids = np.union1d(old, new)
+    owners = store.owners(head.uid, ids.tolist())
+    is_old = np.isin(ids, old).tolist()
+    taken = [
+        id_
+        for id_, owner, is_there in zip(ids.tolist(), owners, is_old, strict=True)
+        if owner is not None
+        and owner.author not in {"", holder.name}
+        and (is_there or owner.is_reserved)
+    ]
+    if taken:
+        raise Problem(
+            409,
+            "id-taken",
+            f"{len(taken)} ids were written or reserved by another key. Use other ids (POST "
+            '/maps/MAP/ids), or send If-Match: "ETAG" (or *) if you mean to write these.',
+            ids=taken,
+        )
+
+
+def check_added(replaced: UInt32) -> None:
+    """Check that an edit which may only add replaces nothing; 409 if it does."""
+    if len(replaced):
+        raise Problem(
+            409,
+            "id-taken",
+            f"The map already has segments with {len(replaced)} of the ids, and only_new is set. "
+            "Use other ids (POST /maps/MAP/ids), or omit only_new to replace these segments.",
+            ids=replaced.tolist(),
+        )

@@ -1,0 +1,1 @@
+"""Merging: alignment of stored maps and the merged map of several robots."""

@@ -1,0 +1,1 @@
+"""Search: nearest candidates and localization in one map or in many maps."""

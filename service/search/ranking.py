@@ -1,0 +1,216 @@
+"""Ranking of maps: choose the few maps in which most candidates agree.
+
+Each segment's nearest descriptors are looked for in all maps at once. A map is worth as many
+segments as one of its candidates agrees with: by distances, as `placecell.localization.consistency`
+compares them. Only the best maps are searched in full.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.jit import compiled
+from placecell.core.spatial import evenly
+from placecell.core.types import Float32, Float64, Int8, Int32, Int64
+from placecell.localization import LocalisationParameters
+from service.maps.snapshot import StoredMap
+from service.search.shared_index import Part, centred
+
+FULL = 8
+"""Largest number of maps that are searched in full."""
+
+NEAREST = 128
+"""Rows fetched per segment from an index of several maps."""
+
+SEGMENTS = 64
+"""Largest number of a request's segments that are searched in all maps, evenly chosen."""
+
+OWN = 2
+"""Candidates per segment that count in one map."""
+
+PAIRS = 40_000_000
+"""Largest number of candidate pairs compared in all maps together."""
+
+WORTH = 0.4
+"""Share of the best map's votes below which a map is not searched in full."""
+
+
+_threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
+"""Threads for all requests together: a search in an idle service takes two cores."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nearest:
+    """Candidates in several maps, m of them.
+
+    Attributes:
+        places: int64 (m,), indices of the maps.
+        queries: int64 (m,).
+        targets: float32 (m, 3), centroids about the middle of their map, meters.
+        distances: float32 (m,), squared, in steps, rounded.
+    """
+
+    places: Int64
+    queries: Int64
+    targets: Float32
+    distances: Float32
+
+
+def votes_of(
+    codes: Int8,
+    centroids: Float64,
+    searched: Sequence[StoredMap],
+    parts: Sequence[Part],
+    parameters: LocalisationParameters,
+) -> Int64:
+    """Count for each map how many segments agree about one place, int64 (maps,).
+
+    Args:
+        codes: int8 (q, code bytes), of the segments around the robot.
+        centroids: float64 (q, 3), theirs, meters.
+        searched: maps of one model.
+        parts: that cover them.
+        parameters: say when two candidates agree.
+    """
+    token = current()
+    asked = evenly(np.flatnonzero(np.isfinite(centroids).all(axis=1)), SEGMENTS)
+    votes = np.zeros(len(searched), dtype=np.int64)
+    if not len(asked) or not parts:
+        return votes
+    codes, centroids = codes[asked], centroids[asked]
+
+    def nearest(part: Part) -> Nearest:
+        token.check()
+        return _nearest(codes, searched, part)
+
+    found = [*_threads.map(nearest, parts)]
+    places = np.concatenate([each.places for each in found])
+    queries = np.concatenate([each.queries for each in found])
+    distances = np.concatenate([each.distances for each in found])
+    targets = np.concatenate([each.targets for each in found])
+    order = np.lexsort((distances, queries, places))
+    places, queries = places[order], queries[order]
+    # Of each segment the nearest of each map.
+    begins = np.flatnonzero(
+        (np.diff(places, prepend=-1) != 0) | (np.diff(queries, prepend=-1) != 0)
+    )
+    rank = np.arange(len(places)) - np.repeat(begins, np.diff(begins, append=len(places)))
+    kept = rank < OWN
+    order, places, queries = order[kept], places[kept], queries[kept]
+    starts = np.searchsorted(places, np.arange(len(searched) + 1)).astype(np.int64)
+    counts = np.diff(starts).astype(np.float64)
+    pairs = float((counts**2).sum() / 2)
+    share = min(1.0, np.sqrt(PAIRS / max(pairs, 1.0)))
+    seen = np.asarray(centroids, np.float64)
+    target, slope = np.ascontiguousarray(targets[order]), float(np.tan(np.radians(parameters.tilt)))
+
+    def count(begin: int, end: int) -> None:
+        _count(
+            *(starts[begin : end + 1], queries, seen, target, share, parameters.model == "yaw"),
+            *(parameters.distance_tolerance, parameters.height_tolerance, slope),
+            *(token.flag, votes[begin:end]),
+        )
+
+    half = len(searched) // 2
+    [*_threads.map(count, (0, half), (half, len(searched)))]
+    token.check()
+    return votes
+
+
+def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FULL) -> Int64:
+    """Choose the maps to search in full; indices, int64 (n,), ascending.
+
+    Args:
+        votes: int64 (maps,).
+        least: segments that have to agree.
+        always: maps that come first: the robot was found there just before.
+        most: maps, at most.
+    """
+    first = np.array(list(always)[: most // 2], dtype=np.int64)
+    order = np.argsort(-votes, kind="stable")
+    good = order[votes[order] >= max(least, WORTH * float(votes.max(initial=0)))]
+    rest = good[~np.isin(good, first)]
+    return np.sort(np.concatenate([first, rest[: most - len(first)]]))
+
+
+def warm() -> None:
+    """Compile the vote, so that the first request need not wait."""
+    none, points = np.zeros(0, np.int64), np.zeros((0, 3))
+    _count(
+        *(np.zeros(1, np.int64), none, points, points.astype(np.float32), 1.0, True),
+        *(0.0, 0.0, 0.0, current().flag, none.copy()),
+    )
+
+
+def _nearest(codes: Int8, searched: Sequence[StoredMap], part: Part) -> Nearest:
+    """Return the candidates of one part."""
+    shared = part.shared
+    if shared is None:
+        place = int(part.places[0])
+        stored = searched[place]
+        assert stored.index is not None
+        distances, rows = stored.index.search(stored.layers, codes, OWN)
+        queries = np.repeat(np.arange(len(codes)), rows.shape[1])
+        points = centred(stored.layers.column("centroids", rows.ravel()))
+        squared = np.asarray(distances.ravel() ** 2, np.float32)
+        return Nearest(np.full(len(queries), place), queries, points, squared)
+    squared, rows = shared.index.rough(codes, min(NEAREST, len(shared.rows)))
+    queries = np.repeat(np.arange(len(codes)), rows.shape[1])
+    flat = rows.ravel()
+    members = np.searchsorted(shared.starts, flat, side="right") - 1
+    places = part.places[members]
+    kept = (flat >= 0) & (places >= 0)
+    return Nearest(places[kept], queries[kept], shared.centroids[flat[kept]], squared.ravel()[kept])
+
+
+@compiled
+def _count(
+    starts: Int64,
+    queries: Int64,
+    source: Float64,
+    target: Float32,
+    share: float,
+    level: bool,
+    tolerance: float,
+    height_tolerance: float,
+    slope: float,
+    flag: Int32,
+    votes: Int64,
+) -> None:
+    """Fill `votes`: 1 plus the most segments that agree with one candidate of a map."""
+    for place in range(len(votes)):
+        if is_cancelled(flag):
+            return
+        begin, end = starts[place], starts[place + 1]
+        # A part of the candidates, evenly, where there are too many: by the order of the segments.
+        step = 1.0 / share
+        most = int((end - begin) * share)
+        best = 0
+        for one in range(most):
+            i = begin + int(one * step)
+            count = 1
+            last = -1
+            for another in range(most):
+                j = begin + int(another * step)
+                if queries[j] == queries[i] or queries[j] == last:
+                    continue
+                a, b = queries[i], queries[j]
+                here = (source[a, 0] - source[b, 0]) ** 2 + (source[a, 1] - source[b, 1]) ** 2
+                there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
+                rise = source[a, 2] - source[b, 2]
+                other_rise = float(target[i, 2]) - float(target[j, 2])
+                if not level:
+                    here += rise**2
+                    there += other_rise**2
+                excess = here + there - tolerance**2
+                if excess > 0.0 and excess**2 > 4.0 * here * there:
+                    continue
+                if level and abs(rise - other_rise) > height_tolerance + slope * np.sqrt(here):
+                    continue
+                count += 1
+                last = queries[j]
+            best = max(best, count)
+        votes[place] = best

@@ -1,0 +1,224 @@
+"""Shared indexes: search many small maps at once.
+
+A search costs more per map than per segment: a thousand maps of a thousand segments are searched
+one by one in a second, and in one index in some hundredths of it. So small maps share indexes of
+some ten thousand segments. Maps share one only if the same keys open them: what a key does not open
+is neither searched for it nor does it crowd out anything. A map that has been written since is
+searched by its own index, until enough have been for the shared one to be made anew.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from threading import Lock
+
+import numpy as np
+
+from placecell.core.types import Bool, Float32, Int64
+from placecell.descriptors.quantizer import Quantiser
+from service.maps.index import MapIndex, index_of
+from service.maps.layers import Layers
+from service.maps.snapshot import StoredMap
+
+SMALL = 8_192
+"""Largest number of segments of a map in a shared index."""
+
+ROOM = 65_536
+"""Largest number of segments in a shared index."""
+
+MEMBERS = 512
+"""Largest number of maps in a shared index."""
+
+STALE = 1 / 8
+"""Share of changed maps above which an index is rebuilt."""
+
+LOOSE = 16
+"""Largest number of small maps searched one by one; more get a shared index."""
+
+Patterns = tuple[tuple[str, ...], ...]
+"""Map name patterns with * and ? that keys open, each distinct list once."""
+
+Key = tuple[str, int, int]
+"""Content of a map: its uid, its sequence, and the sequence of its base."""
+
+
+def key_of(stored: StoredMap) -> Key:
+    """Return the key of a map's content and row numbers."""
+    return stored.head.uid, stored.head.sequence, stored.folded
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shared:
+    """Index over several maps; rows are ordered by map name and id.
+
+    Attributes:
+        keys: what each map held.
+        starts: int64 (maps + 1,), where the rows of each begin.
+        rows: int64 (n,), of each segment in its map's layers.
+        centroids: float32 (n, 3), meters, about the middle of each map.
+        index: over the descriptors.
+    """
+
+    keys: tuple[Key, ...]
+    starts: Int64
+    rows: Int64
+    centroids: Float32
+    index: MapIndex
+
+    @property
+    def has_room(self) -> bool:
+        """Return whether it is less than half full."""
+        return 2 * len(self.rows) < ROOM and 2 * len(self.keys) < MEMBERS
+
+    @classmethod
+    def of(cls, maps: Sequence[StoredMap], quantiser: Quantiser) -> "Shared":
+        """Build the index of these maps of one model."""
+        maps = sorted(maps, key=lambda each: each.name)
+        rows = [alive(each.layers) for each in maps]
+        codes = [each.layers.column("codes", own) for each, own in zip(maps, rows, strict=True)]
+        centroids = [
+            centred(each.layers.column("centroids", own))
+            for each, own in zip(maps, rows, strict=True)
+        ]
+        starts = np.concatenate([[0], np.cumsum([len(own) for own in rows])])
+        return cls(
+            tuple(key_of(each) for each in maps),
+            starts.astype(np.int64),
+            np.concatenate(rows),
+            np.concatenate(centroids),
+            index_of(np.concatenate(codes), quantiser),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """Part of a search: one map by its own index, or several by a shared one.
+
+    Attributes:
+        places: int64 (maps,), indices of the maps in what was asked about; -1: not asked about.
+        shared: the index of several; None: the map's own.
+    """
+
+    places: Int64
+    shared: Shared | None
+
+    @property
+    def hidden(self) -> Bool | None:
+        """Return which rows of the shared index are excluded; None: none are."""
+        assert self.shared is not None
+        if (self.places >= 0).all():
+            return None
+        return np.repeat(self.places < 0, np.diff(self.shared.starts))
+
+
+class SharedIndexes:
+    """The shared indexes of all maps. Safe to use from many threads."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._patterns: Patterns = ()
+        self._by_model: dict[str, list[Shared]] = {}
+
+    def parts(
+        self,
+        searched: Sequence[StoredMap],
+        known: Iterable[StoredMap],
+        model_id: str,
+        quantiser: Quantiser,
+        patterns: Patterns,
+    ) -> list[Part]:
+        """Return the parts to search for these maps, each map in one part.
+
+        Args:
+            searched: maps with an index, of one model.
+            known: all maps there are, for indexes are made of what all keys open.
+            model_id: of that model.
+            quantiser: of that model.
+            patterns: what the keys open.
+        """
+        with self._lock:
+            if patterns != self._patterns:
+                self._by_model, self._patterns = {}, patterns
+            own = [each for each in known if each.index is not None and each.model_id == model_id]
+            kept = self._renewed(own, self._by_model.get(model_id, []), quantiser)
+            self._by_model[model_id] = kept
+        return _parts_of(searched, kept)
+
+    def _renewed(
+        self, maps: Sequence[StoredMap], before: Sequence[Shared], quantiser: Quantiser
+    ) -> list[Shared]:
+        """Keep the valid indexes; rebuild those with too many changed maps."""
+        small = {key_of(each): each for each in maps if 0 < len(each) <= SMALL}
+        by_uid = {each.head.uid: each for each in small.values()}
+        kept, covered = [], set()
+        for shared in before:
+            good = sum(key in small for key in shared.keys)
+            if len(shared.keys) - good <= STALE * len(shared.keys):
+                kept.append(shared)
+                covered |= {key[0] for key in shared.keys if key[0] in by_uid}
+        loose = [each for uid, each in by_uid.items() if uid not in covered]
+        if len(loose) < LOOSE:
+            return kept
+        # With the maps of indexes that have room.
+        for shared in [each for each in kept if each.has_room]:
+            kept.remove(shared)
+            loose += [by_uid[uid] for uid, *_ in shared.keys if uid in by_uid]
+        groups: dict[tuple[int, ...], list[StoredMap]] = {}
+        for each in sorted(loose, key=lambda one: one.name):
+            groups.setdefault(self._openers(each.name), []).append(each)
+        for group in groups.values():
+            kept += self._filled(group, quantiser)
+        return kept
+
+    def _filled(self, maps: Sequence[StoredMap], quantiser: Quantiser) -> list[Shared]:
+        made: list[Shared] = []
+        some: list[StoredMap] = []
+        count = 0
+        for each in maps:
+            if some and (count + len(each) > ROOM or len(some) == MEMBERS):
+                made.append(Shared.of(some, quantiser))
+                some, count = [], 0
+            some.append(each)
+            count += len(each)
+        if len(some) > 1:
+            made.append(Shared.of(some, quantiser))
+        return made
+
+    def _openers(self, name: str) -> tuple[int, ...]:
+        """Return the indices of the keys' patterns that open a map of this name."""
+        return tuple(
+            number
+            for number, patterns in enumerate(self._patterns)
+            if any(fnmatchcase(name, pattern) for pattern in patterns)
+        )
+
+
+def _parts_of(searched: Sequence[StoredMap], indexes: Sequence[Shared]) -> list[Part]:
+    places = {key_of(each): place for place, each in enumerate(searched)}
+    parts, done = [], set()
+    for shared in indexes:
+        at = np.array([places.get(key, -1) for key in shared.keys], dtype=np.int64)
+        # Of few of its maps, each is searched by itself: what is hidden costs as what is not.
+        if 2 * np.count_nonzero(at >= 0) > len(at):
+            parts.append(Part(at, shared))
+            done |= {*at.tolist()}
+    parts += [
+        Part(np.array([place]), None)
+        for place, each in enumerate(searched)
+        if place not in done and len(each)
+    ]
+    return parts
+
+
+def alive(layers: Layers) -> Int64:
+    """Return the rows of a map's live segments, by id, int64 (n,)."""
+    rows = np.concatenate(
+        [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]
+    )
+    return np.asarray(rows[np.argsort(layers.column("ids", rows), kind="stable")])
+
+
+def centred(centroids: "np.ndarray") -> Float32:
+    """Return centroids about their mean, float32, as maps may lie 1,000 km off."""
+    middle = np.median(centroids, axis=0) if len(centroids) else 0.0
+    return np.asarray(centroids - middle, np.float32)
