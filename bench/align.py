@@ -10,17 +10,17 @@ import numpy as np
 from placecell_client import CompactMap, moved
 from placecell_client.maps.edit import take
 
-from bench.local import Local
-from bench.pose_report import bounds
-from bench.prepared import recording_of
-from bench.robot import Robot
+from evaluation.figure import figure
+from evaluation.poses.local_service import Local
+from evaluation.poses.recordings import recording_of
+from evaluation.poses.report import bounds
+from evaluation.poses.robot import Robot
+from evaluation.recognition.evaluate import machine
 from placecell.core.types import Float64
 from placecell.datasets import open_drive
 from placecell.localization import Pose
 from placecell.map_alignment import MapAlignment
 from placecell.segmentation.pipeline import Progress, silent
-from training.evaluation import machine
-from training.figure import figure
 
 RIGHT = (0.5, 1.0)
 """Metres and degrees, in the middle of what both maps have."""

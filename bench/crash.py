@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bench.crasher import MOMENTS, Crasher, Plan
-from training.evaluation import machine
+from evaluation.recognition.evaluate import machine
 
 
 def crash(

@@ -8,9 +8,9 @@ import numpy as np
 from placecell_client import Client, encode
 
 from bench.meeting import Meeting, meet
-from bench.robot import Robot, ask
 from bench.score import Score, score
 from bench.server import running_service
+from evaluation.poses.robot import Robot, ask
 from placecell.datasets import Drive
 
 MAP = "robot_a"

@@ -16,6 +16,8 @@ import onnxruntime
 from bench.networks import PAPER, files, paper_network
 from bench.rates import Work, each, measure
 from bench.scans import draw_scans
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
 from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import Extractor, load_extractor, one_thread_session
@@ -25,8 +27,6 @@ from placecell.descriptors.pair_classifier import PairClassifier
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from placecell.descriptors.voxels import voxelise
 from placecell.segmentation.pipeline import Progress, silent
-from training.evaluation import machine
-from training.figure import figure
 
 PAIRS = 1_250
 """Queries and candidates of a usual request to `/match`: 50 segments, 25 nearest."""

@@ -22,7 +22,7 @@ from bench.cutting_proxy import CuttingProxy
 from bench.made_map import Kind
 from bench.server import Service
 from bench.sharer import Sharer
-from training.evaluation import machine
+from evaluation.recognition.evaluate import machine
 
 SITE = "site"
 

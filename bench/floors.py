@@ -17,7 +17,8 @@ from placecell_client import CompactMap
 from placecell_client.maps.edit import take
 
 from bench.map_content import Views, map_of
-from bench.pose_queries import random_frame
+from evaluation.poses.queries import random_frame
+from evaluation.recognition.evaluate import machine
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalisationParameters, Pose
 from placecell.segmentation.pipeline import Progress, silent
@@ -31,7 +32,6 @@ from service.maps.snapshot import StoredMap
 from service.maps.store import Head
 from service.search.localization import Group, InMap, localise_among
 from service.search.shared_index import SharedIndexes
-from training.evaluation import machine
 
 SIZE = np.array([90.0, 40.0, 4.0])
 """Size of a floor along x, y, z, meters."""

@@ -7,12 +7,12 @@ from typing import Any
 import faiss
 import numpy as np
 
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine, retrieval
 from placecell.core.types import Bool, Float32
 from placecell.descriptors.extractor import Extractor
 from placecell.descriptors.quantizer import LEVELS, Quantiser
 from placecell.segmentation.recording import Recording
-from training.evaluation import machine, retrieval
-from training.figure import figure
 
 PRODUCT_BYTES = (8, 16, 32, 64)
 

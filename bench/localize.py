@@ -19,13 +19,13 @@ from placecell_client.maps.edit import take
 
 from bench.load import Load, request_of, sent_by_process
 from bench.map_content import VIEWS, Views, map_of
-from bench.pose_queries import random_frame
 from bench.serve import percentiles
 from bench.server import address_of, running_service
+from evaluation.poses.queries import random_frame
+from evaluation.recognition.evaluate import machine
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
 from service.api.body.body import MSGPACK
-from training.evaluation import machine
 
 MAP = "road"
 

@@ -22,13 +22,13 @@ from bench.map_writers import MAP, Plan, rebuilding, writing
 from bench.serve import percentiles
 from bench.server import Service, address_of, running_service
 from bench.soak import look
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
 from placecell.core.types import Int64
 from placecell.descriptors.quantizer import Quantiser
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
 from placecell.segmentation.pipeline import Progress, silent
 from service.api.body.body import MSGPACK
-from training.evaluation import machine
-from training.figure import figure
 
 
 def bench(

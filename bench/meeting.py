@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from placecell_client import Client, ServiceError, encode
 
-from bench.pose_report import RIGHT
-from bench.robot import Robot, clouds
+from evaluation.poses.report import RIGHT
+from evaluation.poses.robot import Robot, clouds
 from placecell.core.segments import Segments
 from placecell.core.types import Float64
 from placecell.localization import Pose

@@ -56,8 +56,8 @@ def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: in
             import torch
         except ImportError:
             return []
-        from training.export import Exported, export_onnx
-        from training.networks import DIMENSION, DescriptorNetwork
+        from training.export.onnx_graph import Exported, export_onnx
+        from training.methods.networks import DIMENSION, DescriptorNetwork
 
         torch.manual_seed(seed)
         mean = np.zeros(parameters.grid, np.float32)

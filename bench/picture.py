@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.robot import Answer, Robot
 from bench.score import in_frame
+from evaluation.poses.robot import Answer, Robot
 from placecell.core.types import Bool, Float64
 
 RIGHT, WRONG = "#1b9e77", "#d95f02"

@@ -20,12 +20,12 @@ from placecell_client import encode
 from bench.disk import KEEPS, Disk, write
 from bench.disk_log import Step
 from bench.recorded_run import NAME, UNKEPT, Outline, RecordedRun, record
+from evaluation.recognition.evaluate import machine
 from service.maps.cache import MapCache
 from service.maps.replay import newest
 from service.maps.snapshot import tag_of
 from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import Note, StoreError
-from training.evaluation import machine
 
 TOLD = 20
 """Of what was wrong, in the report."""

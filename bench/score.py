@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from bench.robot import Answer
+from evaluation.poses.robot import Answer
 from placecell.core.types import Bool, Float64
 
 RIGHT_METRES = 1.5

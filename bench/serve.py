@@ -17,13 +17,13 @@ from bench.rates import each, rate
 from bench.scans import draw_scans
 from bench.server import address_of, running_service
 from bench.workload import Case, fill, requests
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from placecell.segmentation.pipeline import Progress, silent
 from service.api.body.body import JSON, MSGPACK
-from training.evaluation import machine
-from training.figure import figure
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.meeting import Meeting
 from bench.picture import RIGHT, WRONG
-from bench.robot import Robot
+from evaluation.poses.robot import Robot
 from placecell.core.types import Float64
 
 MAPPER, ASKER = "#1f5fa8", "#7a3fa0"

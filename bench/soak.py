@@ -21,10 +21,10 @@ from bench.scans import draw_scans
 from bench.serve import Plan, percentiles
 from bench.server import address_of, running_service
 from bench.workload import Case, fill, requests
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
 from placecell.core.segments import Segments
 from service.api.body.body import MSGPACK
-from training.evaluation import machine
-from training.figure import figure
 
 Reader = asyncio.StreamReader
 Writer = asyncio.StreamWriter

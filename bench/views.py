@@ -6,13 +6,13 @@ import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.edit import empty
 
+from evaluation.recognition.evaluate import machine
+from evaluation.recognition.retrieval import CANDIDATES, CROSS_VIEW_METRES, distance_rows
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
 from service.maps.deduplication import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
-from training.evaluation import machine
-from training.recognition import CANDIDATES, CROSS_VIEW_METRES, distance_rows
 
 KEPT = (1, 2, 3, 4, 6, 8, 12)
 """Views of a thing, at most."""

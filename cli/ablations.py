@@ -48,8 +48,8 @@ def ablations(
         ]
     )
     with clear_errors():
-        from training.ablations import run_ablations, variants
-        from training.ablations_report import write_ablations
+        from training.experiments.ablations import run_ablations, variants
+        from training.experiments.ablations_report import write_ablations
 
         everything = list(variants(epochs, seeds))
         parts = dict.fromkeys(variant.part for variant in everything)

@@ -34,8 +34,8 @@ def demo(
     """
     from bench.demo import is_short, run
     from bench.meeting import elsewhere
-    from bench.pose_queries import random_frame
-    from bench.robots import robots_of_drive, robots_of_town
+    from evaluation.poses.queries import random_frame
+    from evaluation.poses.robots import robots_of_drive, robots_of_town
     from placecell.descriptors.manifest import Manifest
     from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 

@@ -39,8 +39,8 @@ def evaluate(
 
     Definitions of the figures: docs/results/recognition.md.
     """
-    from training.evaluation import evaluate as evaluate_recording
-    from training.evaluation import open_models
+    from evaluation.recognition.evaluate import evaluate as evaluate_recording
+    from evaluation.recognition.evaluate import open_models
 
     with clear_errors():
         limits = parse_scans(scans) if scans else None

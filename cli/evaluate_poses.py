@@ -67,8 +67,8 @@ def evaluate_poses(
 
     Through the service's own code, in this process. Definitions: docs/results/localization.md.
     """
-    from bench.pose_queries import Pair
-    from bench.poses import draw, evaluate
+    from evaluation.poses.evaluate import draw, evaluate
+    from evaluation.poses.queries import Pair
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
     from placecell.localization import LocalisationParameters
 

@@ -59,10 +59,10 @@ def experiments(
     from rich.progress import Progress
 
     with clear_errors():
-        from training.experiments import run_experiments
-        from training.plan import Plan
-        from training.report import write_report
-        from training.training_set import Source
+        from training.data.training_set import Source
+        from training.experiments.experiments import run_experiments
+        from training.experiments.plan import Plan
+        from training.experiments.report import write_report
 
     plan = Plan(networks=tuple(network or Plan().networks), seeds=seeds, epochs=epochs)
     if quick:

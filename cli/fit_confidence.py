@@ -55,8 +55,8 @@ def fit_confidence(
     Each model has its own. Writes them, into the model's folder or for the default model to where
     all find them, with how true the probabilities are in towns that each was not fitted on.
     """
-    from bench.confidence import fit
-    from bench.pose_queries import Pair
+    from evaluation.poses.confidence import fit
+    from evaluation.poses.queries import Pair
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
     from placecell.localization.confidence import NAME, SHIPPED
 

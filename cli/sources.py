@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from placecell.datasets import Drive
     from placecell.segmentation.recording import Recording
-    from training.training_set import Source
+    from training.data.training_set import Source
 
 __all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
 
@@ -105,7 +105,7 @@ def sources(texts: Iterable[str]) -> "list[Source]":
 
     Robot B sees the same houses; as a drive of its own it would teach that they are others.
     """
-    from training.training_set import Source
+    from training.data.training_set import Source
 
     found = []
     for text in texts:
@@ -128,7 +128,7 @@ def town_recordings(seed: int, scans: int) -> "list[Recording]":
 
 def source(text: str) -> "Source":
     """A drive or a part of it."""
-    from training.training_set import Source
+    from training.data.training_set import Source
 
     path, scans = split_source(text)
     recording = load(path)

@@ -28,11 +28,11 @@ def study(
     from rich.progress import track
 
     with clear_errors():
+        from evaluation.plots import studies
+        from evaluation.recognition.evaluate import machine, open_models
+        from evaluation.recognition.study import study as study_of
         from placecell.core.parameters import SURROUNDINGS_V1
-        from training.evaluation import machine, open_models
-        from training.plots import studies
-        from training.study import study as study_of
-        from training.training_set import TrainingSet
+        from training.data.training_set import TrainingSet
 
         output.mkdir(parents=True, exist_ok=True)
         models = open_models(model or ())

@@ -11,7 +11,7 @@ from cli.tables import progress_console
 
 if TYPE_CHECKING:
     from placecell.descriptors.manifest import Manifest
-    from training.publishing import Data
+    from training.export.publishing import Data
 
 
 class Method(StrEnum):
@@ -70,7 +70,7 @@ def train(
     options += ["--epochs", str(epochs)] if epochs else []
     folder = output or MODELS_FOLDER / method
     with clear_errors():
-        from training.publishing import collect, publish_eigenvalue, retraining
+        from training.export.publishing import collect, publish_eigenvalue, retraining
 
         parts = sources(drives)
         command = retraining(method, parts, licence, seed, *options)
@@ -96,11 +96,11 @@ def learn(
     """Train a network, with a progress bar, and publish what it learned."""
     from rich.progress import Progress
 
-    from training import methods
-    from training.publishing import fingerprint, publish_network
-    from training.run import Run
+    from training.export.publishing import fingerprint, publish_network
+    from training.methods import registry
+    from training.methods.run import Run
 
-    checkpoints = methods.run_folder(runs, method, network, seed)
+    checkpoints = registry.run_folder(runs, method, network, seed)
     if not resume:
         (checkpoints / "checkpoint.pt").unlink(missing_ok=True)
     with Progress(console=progress_console()) as progress:
@@ -108,5 +108,5 @@ def learn(
         # As the experiments name their runs: what they trained can be published from here.
         identity = fingerprint(data, method, network, changes)
         run = Run(checkpoints, seed, identity, progress)
-        trained = methods.train(method, data.training, data.validation, run, network, **changes)
+        trained = registry.train(method, data.training, data.validation, run, network, **changes)
     return publish_network(folder, trained, data.stating(**run.cost()))

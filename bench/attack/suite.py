@@ -15,7 +15,7 @@ import numpy as np
 from bench.attack.cases import CASES
 from bench.attack.stage import Case, Stage
 from bench.attack.target import CORES, Target
-from training.evaluation import machine
+from evaluation.recognition.evaluate import machine
 
 DESCRIPTORS = 8_192
 """Largest number of files that this process and the services that it starts may open."""

@@ -13,9 +13,9 @@ from bench.peers.frames import Stretch, map_poses, near_map, query_poses
 from bench.peers.layout import ANSWERS, answered, lay_out
 from bench.peers.runner import REFINED
 from bench.peers.score import score
-from bench.pose_queries import MAPPED_METRES
+from evaluation.poses.queries import MAPPED_METRES
+from evaluation.recognition.evaluate import machine
 from placecell.segmentation.pipeline import Progress, silent
-from training.evaluation import machine
 
 ROOT = Path(__file__).resolve().parents[2]
 

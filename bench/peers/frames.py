@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bench.peers.exchange import MAP, POSES, QUERIES, cloud_file
-from bench.pose_queries import MAPPED_METRES, spread
+from evaluation.poses.queries import MAPPED_METRES, spread
 from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.types import Bool, Float64
 from placecell.datasets import Drive

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from bench.peers.exchange import Answer, Peer
-from bench.pose_report import OFF, Outcome, median, shares
+from evaluation.poses.report import OFF, Outcome, median, shares
 from placecell.core.types import Bool, Float64
 from placecell.localization import Pose
 

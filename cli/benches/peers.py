@@ -88,7 +88,7 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
     import numpy as np
 
     from bench.peers.frames import stretches_of_one, stretches_of_two
-    from bench.pose_queries import origin_of
+    from evaluation.poses.queries import origin_of
     from placecell.datasets import open_drive
 
     mapped = open_drive(map_drive)

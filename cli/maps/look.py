@@ -68,7 +68,7 @@ def _whence(summary: "MapSummary") -> str:
 
 def draw(compact_map: "CompactMap", file: Path) -> None:
     """A map from above, each robot in a colour, as a PNG."""
-    from training.figure import figure
+    from evaluation.figure import figure
 
     with figure(file, size=7) as (axes,):
         for index, robot in enumerate(compact_map.robots):

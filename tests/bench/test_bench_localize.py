@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 from bench import localize
 from bench.localize import Plan, road_with_queries
 from bench.map_content import VIEWS, Views
-from bench.pose_queries import random_frame
 from cli import app
+from evaluation.poses.queries import random_frame
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.bench.test_ladder import recorded_from_two_places

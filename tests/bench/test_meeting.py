@@ -7,9 +7,9 @@ from typing import Any, cast
 import pytest
 from placecell_client import Client, ServiceError
 
-from bench.local import Local
 from bench.meeting import meet
-from bench.pose_queries import Pair
+from evaluation.poses.local_service import Local
+from evaluation.poses.queries import Pair
 from tests.bench.drive_builders import trip
 from tests.service.service_builders import write_eigenvalue_model
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.local import Local
 from bench.peers.frames import Stretch, frames_of, stretches_of_one, stretches_of_two
-from bench.pose_queries import Pair, described, random_frame
-from bench.poses import evaluate
+from evaluation.poses.evaluate import evaluate
+from evaluation.poses.local_service import Local
+from evaluation.poses.queries import Pair, described, random_frame
 from tests.bench.drive_builders import trip
 from tests.segments.segment_builders import many_segments
 from tests.service.service_builders import write_eigenvalue_model

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from bench.pose_queries import Pair, PoseQuery, joined, random_frame, spread
-from bench.pose_report import (
+from evaluation.poses.evaluate import outcome_of, row_of
+from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame, spread
+from evaluation.poses.report import (
     Outcome,
     bounds,
     precision_recall,
@@ -20,7 +21,6 @@ from bench.pose_report import (
     shares,
     until_localised,
 )
-from bench.poses import outcome_of, row_of
 from placecell.localization import Pose, localize
 from tests.client.map_builders import random_map
 from tests.segments.localisation.scene_builders import scene

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.pose_queries import Pair
-from bench.prepared import recording_of
+from evaluation.poses.queries import Pair
+from evaluation.poses.recordings import recording_of
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.datasets import Drive, open_drive
 from placecell.segmentation.pipeline import record

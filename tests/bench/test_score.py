@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bench.robot import Answer
 from bench.score import score
+from evaluation.poses.robot import Answer
 
 
 def answer(centroid: list[float], *candidates: list[float]) -> Answer:

@@ -267,7 +267,7 @@ def in_raw_layout(drive: Path, folder: Path, scans: int) -> Path:
 def test_the_experiments_run_on_a_raw_drive_and_a_second_call_trains_nothing(
     workshop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("training.pair_classifier.TREES", 4)
+    monkeypatch.setattr("training.export.pair_classifier.TREES", 4)
     raw = in_raw_layout(workshop / "drives" / "robot_a", tmp_path / "drive_0018_sync", 16)
     tmp_path = tmp_path / "report"
     words = (
@@ -288,7 +288,8 @@ def test_the_experiments_run_on_a_raw_drive_and_a_second_call_trains_nothing(
     before = {file: file.stat().st_mtime_ns for file in (tmp_path / "models").rglob("*.onnx")}
     # What was measured once need not be again here: it is the training that must not come twice.
     monkeypatch.setattr(
-        "training.experiments.compare", lambda folder, *_, **__: report["models"][folder.name]
+        "training.experiments.experiments.compare",
+        lambda folder, *_, **__: report["models"][folder.name],
     )
     run(*words)
     assert {f: f.stat().st_mtime_ns for f in (tmp_path / "models").rglob("*.onnx")} == before

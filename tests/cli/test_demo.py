@@ -10,9 +10,9 @@ from typer.testing import CliRunner
 
 from bench.demo import Outcome
 from bench.meeting import Meeting, Told
-from bench.robot import Robot
 from bench.score import Score
 from cli import app
+from evaluation.poses.robot import Robot
 from placecell.localization import Pose
 from tests.segments.segment_builders import MemoryDrive, pose
 
@@ -40,7 +40,7 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         robots = tuple(Robot(name, drive, [], np.eye(4)) for name in ("robot A", "robot B"))
         score = Score(10, 10, 0.01, {1: found}, np.ones(10, dtype=bool))
         outcome = Outcome(score, {"model_id": "tiny"}, meeting)
-        monkeypatch.setattr("bench.robots.robots_of_drive", lambda *_: robots)
+        monkeypatch.setattr("evaluation.poses.robots.robots_of_drive", lambda *_: robots)
         monkeypatch.setattr("bench.demo.run", lambda *_: outcome)
         words = ["demo", "--drive", str(tmp_path), "--output", str(tmp_path)]
         done = CliRunner().invoke(app, words)

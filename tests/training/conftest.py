@@ -5,7 +5,7 @@ import pytest
 
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
 
 SHAPES = 8
 

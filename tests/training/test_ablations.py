@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from training.ablations import RATES, variants
-from training.ablations_report import best_rates, write_ablations
-from training.metric import LOSSES
+from training.experiments.ablations import RATES, variants
+from training.experiments.ablations_report import best_rates, write_ablations
+from training.methods.metric import LOSSES
 
 
 def test_variants_of_the_surroundings_share_the_model_s_network() -> None:

@@ -14,16 +14,22 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import describe_surroundings
 from placecell.descriptors.voxels import voxelise
-from training import methods
-from training.context import ContextRecipe, Projection, learn_surroundings, rotation, scatter
-from training.export import Exported, ExportedContext, export_onnx
-from training.group_based import GroupBasedRecipe
-from training.networks import DescriptorNetwork, normalisation_statistics
-from training.publishing import Data, publish_network
-from training.quantisation import quantise
-from training.run import Run
-from training.sgd import Sgd
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.export.onnx_graph import Exported, ExportedContext, export_onnx
+from training.export.publishing import Data, publish_network
+from training.export.quantization import quantise
+from training.methods import registry
+from training.methods.context import (
+    ContextRecipe,
+    Projection,
+    learn_surroundings,
+    rotation,
+    scatter,
+)
+from training.methods.group_based import GroupBasedRecipe
+from training.methods.networks import DescriptorNetwork, normalisation_statistics
+from training.methods.run import Run
+from training.methods.sgd import Sgd
 
 SIZE = SURROUNDINGS_V1.size
 
@@ -166,7 +172,7 @@ def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     recipe = ContextRecipe(
         segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)), dimension=32
     )
-    trained = methods.train(
+    trained = registry.train(
         "context", training, validation, Run(tmp_path / "run", 0), recipe=recipe
     )
     provenance = {

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from training.comparison import roc_curve
-from training.plan import Plan
+from training.experiments.comparison import roc_curve
+from training.experiments.plan import Plan
 
 
 def test_roc_curve_by_hand() -> None:

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from training import metric
-from training.metric import LOSSES, MetricRecipe, draw_batch
-from training.run import Run
-from training.sgd import Sgd
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.methods import metric
+from training.methods.metric import LOSSES, MetricRecipe, draw_batch
+from training.methods.run import Run
+from training.methods.sgd import Sgd
 
 
 def test_a_batch_holds_as_many_of_each_group() -> None:

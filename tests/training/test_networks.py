@@ -9,8 +9,9 @@ import torch
 
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.descriptors.voxels import voxelise
-from training.export import Exported, export_onnx, principal_axes
-from training.networks import (
+from training.data.training_set import TrainingSet
+from training.export.onnx_graph import Exported, export_onnx, principal_axes
+from training.methods.networks import (
     NETWORKS,
     SMALLEST_DEVIATION,
     DescriptorNetwork,
@@ -18,7 +19,6 @@ from training.networks import (
     describe,
     normalisation_statistics,
 )
-from training.training_set import TrainingSet
 
 
 def test_normalisation_is_per_voxel_and_never_blows_up() -> None:

@@ -8,13 +8,13 @@ import onnxruntime
 import pytest
 import torch
 
+from evaluation.recognition.retrieval import expected_calibration_error
 from placecell.descriptors.manifest import PAIR_FILE, Manifest
 from placecell.descriptors.pair_classifier import PairClassifier
 from placecell.descriptors.quantizer import Quantiser
-from training import pair_classifier
-from training.pair_classifier import Calibration, HeldOut, Pairs
-from training.recognition import expected_calibration_error
-from training.siamese import MatchNetwork
+from training.export import pair_classifier
+from training.export.pair_classifier import Calibration, HeldOut, Pairs
+from training.methods.siamese import MatchNetwork
 
 DIMENSION = 6
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from training import recognition
+from evaluation.recognition import retrieval
 
 
 def brute_force_top1(descriptors: np.ndarray, groups: np.ndarray) -> float:
@@ -22,12 +22,12 @@ def test_top1_agrees_with_brute_force_over_several_blocks_of_rows() -> None:
     descriptors = random.integers(-127, 128, (1203, 5)).astype(np.float32)
     groups = random.integers(0, 40, 1203)
     expected = brute_force_top1(descriptors[:300], groups[:300])
-    assert recognition.top1(descriptors[:300], groups[:300]) == pytest.approx(expected)
-    several_blocks = recognition.retrieve(descriptors, groups).right
+    assert retrieval.top1(descriptors[:300], groups[:300]) == pytest.approx(expected)
+    several_blocks = retrieval.retrieve(descriptors, groups).right
     one_block = np.concatenate(
         [
             distances.argmin(axis=1)
-            for _, distances in recognition.distance_rows(descriptors, rows=2000)
+            for _, distances in retrieval.distance_rows(descriptors, rows=2000)
         ]
     )
     assert (several_blocks == (groups[one_block] == groups)).all()
@@ -35,7 +35,7 @@ def test_top1_agrees_with_brute_force_over_several_blocks_of_rows() -> None:
 
 def test_segments_without_a_mate_are_misses_but_do_not_count_with_mate() -> None:
     descriptors = np.array([[0.0], [0.1], [5.0]], dtype=np.float32)
-    found = recognition.retrieve(descriptors, np.array([0, 0, 1]))
+    found = retrieval.retrieve(descriptors, np.array([0, 0, 1]))
     assert found.right.tolist() == [True, True, False]
     assert found.has_mate.tolist() == [True, True, False]
 
@@ -46,23 +46,23 @@ def test_cross_view_takes_near_mates_out_of_the_database() -> None:
     descriptors = np.array([[0.0], [0.1], [1.0], [1.5]], dtype=np.float32)
     groups = np.array([0, 0, 1, 0])
     sensors = np.array([[0, 0, 0], [0.5, 0, 0], [0, 0, 0], [11, 0, 0]], dtype=np.float32)
-    plain = recognition.retrieve(descriptors, groups)
-    crossed = recognition.retrieve(descriptors, groups, recognition.seen_within(sensors, 10.0))
+    plain = retrieval.retrieve(descriptors, groups)
+    crossed = retrieval.retrieve(descriptors, groups, retrieval.seen_within(sensors, 10.0))
     assert plain.right.tolist() == [True, True, False, False]
     assert crossed.right.tolist() == [False, False, False, False]
     assert crossed.has_mate.tolist() == [True, True, False, True]
     # Near mates are gone, not turned into strangers: without segment 2, segment 3 is found.
     keep = np.array([0, 1, 3])
-    alone = recognition.retrieve(
-        descriptors[keep], groups[keep], recognition.seen_within(sensors[keep], 10.0)
+    alone = retrieval.retrieve(
+        descriptors[keep], groups[keep], retrieval.seen_within(sensors[keep], 10.0)
     )
     assert alone.right.tolist() == [True, True, True]
 
 
 def test_mates_exactly_ten_metres_away_are_taken_out() -> None:
     sensors = np.array([[0, 0, 0], [10, 0, 0]], dtype=np.float32)
-    pair = recognition.retrieve(
-        np.zeros((2, 1), np.float32), np.zeros(2, int), recognition.seen_within(sensors, 10.0)
+    pair = retrieval.retrieve(
+        np.zeros((2, 1), np.float32), np.zeros(2, int), retrieval.seen_within(sensors, 10.0)
     )
     assert not pair.has_mate.any()
 
@@ -72,18 +72,18 @@ def test_recall_looks_at_twenty_five_and_no_more() -> None:
     for strangers, found in ((24, True), (25, False)):
         descriptors = np.arange(strangers + 2, dtype=np.float32)[:, None]
         groups = np.array([0, *range(1, strangers + 1), 0])
-        assert recognition.retrieve(descriptors, groups).recalled[0] == found
+        assert retrieval.retrieve(descriptors, groups).recalled[0] == found
 
 
 @pytest.mark.parametrize("count", [0, 1])
 def test_nothing_to_find_is_no_error(count: int) -> None:
-    found = recognition.retrieve(np.zeros((count, 3), np.float32), np.zeros(count, np.int64))
+    found = retrieval.retrieve(np.zeros((count, 3), np.float32), np.zeros(count, np.int64))
     assert not found.right.any()
 
 
 def test_pairs_are_of_one_group_or_of_two_and_never_one_segment() -> None:
     groups = np.array([0, 0, 0, 1, 1, 2, 3])
-    positive, negative = recognition.draw_pairs(groups, 5000, np.random.default_rng(0))
+    positive, negative = retrieval.draw_pairs(groups, 5000, np.random.default_rng(0))
     assert (groups[positive[:, 0]] == groups[positive[:, 1]]).all()
     assert (positive[:, 0] != positive[:, 1]).all()
     assert (groups[negative[:, 0]] != groups[negative[:, 1]]).all()
@@ -96,45 +96,45 @@ def test_pairs_are_of_one_group_or_of_two_and_never_one_segment() -> None:
 
 
 def test_no_pairs_where_there_are_none() -> None:
-    positive, negative = recognition.draw_pairs(np.array([0, 1]), 10, np.random.default_rng(0))
+    positive, negative = retrieval.draw_pairs(np.array([0, 1]), 10, np.random.default_rng(0))
     assert positive.shape == (0, 2)
     assert len(negative) == 10
-    positive, negative = recognition.draw_pairs(np.array([0, 0]), 10, np.random.default_rng(0))
+    positive, negative = retrieval.draw_pairs(np.array([0, 0]), 10, np.random.default_rng(0))
     assert len(positive) == 10
     assert negative.shape == (0, 2)
 
 
 def test_area_under_roc_by_hand_with_a_tie() -> None:
     # Of 2 x 2 comparisons: 3 > 1, 3 > 2, 2 > 1, and one tie.
-    area = recognition.area_under_roc(np.array([3.0, 2.0]), np.array([1.0, 2.0]))
+    area = retrieval.area_under_roc(np.array([3.0, 2.0]), np.array([1.0, 2.0]))
     assert area == pytest.approx(3.5 / 4)
 
 
 def test_threshold_and_accuracy_by_hand() -> None:
     near, far = np.array([0.1, 0.2, 0.9]), np.array([0.5, 0.8, 1.0])
-    threshold = recognition.best_threshold(near, far)
+    threshold = retrieval.best_threshold(near, far)
     assert 0.2 < threshold < 0.5
-    assert recognition.accuracy_at(threshold, near, far) == pytest.approx(5 / 6)
-    assert recognition.accuracy_at(0.95, near, far) == pytest.approx((1 + 1 / 3) / 2)
+    assert retrieval.accuracy_at(threshold, near, far) == pytest.approx(5 / 6)
+    assert retrieval.accuracy_at(0.95, near, far) == pytest.approx((1 + 1 / 3) / 2)
 
 
 def test_nearest_pairs_by_hand() -> None:
     descriptors = np.array([[0.0], [1.0], [1.5], [5.0]], dtype=np.float32)
     groups = np.array([0, 1, 0, 1])
-    matches, others = recognition.nearest_pairs(descriptors, groups, np.array([0, 3]), candidates=2)
+    matches, others = retrieval.nearest_pairs(descriptors, groups, np.array([0, 3]), candidates=2)
     assert sorted(map(tuple, matches)) == [(0, 2), (3, 1)]
     assert sorted(map(tuple, others)) == [(0, 1), (3, 2)]
 
 
 def test_views_from_one_side_are_too_easy_across_north() -> None:
     bearings = np.radians([179.0, -179.0, 90.0])
-    too_easy = recognition.seen_from_angle(bearings, 10.0)
+    too_easy = retrieval.seen_from_angle(bearings, 10.0)
     assert too_easy(np.array([0, 2])).tolist() == [[True, True, False], [False, False, True]]
 
 
 def test_other_descriptors_of_the_same_segments_may_ask() -> None:
     descriptors = np.array([[0.0], [1.0], [5.0], [6.0]], dtype=np.float32)
     queries = np.array([[5.2], [0.2], [6.4], [4.0]], dtype=np.float32)
-    found = recognition.retrieve(descriptors, np.array([0, 0, 1, 1]), queries=queries)
+    found = retrieval.retrieve(descriptors, np.array([0, 0, 1, 1]), queries=queries)
     assert found.nearest.tolist() == [2, 0, 3, 2]
     assert found.right.tolist() == [False, True, True, True]

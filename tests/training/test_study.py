@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from evaluation.recognition import study
 from placecell.descriptors.eigenvalue import FEATURES
 from placecell.descriptors.extractor import EigenvalueExtractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantiser
-from training import study
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
 
 
 @pytest.fixture(scope="module")

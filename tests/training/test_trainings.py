@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 import torch
 
+from evaluation.recognition.retrieval import top1
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.segmentation.recording import Recording
 from tests.training.conftest import make_shapes
-from training import contrastive, group_based, siamese
-from training.augmentation import Augmentation
-from training.networks import describe
-from training.recognition import top1
-from training.run import Run
-from training.sgd import Sgd
-from training.training_set import Source, TrainingSet
+from training.data.augmentation import Augmentation
+from training.data.training_set import Source, TrainingSet
+from training.methods import contrastive, group_based, siamese
+from training.methods.networks import describe
+from training.methods.run import Run
+from training.methods.sgd import Sgd
 
 SMALL = Sgd(learning_rate=0.05, batch=16)
 

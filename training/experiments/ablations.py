@@ -14,18 +14,14 @@ from typing import Any
 import numpy as np
 from rich.progress import Progress
 
+from evaluation.recognition.evaluate import measure
 from placecell.core.parameters import SURROUNDINGS_V1
 from placecell.descriptors.extractor import MODEL_FILE, load_extractor
 from placecell.descriptors.manifest import FULL_FILE
-from training import metric
-from training.augmentation import Augmentation
-from training.comparison import throughput
-from training.context import ContextRecipe, learn_surroundings
-from training.evaluation import measure
-from training.group_based import GroupBasedRecipe
-from training.methods import Trained, train_segment
-from training.metric import MetricRecipe
-from training.publishing import (
+from training.data.augmentation import Augmentation
+from training.data.training_set import Source, TrainingSet, check_apart
+from training.experiments.comparison import throughput
+from training.export.publishing import (
     Data,
     collect,
     export_network,
@@ -33,9 +29,13 @@ from training.publishing import (
     stored_axes,
     whole,
 )
-from training.run import Run
-from training.sgd import Sgd
-from training.training_set import Source, TrainingSet, check_apart
+from training.methods import metric
+from training.methods.context import ContextRecipe, learn_surroundings
+from training.methods.group_based import GroupBasedRecipe
+from training.methods.metric import MetricRecipe
+from training.methods.registry import Trained, train_segment
+from training.methods.run import Run
+from training.methods.sgd import Sgd
 
 RATES = (0.05, 0.2)
 """Learning rates that each loss is tried with; the best on the validation groups counts."""

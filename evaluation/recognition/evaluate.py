@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.recognition import retrieval as recognition
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.processors import available_cores
 from placecell.core.segments import Segments
@@ -22,7 +23,6 @@ from placecell.descriptors.shipped_models import (
     shipped_models,
 )
 from placecell.segmentation.recording import Recording
-from training import recognition
 
 
 def measure(

@@ -15,13 +15,13 @@ from typing import Any
 
 from rich.progress import Progress
 
+from evaluation.recognition.evaluate import machine
 from placecell.descriptors.extractor import MODEL_FILE
 from placecell.descriptors.manifest import FILE as MANIFEST_FILE
-from training import methods
-from training.comparison import compare, fits_grid, throughput
-from training.evaluation import machine
-from training.plan import Plan, Training
-from training.publishing import (
+from training.data.training_set import Source, TrainingSet, check_apart
+from training.experiments.comparison import compare, fits_grid, throughput
+from training.experiments.plan import Plan, Training
+from training.export.publishing import (
     Data,
     collect,
     fingerprint,
@@ -29,8 +29,8 @@ from training.publishing import (
     publish_network,
     retraining,
 )
-from training.run import Run
-from training.training_set import Source, TrainingSet, check_apart
+from training.methods import registry
+from training.methods.run import Run
 
 
 def run_experiments(
@@ -136,7 +136,7 @@ def _train(
 ) -> None:
     identity = fingerprint(data, one.method, one.network, one.changes)
     run = Run(output / "runs" / one.name, one.seed, identity, progress)
-    trained = methods.train(
+    trained = registry.train(
         one.method, data.training, data.validation, run, one.network, **one.changes
     )
     publish_network(folder, trained, data.stating(**run.cost()))

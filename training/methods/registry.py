@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from training import context, contrastive, group_based, metric, siamese
-from training.context import Projection
-from training.group_based import GroupBasedRecipe
-from training.metric import MetricRecipe
-from training.networks import DescriptorNetwork
-from training.run import Run
-from training.siamese import MatchNetwork
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.methods import context, contrastive, group_based, metric, siamese
+from training.methods.context import Projection
+from training.methods.group_based import GroupBasedRecipe
+from training.methods.metric import MetricRecipe
+from training.methods.networks import DescriptorNetwork
+from training.methods.run import Run
+from training.methods.siamese import MatchNetwork
 
 METHODS = ("group", "siamese", "contrastive")
 """The paper's."""

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from bench.local import Local
-from bench.pose_queries import MAPPED_METRES, Pair, PoseQuery, random_frame
-from bench.pose_report import Outcome, report
+from evaluation.figure import figure
+from evaluation.poses.local_service import Local
+from evaluation.poses.queries import MAPPED_METRES, Pair, PoseQuery, random_frame
+from evaluation.poses.report import Outcome, report
+from evaluation.recognition.evaluate import machine
 from placecell.localization import Localisation, LocalisationParameters
 from placecell.localization.covariance import at_point
 from placecell.localization.evidence import History, middle_of
 from placecell.segmentation.pipeline import Progress, silent
-from training.evaluation import machine
-from training.figure import figure
 
 MAP = "map"
 

@@ -17,9 +17,9 @@ from scipy.linalg import eigh
 from scipy.stats import ortho_group
 
 from placecell.core.types import Float32, Float64, Int64
-from training.group_based import GroupBasedRecipe
-from training.metric import MetricRecipe
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.methods.group_based import GroupBasedRecipe
+from training.methods.metric import MetricRecipe
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.recognition import retrieval
+from evaluation.recognition.evaluate import mean
 from placecell.core.types import Bool, Float32, Float64, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.descriptors.orientation import sensor_bearings
-from training import recognition
-from training.augmentation import Augmentation
-from training.evaluation import mean
-from training.training_set import TrainingSet
+from training.data.augmentation import Augmentation
+from training.data.training_set import TrainingSet
 
 SIZES = (100, 150, 250, 400, 700, 1500, 15_001)
 METRES = (0.0, 2.0, 5.0, 10.0, 15.0, 20.0)
@@ -40,12 +40,11 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
     return {
         "by_points": by_points(test, stored),
         "by_metres": [
-            {"metres": metres} | share(stored, test, recognition.seen_within(sensors, metres))
+            {"metres": metres} | share(stored, test, retrieval.seen_within(sensors, metres))
             for metres in METRES
         ],
         "by_degrees": [
-            {"degrees": degrees}
-            | share(stored, test, recognition.seen_from_angle(bearings, degrees))
+            {"degrees": degrees} | share(stored, test, retrieval.seen_from_angle(bearings, degrees))
             for degrees in DEGREES
         ],
         "by_occlusion": [
@@ -64,16 +63,16 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
 
 
 def share(
-    stored: Float32, test: TrainingSet, too_easy: recognition.TooEasy | None = None
+    stored: Float32, test: TrainingSet, too_easy: retrieval.TooEasy | None = None
 ) -> dict[str, Any]:
     """Of the segments that have a mate left, how many find one first; and how many they are."""
-    found = recognition.retrieve(stored, test.groups, too_easy)
+    found = retrieval.retrieve(stored, test.groups, too_easy)
     return {"top1": mean(found.right[found.has_mate]), "queries": int(found.has_mate.sum())}
 
 
 def by_points(test: TrainingSet, stored: Float32) -> Curve:
     """Recognition of small and of large segments."""
-    found = recognition.retrieve(stored, test.groups)
+    found = retrieval.retrieve(stored, test.groups)
     counts = test.segments.counts
     return [
         {
@@ -97,7 +96,7 @@ def altered(
         segments = change.segments(test.segments, np.random.default_rng(0), exactly=True)
         described = extractor.describe(segments, test.surroundings)
         asked = extractor.manifest.quantiser.rounded(described)
-    found = recognition.retrieve(stored, test.groups, queries=asked)
+    found = retrieval.retrieve(stored, test.groups, queries=asked)
     return {"top1": mean(found.right[found.has_mate])}
 
 
@@ -116,7 +115,7 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
         turned = np.asarray(projected @ turn, dtype=np.float32)
         for bits in (32, *REACH):
             kept = turned if bits == 32 else rounded(turned, bits)
-            found = recognition.retrieve(kept, test.groups)
+            found = retrieval.retrieve(kept, test.groups)
             curve.append(
                 {
                     "dimension": dimension,
@@ -146,7 +145,7 @@ def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, 
     parts of itself; `small`, under 250 points;
     `other`.
     """
-    found = recognition.retrieve(stored, test.groups)
+    found = retrieval.retrieve(stored, test.groups)
     missed = ~found.right
     counts = {"right": float(found.right.mean())}
     reasons = {

@@ -15,14 +15,14 @@ import numpy as np
 from placecell_client.maps.edit import take
 from scipy.optimize import minimize
 
-from bench.local import Local
-from bench.pose_queries import Pair, PoseQuery, joined, random_frame
-from bench.pose_report import RIGHT, reliability_of
+from evaluation.poses.local_service import Local
+from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame
+from evaluation.poses.report import RIGHT, reliability_of
+from evaluation.recognition.evaluate import machine
 from placecell.core.types import Bool, Float64, Int64
 from placecell.localization import Confidence, LocalisationParameters, Pose
 from placecell.localization.confidence import FEATURES
 from placecell.segmentation.pipeline import Progress, silent
-from training.evaluation import machine
 
 FEW = (6, 8, 12, 20)
 """Segments that are drawn of a frame, each in turn."""

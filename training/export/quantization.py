@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from placecell.descriptors.voxels import voxelise
-from training.networks import batches
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.methods.networks import batches
 
 CALIBRATION_SEGMENTS = 1024
 

@@ -24,9 +24,13 @@ from sklearn.ensemble import RandomForestClassifier
 from sklearn.linear_model import LogisticRegression
 from torch import Tensor, nn
 
+from evaluation.recognition.retrieval import (
+    area_under_roc,
+    best_threshold,
+    expected_calibration_error,
+)
 from placecell.core.types import Float32, Float64, Int64
-from training.export import to_onnx
-from training.recognition import area_under_roc, best_threshold, expected_calibration_error
+from training.export.onnx_graph import to_onnx
 
 TREES = 60
 LEAF = 20

@@ -5,7 +5,7 @@ from pathlib import Path
 from statistics import mean, stdev
 from typing import Any
 
-from training import plots
+from evaluation import plots
 
 FIGURES = {
     "top1_alone": "top1, alone",

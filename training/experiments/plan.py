@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from training.methods import METHODS
-from training.siamese import SiameseRecipe
+from training.methods.registry import METHODS
+from training.methods.siamese import SiameseRecipe
 
 EPOCHS_3D = {"group": 12, "siamese": 8, "contrastive": 6}
 """Of the `paper` network, an epoch of which costs ten times as much: what half an hour allows."""

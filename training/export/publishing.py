@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.recognition import retrieval
+from evaluation.recognition.evaluate import machine, measure
 from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from placecell.core.types import Float32, Int64
 from placecell.descriptors.eigenvalue import eigenvalue_descriptors
@@ -19,12 +21,10 @@ from placecell.descriptors.extractor import MODEL_FILE, Extractor, OnnxExtractor
 from placecell.descriptors.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from placecell.descriptors.quantizer import Quantiser
-from training import recognition
-from training.card import write_card
-from training.evaluation import machine, measure
-from training.methods import Trained
-from training.networks import describe
-from training.training_set import Source, TrainingSet
+from training.data.training_set import Source, TrainingSet
+from training.export.card import write_card
+from training.methods.networks import describe
+from training.methods.registry import Trained
 
 VALIDATION_SHARE = 0.1
 """Of the groups, held out whole."""
@@ -149,7 +149,7 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
 
 def stored_axes(trained: Trained, data: Data) -> tuple[Float32, Float32]:
     """Mean and principal axes of the descriptors: what is stored of them."""
-    from training.export import principal_axes
+    from training.export.onnx_graph import principal_axes
 
     return principal_axes(describe(trained.network, data.training.recorded()), STORED_DIMENSION)
 
@@ -163,9 +163,9 @@ def export_network(
         axes: of `stored_axes`.
     """
     # Torch's exporter is slow to import: only here.
-    from training.context import rotation
-    from training.export import Exported, ExportedContext, export_onnx
-    from training.quantisation import quantise
+    from training.export.onnx_graph import Exported, ExportedContext, export_onnx
+    from training.export.quantization import quantise
+    from training.methods.context import rotation
 
     recorded = data.training.recorded()
     segment = Exported(trained.network, *axes)
@@ -216,13 +216,13 @@ def finish(
     folder: Path, manifest: Manifest, data: Data, head: tuple[Any, Float32, Float32] | None
 ) -> Manifest:
     """Add pair classifier and thresholds, measure on the validation groups, as stored; save."""
-    from training.pair_classifier import HeldOut, Pairs, choose
+    from training.export.pair_classifier import HeldOut, Pairs, choose
 
     manifest.save(folder)
     extractor = load_extractor(folder)
 
     def pairs_of(part: TrainingSet, descriptors: Float32) -> Pairs:
-        drawn = recognition.draw_pairs(part.groups, recognition.PAIRS, np.random.default_rng(0))
+        drawn = retrieval.draw_pairs(part.groups, retrieval.PAIRS, np.random.default_rng(0))
         return Pairs.of(descriptors, *drawn)
 
     learned, held_out = (
@@ -235,7 +235,7 @@ def finish(
     groups = np.concatenate([data.validation.groups, data.training.groups + last + 1])
 
     def half(queries: Int64) -> HeldOut:
-        nearest = recognition.nearest_pairs(database, groups, queries)
+        nearest = retrieval.nearest_pairs(database, groups, queries)
         return HeldOut(
             pairs_of(data.validation.take(queries), held_out[queries]),
             Pairs.of(database, *nearest),
@@ -244,14 +244,14 @@ def finish(
     calibration, selection = map(half, data.validation.halves(0.5, seed=0))
     chosen = choose(
         pairs_of(data.training, learned), calibration, selection, head, folder / PAIR_FILE
-    ) | {"database": len(database), "nearest": recognition.CANDIDATES}
+    ) | {"database": len(database), "nearest": retrieval.CANDIDATES}
     distances = pairs_of(data.validation, held_out)
     is_match = distances.matches > 0.5
     lengths = distances.distances()
     manifest = replace(
         manifest.with_files(folder, [*manifest.files, PAIR_FILE]),
         pair=chosen,
-        pair_threshold=recognition.best_threshold(lengths[is_match], lengths[~is_match]),
+        pair_threshold=retrieval.best_threshold(lengths[is_match], lengths[~is_match]),
     )
     extractor.manifest = manifest
     figures = measure(

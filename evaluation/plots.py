@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from training.figure import figure
-from training.siamese import SiameseRecipe
+from evaluation.figure import figure
+from training.methods.siamese import SiameseRecipe
 
 Models = dict[str, dict[str, Any]]
 

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import onnxruntime
 
+from evaluation.recognition import retrieval
+from evaluation.recognition.evaluate import measure
 from placecell.core.parameters import SURROUNDINGS_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, Float64, Int64
@@ -15,11 +17,9 @@ from placecell.descriptors.extractor import Extractor, load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.orientation import align
 from placecell.descriptors.pair_classifier import load_pair_classifier
-from training import recognition
-from training.evaluation import measure
-from training.pair_classifier import Pairs, concatenated, train_forest
-from training.publishing import stored_descriptors
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.export.pair_classifier import Pairs, concatenated, train_forest
+from training.export.publishing import stored_descriptors
 
 
 def compare(
@@ -36,8 +36,8 @@ def compare(
     figures = measure(extractor, classifier, test.segments, test.groups, 0, test.surroundings)
     stored = stored_descriptors(extractor, test)
     codes = manifest.quantiser.encode(stored)
-    drawn = recognition.draw_pairs(test.groups, recognition.PAIRS, np.random.default_rng(0))
-    near, far = (recognition.pair_distances(stored, pairs) for pairs in drawn)
+    drawn = retrieval.draw_pairs(test.groups, retrieval.PAIRS, np.random.default_rng(0))
+    near, far = (retrieval.pair_distances(stored, pairs) for pairs in drawn)
     likely, unlikely = -near, -far
     if classifier is not None:
         likely, unlikely = (
@@ -47,7 +47,7 @@ def compare(
     if paper_forest:
         forest_near, forest_far = by_paper_forest(extractor, training, stored, drawn)
         compared = {
-            "auc": recognition.area_under_roc(forest_near, forest_far),
+            "auc": retrieval.area_under_roc(forest_near, forest_far),
             "roc": roc_curve(forest_near, forest_far),
         }
     edges = np.linspace(0, max(near.max(), far.max()), 61)
@@ -70,7 +70,7 @@ def by_paper_forest(
     extractor: Extractor, training: TrainingSet, stored: Float32, drawn: tuple[Int64, Int64]
 ) -> tuple[Float64, Float64]:
     """What the paper's forest, learned on the training set, says of drawn pairs of the test set."""
-    learned = recognition.draw_pairs(training.groups, recognition.PAIRS, np.random.default_rng(0))
+    learned = retrieval.draw_pairs(training.groups, retrieval.PAIRS, np.random.default_rng(0))
     pairs = Pairs.of(stored_descriptors(extractor, training), *learned)
     forest = train_forest(pairs, concatenated, seed=0)
     both = Pairs.of(stored, *drawn)

@@ -9,10 +9,10 @@ import numpy as np
 from placecell_client import CompactMap
 from scipy.spatial import cKDTree
 
-from bench.local import Local
-from bench.prepared import recording_of
-from bench.robot import Robot, clouds
-from bench.robots import robots_of_drive
+from evaluation.poses.local_service import Local
+from evaluation.poses.recordings import recording_of
+from evaluation.poses.robot import Robot, clouds
+from evaluation.poses.robots import robots_of_drive
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
 from placecell.datasets import open_drive

@@ -9,8 +9,8 @@ import torch
 from torch import Tensor, nn
 
 from placecell.core.types import Float32
-from training.context import Projection
-from training.networks import DescriptorNetwork
+from training.methods.context import Projection
+from training.methods.networks import DescriptorNetwork
 
 OPSET = 20
 

@@ -14,8 +14,8 @@ from torch import Tensor, nn
 
 from placecell.core.types import Float32
 from placecell.descriptors.voxels import voxelise
-from training.processor import has_bfloat16
-from training.training_set import TrainingSet
+from training.data.training_set import TrainingSet
+from training.methods.processor import has_bfloat16
 
 DIMENSION = 64
 """Of the descriptor, as in SegMap."""

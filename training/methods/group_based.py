@@ -13,13 +13,18 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from evaluation.recognition.retrieval import top1
 from placecell.core.types import Int64
-from training.augmentation import Augmentation
-from training.networks import DIMENSION, DescriptorNetwork, describe, normalisation_statistics
-from training.recognition import top1
-from training.run import Run
-from training.sgd import Sgd
-from training.training_set import TrainingSet
+from training.data.augmentation import Augmentation
+from training.data.training_set import TrainingSet
+from training.methods.networks import (
+    DIMENSION,
+    DescriptorNetwork,
+    describe,
+    normalisation_statistics,
+)
+from training.methods.run import Run
+from training.methods.sgd import Sgd
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,8 @@ from pathlib import Path
 from statistics import mean, stdev
 from typing import Any
 
-from training import plots
-from training.methods import METHODS
+from evaluation import plots
+from training.methods.registry import METHODS
 
 PAPER = {
     "eigenvalue": "about 6%",

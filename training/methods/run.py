@@ -12,7 +12,7 @@ import torch
 from rich.progress import Progress
 from torch import nn
 
-from training.processor import keep_freed_memory
+from training.methods.processor import keep_freed_memory
 
 Figures = dict[str, float]
 

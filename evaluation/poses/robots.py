@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.robot import Robot
+from evaluation.poses.robot import Robot
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.datasets import open_drive
 from placecell.segmentation.drive_splits import alternate_blocks, parameters_of

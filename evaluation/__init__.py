@@ -1,0 +1,1 @@
+"""Evaluation: measures recognition and poses on drives."""

@@ -1,0 +1,1 @@
+"""Evaluation of poses: queries with known answers and the report on them."""

@@ -1,0 +1,1 @@
+"""Evaluation of recognition: retrieval, match classification and the study."""

@@ -1,0 +1,1 @@
+"""Training data: the training set and its augmentation (paper III-A)."""

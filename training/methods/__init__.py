@@ -1,0 +1,1 @@
+"""Training methods: group-based, Siamese, contrastive, metric and context."""
