@@ -21,20 +21,20 @@ Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
 `origin.txt` takes it to the town frame); the *sensor frame* (x ahead, y left, z up).
 """
 
-from town.block import SceneObject
 from town.city import City
-from town.drive import ORIGIN_FILE, read_origin, write_drive
-from town.lidar import HDL_64E, Lidar
-from town.mesh import Mesh
-from town.odometry import ODOMETRY_FILE, Odometry
-from town.pair import Pair
-from town.pairs import draw_pairs
-from town.planner import Planner
-from town.robots import several_robots, two_robots, way_of
-from town.route import Route
-from town.scene import Scene
+from town.drives.drive import ORIGIN_FILE, read_origin, write_drive
+from town.drives.pair import Pair
+from town.drives.pairs import draw_pairs
+from town.drives.robots import several_robots, two_robots, way_of
+from town.drives.traversal import Traversal
+from town.geometry.mesh import Mesh
+from town.geometry.scene import Scene
+from town.objects.block import SceneObject
+from town.sensing.lidar import HDL_64E, Lidar
+from town.sensing.odometry import ODOMETRY_FILE, Odometry
+from town.streets.planner import Planner
+from town.streets.route import Route
 from town.town import Town
-from town.traversal import Traversal
 
 __all__ = [
     "HDL_64E",

@@ -9,17 +9,17 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from placecell.core.types import Float64, Int64
-from town.block import SceneObject, Site, furnish, garden
-from town.gap import gap_ends
-from town.ground import Ground
-from town.mesh import Mesh
-from town.network import DESIGNS, OWN, Network
-from town.plan import Crossing, Frontage
-from town.planner import Planner
-from town.route import Route
-from town.terrace import Terrace
+from town.geometry.mesh import Mesh
+from town.objects.block import SceneObject, Site, furnish, garden
+from town.objects.terrace import Terrace
+from town.objects.traffic import traffic_along
+from town.streets.gap import gap_ends
+from town.streets.ground import Ground
+from town.streets.network import DESIGNS, OWN, Network
+from town.streets.plan import Crossing, Frontage
+from town.streets.planner import Planner
+from town.streets.route import Route
 from town.tiles import Tiles
-from town.traffic import traffic_along
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from functools import lru_cache, partial
 import numpy as np
 
 from placecell.core.types import Float64
-from town.mesh import Mesh
-from town.scene import Scene
+from town.geometry.mesh import Mesh
+from town.geometry.scene import Scene
 
 CELL = 80.0
 """A scene serves a square of this edge, metres."""

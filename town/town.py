@@ -5,13 +5,13 @@ from typing import Self
 
 import numpy as np
 
-from town.block import SceneObject, furnish
-from town.ground import Ground
-from town.mesh import Mesh
-from town.plan import Plan
-from town.scene import Scene, WholeTown
-from town.terrain import Terrain
-from town.traffic import traffic
+from town.geometry.mesh import Mesh
+from town.geometry.scene import Scene, WholeTown
+from town.objects.block import SceneObject, furnish
+from town.objects.traffic import traffic
+from town.streets.ground import Ground
+from town.streets.plan import Plan
+from town.streets.terrain import Terrain
 
 
 @dataclass(frozen=True, slots=True)

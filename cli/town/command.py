@@ -87,7 +87,7 @@ def town(
         if drawn:
             write_json(drawn, output / "pairs.json")
         if picture:
-            from town.picture import draw_plan
+            from town.drives.picture import draw_plan
 
             draw_plan(picture, city, way, drives)
         write_json(figures, json_file)

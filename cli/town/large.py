@@ -7,7 +7,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from town import City, Route
-    from town.planner import Way
+    from town.streets.planner import Way
 
 
 def planned(city: "City", text: str) -> "Way":

@@ -5,8 +5,8 @@ import pytest
 
 from placecell.core.types import Float32, Float64
 from town import HDL_64E, City, Mesh, Scene, Town
-from town.ground import Ground
-from town.plan import KERB_HEIGHT
+from town.streets.ground import Ground
+from town.streets.plan import KERB_HEIGHT
 from town.tiles import SLACK, Tiles
 
 NOISELESS = replace(HDL_64E, columns=180, range_noise=0.0, dropout=0.0)
@@ -146,7 +146,7 @@ def test_rows_of_identical_houses_stand_in_different_streets() -> None:
 
 def test_the_ends_of_gaps_are_planted(city: City) -> None:
     """A street that is missing would else show the bare ground between two rows of houses."""
-    from town.gap import gap_ends
+    from town.streets.gap import gap_ends
 
     network = city.network
     ends = [end for tile in tiles_of(city) for end in gap_ends(network, *tile)]

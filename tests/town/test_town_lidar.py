@@ -5,7 +5,7 @@ import pytest
 
 from placecell.core.types import Float32, Float64
 from town import HDL_64E, Lidar, Mesh, Scene
-from town.shapes import box
+from town.geometry.shapes import box
 
 COLUMNS = 360
 NOISELESS = replace(HDL_64E, columns=COLUMNS, range_noise=0.0, dropout=0.0, resolution=1e-6)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from town.network import LONGEST, OWN, Network, arc_length, components, thinned
+from town.streets.network import LONGEST, OWN, Network, arc_length, components, thinned
 
 
 @pytest.fixture(scope="module")

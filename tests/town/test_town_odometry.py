@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from placecell.core.types import Float64
-from town.odometry import Odometry
+from town.sensing.odometry import Odometry
 
 
 def straight(metres: int) -> Float64:

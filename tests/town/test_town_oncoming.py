@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from town import HDL_64E, Mesh, Route, Scene, Town
-from town.oncoming import NEAR, Oncoming
-from town.scene import Layers
-from town.shapes import box
+from town.drives.oncoming import NEAR, Oncoming
+from town.geometry.scene import Layers
+from town.geometry.shapes import box
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,8 @@ from scipy.spatial import cKDTree
 
 from placecell.core.types import Float64
 from town import City, Pair, Route, Traversal, draw_pairs
-from town.network import OWN
-from town.pairs import APART, Drawer, means
+from town.drives.pairs import APART, Drawer, means
+from town.streets.network import OWN
 
 METRES = 150.0
 COUNT = 12

@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from placecell.core.types import Float64, Int64
-from town.network import Network
-from town.planner import Planner, Way
-from town.postman import postman
+from town.streets.network import Network
+from town.streets.planner import Planner, Way
+from town.streets.postman import postman
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from town import Route, Town
-from town.route import arc_lengths
+from town.streets.route import arc_lengths
 
 
 @pytest.fixture(scope="module")

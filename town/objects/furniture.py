@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from town.mesh import Mesh, Reflectance
-from town.shapes import box, circle, pole, prism
+from town.geometry.mesh import Mesh, Reflectance
+from town.geometry.shapes import box, circle, pole, prism
 
 Furniture = Callable[[np.random.Generator], Mesh]
 """Makes one piece."""

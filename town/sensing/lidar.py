@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from placecell.core.types import Float32, Float64
-from town.scene import Surfaces
+from town.geometry.scene import Surfaces
 
 
 def hdl_64e_elevations() -> tuple[float, ...]:

@@ -7,9 +7,9 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Bool, Float64, Int64
-from town.mesh import Mesh, Reflectance
-from town.plan import KERB_HEIGHT, Plan
-from town.terrain import Terrain
+from town.geometry.mesh import Mesh, Reflectance
+from town.streets.plan import KERB_HEIGHT, Plan
+from town.streets.terrain import Terrain
 
 GROUND_CELL = 2.0
 """Largest edge of the mesh's cells, metres: the hills stay within a millimetre of it."""

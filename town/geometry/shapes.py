@@ -6,7 +6,7 @@ Every shape is in its object's own frame: metres, z up, z = 0 at the ground.
 import numpy as np
 
 from placecell.core.types import Float64
-from town.mesh import Mesh
+from town.geometry.mesh import Mesh
 
 ICOSAHEDRON_FACES = np.array(
     [

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
-from town.mesh import Mesh
+from town.geometry.mesh import Mesh
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 from placecell.datasets.kitti_odometry import KittiOdometry
 from town.city import City
-from town.drive import read_origin
-from town.network import DESIGNS, OWN
-from town.odometry import ODOMETRY_FILE
-from town.route import Route
+from town.drives.drive import read_origin
+from town.sensing.odometry import ODOMETRY_FILE
+from town.streets.network import DESIGNS, OWN
+from town.streets.route import Route
 
 
 def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> None:

@@ -9,8 +9,8 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
-from town.plan import Crossing, Plan
-from town.terrain import Terrain
+from town.streets.plan import Crossing, Plan
+from town.streets.terrain import Terrain
 from town.town import Town
 
 CORNER_RADIUS = 9.0

@@ -6,10 +6,10 @@ from string import ascii_lowercase
 
 from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
-from town.drive import check, write_drive
-from town.lidar import HDL_64E, Lidar
-from town.odometry import Odometry
-from town.route import Route, arc_lengths
+from town.drives.drive import check, write_drive
+from town.sensing.lidar import HDL_64E, Lidar
+from town.sensing.odometry import Odometry
+from town.streets.route import Route, arc_lengths
 from town.town import Town
 
 

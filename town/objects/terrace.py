@@ -6,11 +6,11 @@ from typing import Self
 
 import numpy as np
 
-from town.block import LOT_DEPTH, SceneObject, Site, boundary, kerbside
-from town.house import house
-from town.mesh import Mesh
-from town.plan import Frontage
-from town.terrain import Terrain
+from town.geometry.mesh import Mesh
+from town.objects.block import LOT_DEPTH, SceneObject, Site, boundary, kerbside
+from town.objects.house import house
+from town.streets.plan import Frontage
+from town.streets.terrain import Terrain
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +18,7 @@ class Terrace:
     """One house, and how it is set down again and again.
 
     Attributes:
-        house: in its own frame (see `town.house`).
+        house: in its own frame (see `town.objects.house`).
         width: of it along the street, metres.
         gap: to the next, metres.
         setback: of its front behind the pavement, metres.

@@ -10,8 +10,8 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from placecell.core.types import Bool, Float64, Int64
-from town.plan import Crossing, Plan
-from town.terrain import Terrain
+from town.streets.plan import Crossing, Plan
+from town.streets.terrain import Terrain
 
 LONGEST = 200_000.0
 """Metres of streets. Rays are cast in float32, which is half a millimetre coarse that far out."""
@@ -120,7 +120,7 @@ class Network:
         return int(self.designs[street])
 
     def raised(self) -> Bool:
-        """Where the ground is a kerb higher than a carriageway, by region (see `town.ground`)."""
+        """Where the ground is a kerb higher than a carriageway, by region (see `town.streets.ground`)."""
         columns, rows = len(self.plan.easts), len(self.plan.norths)
         raised = np.zeros((2 * columns + 3, 2 * rows + 3), dtype=bool)
         raised[1:-1, 1:-1] = True

@@ -15,9 +15,9 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from placecell.core.types import Float64, Int64
-from town.network import Network
-from town.plan import Crossing
-from town.postman import postman
+from town.streets.network import Network
+from town.streets.plan import Crossing
+from town.streets.postman import postman
 
 Way = list[Crossing]
 

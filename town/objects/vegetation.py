@@ -5,8 +5,8 @@ Their origin is the foot's middle (a hedge's: its left end), z = 0 at the ground
 
 import numpy as np
 
-from town.mesh import Mesh, Reflectance
-from town.shapes import blob, circle, leaves, loft, pole
+from town.geometry.mesh import Mesh, Reflectance
+from town.geometry.shapes import blob, circle, leaves, loft, pole
 
 
 def tree(rng: np.random.Generator) -> Mesh:

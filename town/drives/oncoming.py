@@ -6,9 +6,9 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
-from town.car import car
-from town.mesh import Mesh
-from town.route import Route
+from town.geometry.mesh import Mesh
+from town.objects.car import car
+from town.streets.route import Route
 
 NEAR = 80.0
 """Cars farther from the sensor are left out, metres."""

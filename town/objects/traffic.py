@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from town.block import SceneObject
-from town.car import car, person
-from town.plan import BAY_WIDTH, KERB_HEIGHT, Frontage, Plan
-from town.terrain import Terrain
+from town.objects.block import SceneObject
+from town.objects.car import car, person
+from town.streets.plan import BAY_WIDTH, KERB_HEIGHT, Frontage, Plan
+from town.streets.terrain import Terrain
 
 
 def traffic(plan: Plan, terrain: Terrain, seed: int) -> Iterator[SceneObject]:

@@ -12,11 +12,11 @@ from placecell.datasets.errors import DriveError
 from placecell.datasets.kitti_odometry import as_transforms
 from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
-from town.lidar import HDL_64E, Lidar
-from town.odometry import ODOMETRY_FILE, Odometry
-from town.oncoming import Oncoming
-from town.route import Route
-from town.scene import Layers, Scene, Scenes, Surfaces
+from town.drives.oncoming import Oncoming
+from town.geometry.scene import Layers, Scene, Scenes, Surfaces
+from town.sensing.lidar import HDL_64E, Lidar
+from town.sensing.odometry import ODOMETRY_FILE, Odometry
+from town.streets.route import Route
 from town.town import Town
 
 SENSOR_TO_CAMERA = np.array(

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from town.furniture import (
+from town.geometry.mesh import Mesh
+from town.objects.furniture import (
     Furniture,
     advertising_column,
     bicycles,
@@ -18,11 +19,10 @@ from town.furniture import (
     lamp_post,
     traffic_sign,
 )
-from town.house import house
-from town.mesh import Mesh
-from town.plan import KERB_HEIGHT, Frontage
-from town.terrain import Terrain
-from town.vegetation import bush, hedge, tree
+from town.objects.house import house
+from town.objects.vegetation import bush, hedge, tree
+from town.streets.plan import KERB_HEIGHT, Frontage
+from town.streets.terrain import Terrain
 
 LOT_DEPTH = 14.0
 """A side's houses end this far before the corner: the next side's first house stands there."""

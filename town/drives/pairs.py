@@ -12,9 +12,9 @@ from scipy.spatial import cKDTree
 
 from placecell.core.types import Bool, Float64, Int64
 from town.city import City
-from town.network import OWN
-from town.pair import Pair
-from town.traversal import Traversal
+from town.drives.pair import Pair
+from town.drives.traversal import Traversal
+from town.streets.network import OWN
 
 SAME_STREET = 7.0
 """Scans of two drives nearer to one another than this are in the same street, metres."""

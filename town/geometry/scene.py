@@ -7,7 +7,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
 from placecell.core.types import Float32, Float64, Int32
-from town.mesh import Mesh
+from town.geometry.mesh import Mesh
 
 
 class Scene:

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from placecell.core.types import Float64
-from town.annexe import ANNEXES
-from town.mesh import Mesh, Reflectance
-from town.shapes import box, loft, pole, relief
+from town.geometry.mesh import Mesh, Reflectance
+from town.geometry.shapes import box, loft, pole, relief
+from town.objects.annexes import ANNEXES
 
 FOUNDATION = 1.0
 """Walls go this far into the ground, so that none floats on a slope."""

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from town.mesh import Mesh, Reflectance
-from town.shapes import box, loft, pole
+from town.geometry.mesh import Mesh, Reflectance
+from town.geometry.shapes import box, loft, pole
 
 Annexe = Callable[[np.random.Generator], Mesh]
 """Makes one piece, from x = 0 on."""

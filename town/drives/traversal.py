@@ -6,9 +6,9 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
-from town.drive import levelled, scan_distances
-from town.lidar import HDL_64E
-from town.route import Route
+from town.drives.drive import levelled, scan_distances
+from town.sensing.lidar import HDL_64E
+from town.streets.route import Route
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from placecell.core.types import Float64
-from town.mesh import Mesh, Reflectance
-from town.shapes import blob, box, circle, loft, pole
+from town.geometry.mesh import Mesh, Reflectance
+from town.geometry.shapes import blob, box, circle, loft, pole
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from town.network import Network
-from town.plan import Frontage
+from town.streets.network import Network
+from town.streets.plan import Frontage
 
 
 def gap_ends(network: Network, column: int, row: int) -> Iterator[Frontage]:

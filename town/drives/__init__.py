@@ -1,0 +1,1 @@
+"""Drives: simulated recordings of one or several robots."""

@@ -1,0 +1,1 @@
+"""Geometry: triangle meshes, solids and ray casting."""

@@ -1,0 +1,1 @@
+"""Objects along the streets: houses, furniture, vegetation and cars."""

@@ -1,0 +1,1 @@
+"""Sensing: the simulated LiDAR and the odometry."""

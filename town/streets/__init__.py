@@ -1,0 +1,1 @@
+"""Streets: terrain, street plan, street network and routes."""
