@@ -81,7 +81,7 @@ lock: .venv-lock/stamp  ## Write requirements/*.txt anew, after constraints.txt 
 # What we are compared with pins NumPy and more otherwise than we do.
 peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench peers'
 
-.venv-peers/stamp: bench/peers/requirements.txt
+.venv-peers/stamp: benchmarks/peers/requirements.txt
 	$(PYTHON) -m venv .venv-peers
 	.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --requirement $<
 	touch $@

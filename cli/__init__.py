@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from cli.ablations import ablations
-from cli.benches import bench
+from cli.bench import bench
 from cli.config import config
 from cli.demo import demo
 from cli.drive_options import takes_drives

@@ -11,7 +11,7 @@ from cli.sources import clear_errors, fail, show
 from cli.tables import JsonFile, new_table, print_tables, write_json
 
 if TYPE_CHECKING:
-    from bench.meeting import Meeting
+    from demo.meeting import Meeting
 
 
 def demo(
@@ -32,8 +32,8 @@ def demo(
     one. Ends with status 0 only if that came out right; on a drive of less than 24 m robot B must
     be recognised, and the rest is told.
     """
-    from bench.demo import is_short, run
-    from bench.meeting import elsewhere
+    from demo.meeting import elsewhere
+    from demo.run import is_short, run
     from evaluation.poses.queries import random_frame
     from evaluation.poses.robots import robots_of_drive, robots_of_town
     from placecell.descriptors.manifest import Manifest

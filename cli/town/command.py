@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from cli.benches.options import write_json
+from cli.bench.options import write_json
 from cli.sources import clear_errors, show
 from cli.town import options
 from cli.town.large import pairs_of, planned

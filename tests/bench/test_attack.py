@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.attack import suite
-from bench.attack.cases import CASES
-from bench.attack.stage import VICTIM_MAP, Case, Stage
-from bench.attack.suite import AttackPlan, run_case
-from bench.attack.target import OWNER
+from benchmarks.attack import suite
+from benchmarks.attack.cases import CASES
+from benchmarks.attack.stage import VICTIM_MAP, Case, Stage
+from benchmarks.attack.suite import AttackPlan, run_case
+from benchmarks.attack.target import OWNER
 from cli import app
 
 PLAN = AttackPlan(short=True)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.describe import Plan, bench, draw, ratio
-from bench.networks import files, paper_network, precision
-from bench.scans import draw_scans
+from benchmarks.load.describe import Plan, bench, draw, ratio
+from benchmarks.load.networks import files, paper_network, precision
+from benchmarks.scans import draw_scans
 from cli import app
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
@@ -141,7 +141,8 @@ def test_scans_are_drawn_whole_and_again_where_they_are_few() -> None:
 def test_command_takes_segments_from_the_town(
     workbench: Path, report: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from bench import describe, scans
+    from benchmarks import scans
+    from benchmarks.load import describe
 
     shorter = scans.town_recording
     monkeypatch.setattr(

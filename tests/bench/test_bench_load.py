@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bench import serve, soak, workload
-from bench.load import Load, Outcome, request_of, run
-from bench.rates import rate
+from benchmarks.load import serve, soak, workload
+from benchmarks.load.generator import Load, Outcome, request_of, run
+from benchmarks.load.rates import rate
 from placecell.core.segments import Segments
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench import localize
-from bench.localize import Plan, road_with_queries
-from bench.map_content import VIEWS, Views
+from benchmarks.load import localize
+from benchmarks.load.localize import Plan, road_with_queries
+from benchmarks.map_content import VIEWS, Views
 from cli import app
 from evaluation.poses.queries import random_frame
 from placecell.descriptors.extractor import load_extractor

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from bench import map_writers
-from bench.map_writers import Plan
+from benchmarks.storage import map_writers
+from benchmarks.storage.map_writers import Plan
 from cli import app
 from tests.bench.test_ladder import recorded_from_two_places
 

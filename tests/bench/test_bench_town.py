@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from bench.town import bench
+from benchmarks.town import bench
 
 
 def test_figures_are_of_what_was_driven(tmp_path: Path) -> None:

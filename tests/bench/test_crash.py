@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from bench import powerloss
-from bench.powerloss import Plan, replay
-from bench.recorded_run import RecordedRun, record
+from benchmarks.durability.power_loss import power_loss
+from benchmarks.durability.power_loss.power_loss import Plan, replay
+from benchmarks.durability.power_loss.recorded_run import RecordedRun, record
 from cli import app
 
 
@@ -85,7 +85,7 @@ def test_what_is_not_synced_is_seen_to_be_lost(recorded: RecordedRun, tmp_path: 
 def test_power_cuts_are_reported(
     tmp_path: Path, recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(powerloss, "record", lambda *_: recorded)
+    monkeypatch.setattr(power_loss, "record", lambda *_: recorded)
     report = report_of(tmp_path / "powerloss.json", "powerloss", "--writes", 16, "--cuts", 3)
     assert report["writes"] == 16
     assert report["power_cuts"] > 0

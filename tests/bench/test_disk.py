@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from bench.disk import SECTOR, Disk, Keep, write
-from bench.disk_log import Step, steps_of
+from benchmarks.durability.power_loss.disk import SECTOR, Disk, Keep, write
+from benchmarks.durability.power_loss.disk_log import Step, steps_of
 
 DRAW = random.Random(0)
 ROOT = "/data"

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.floors import CASES, Case, bench, loaded, run
-from bench.map_content import Views
+from benchmarks.localization.floors import CASES, Case, bench, loaded, run
+from benchmarks.map_content import Views
 from cli import app
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.inference.model_registry import Model

@@ -2,8 +2,8 @@
 
 import pytest
 
-from bench.journal import Journal, Verdict
-from bench.past import Past, Version
+from benchmarks.durability.journal import Journal, Verdict
+from benchmarks.durability.past import Past, Version
 
 
 def past(*files: bytes, first: int = 1) -> Past:

@@ -1,4 +1,4 @@
-from bench.json_requests import bench
+from benchmarks.load.json_requests import bench
 
 
 def test_the_report_names_its_baseline_and_has_both_readers() -> None:

@@ -9,9 +9,9 @@ import pytest
 from placecell_client import decode, encode
 from typer.testing import CliRunner
 
-from bench import ladder as ladders
-from bench.ladder import draw, ladder, stored_as
-from bench.map_content import VIEWS, Views, map_of
+from benchmarks.map_content import VIEWS, Views, map_of
+from benchmarks.storage import ladder as ladders
+from benchmarks.storage.ladder import draw, ladder, stored_as
 from cli import app
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float32

@@ -7,7 +7,7 @@ from typing import Any, cast
 import pytest
 from placecell_client import Client, ServiceError
 
-from bench.meeting import meet
+from demo.meeting import meet
 from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair
 from tests.bench.drive_builders import trip

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.peers.frames import Stretch, frames_of, stretches_of_one, stretches_of_two
+from benchmarks.peers.frames import Stretch, frames_of, stretches_of_one, stretches_of_two
 from evaluation.poses.evaluate import evaluate
 from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair, described, random_frame

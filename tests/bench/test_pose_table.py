@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from bench.pose_table import comparison, in_full, read
+from benchmarks.localization.pose_tables import comparison, in_full, read
 from cli import app
 
 REPORT: dict[str, Any] = {

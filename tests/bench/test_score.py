@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bench.score import score
+from demo.score import score
 from evaluation.poses.robot import Answer
 
 

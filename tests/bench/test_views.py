@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.views import views
+from benchmarks.storage.views import views
 from cli import app
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import BASELINE, MODELS_FOLDER

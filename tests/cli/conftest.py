@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from placecell_client import CompactMap
 
-from bench.map_content import map_of
-from bench.server import running_service
+from benchmarks.map_content import map_of
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from service.child_process import running_service
 
 
 @pytest.fixture(scope="module")

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bench.demo import Outcome
-from bench.meeting import Meeting, Told
-from bench.score import Score
 from cli import app
+from demo.meeting import Meeting, Told
+from demo.run import Outcome
+from demo.score import Score
 from evaluation.poses.robot import Robot
 from placecell.localization import Pose
 from tests.segments.segment_builders import MemoryDrive, pose
@@ -41,7 +41,7 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         score = Score(10, 10, 0.01, {1: found}, np.ones(10, dtype=bool))
         outcome = Outcome(score, {"model_id": "tiny"}, meeting)
         monkeypatch.setattr("evaluation.poses.robots.robots_of_drive", lambda *_: robots)
-        monkeypatch.setattr("bench.demo.run", lambda *_: outcome)
+        monkeypatch.setattr("demo.run.run", lambda *_: outcome)
         words = ["demo", "--drive", str(tmp_path), "--output", str(tmp_path)]
         done = CliRunner().invoke(app, words)
         return done.exit_code, " ".join(done.output.split())

@@ -15,9 +15,9 @@ import typer
 from placecell_client import Client, encode
 from typer.testing import CliRunner
 
-from bench.server import running_service
 from cli import app
 from cli.errors import plain
+from service.child_process import running_service
 
 
 def leaves(

@@ -14,8 +14,8 @@ from placecell_client import Client, CompactMap, Delta, decode, encode, encode_d
 from placecell_client.maps.edit import apply, take
 from typer.testing import CliRunner
 
-from bench.server import running_service
 from cli import app
+from service.child_process import running_service
 from tests.cli.maps_command import bad, good
 
 

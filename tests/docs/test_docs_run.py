@@ -24,12 +24,12 @@ import typer
 from placecell_client import Client, CompactMap, Delta, encode, encode_delta
 from placecell_client.maps.edit import take
 
-from bench.map_content import map_of
-from bench.server import running_service
+from benchmarks.map_content import map_of
 from cli import app
 from placecell.datasets import KittiOdometry
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from service.child_process import running_service
 from tests.docs import http_examples
 from tests.segments.segment_builders import pose, write_odometry
 from town import ODOMETRY_FILE

@@ -11,11 +11,11 @@ import pytest
 from placecell_client import Client, CompactMap, Delta
 from placecell_client.maps.edit import take
 
-from bench.map_content import map_of
-from bench.server import running_service
+from benchmarks.map_content import map_of
 from cli.reference.routes import openapi, routes_of
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from service.child_process import running_service
 from tests.docs.http_examples import PAGE, Example, examples, prepare, run
 
 EXAMPLES = list(examples(PAGE.read_text(encoding="utf-8")))

@@ -12,9 +12,9 @@ import httpx
 import pytest
 from placecell_client import encode
 
-from bench.server import Service
 from placecell.descriptors.manifest import Manifest
 from service.api.state import StartError
+from service.child_process import Service
 from tests.service.faulty_disk import failing, make_read_only, small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
 

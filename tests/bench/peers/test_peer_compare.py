@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import bench
-from bench.peers.compare import ask
-from bench.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
-from bench.peers.runner import PACKAGES, PEERS
-from bench.peers.score import outcome_of
+import benchmarks
+from benchmarks.peers.compare import ask
+from benchmarks.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
+from benchmarks.peers.runner import PACKAGES, PEERS
+from benchmarks.peers.score import outcome_of
 from cli import app
 from tests.segments.segment_builders import pose, write_odometry
 from town import two_robots
 
-ENVIRONMENT = Path(bench.__file__).parents[1] / ".venv-peers" / "bin" / "python"
+ENVIRONMENT = Path(benchmarks.__file__).parents[1] / ".venv-peers" / "bin" / "python"
 HERE = Path(sys.executable)
 
 
@@ -120,7 +120,7 @@ def test_drives_without_a_common_frame_are_refused(tmp_path: Path) -> None:
 
 LOAD = """
 import sys
-from bench.peers import exchange, runner, scan_context
+from benchmarks.peers import exchange, runner, scan_context
 names = {name.partition(".")[0] for name in sys.modules}
 print(*names)
 """
@@ -129,7 +129,7 @@ print(*names)
 def test_the_runner_needs_none_of_our_packages() -> None:
     done = subprocess.run(
         [sys.executable, "-c", LOAD],
-        cwd=Path(bench.__file__).parents[1], capture_output=True, text=True, check=True,
+        cwd=Path(benchmarks.__file__).parents[1], capture_output=True, text=True, check=True,
     )  # fmt: skip
     loaded = set(done.stdout.split())
     assert not loaded & {"segments", "training", "service", "numba", "onnxruntime", "faiss"}

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.peers.exchange import (
+from benchmarks.peers.exchange import (
     NOTHING,
     Answer,
     Estimate,

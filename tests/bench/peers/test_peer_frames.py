@@ -3,8 +3,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.peers.exchange import query_files, read_map
-from bench.peers.frames import (
+from benchmarks.peers.exchange import query_files, read_map
+from benchmarks.peers.frames import (
     Stretch,
     map_poses,
     near_map,

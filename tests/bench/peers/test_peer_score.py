@@ -3,8 +3,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bench.peers.exchange import NOTHING, Answer, Estimate, Peer
-from bench.peers.score import outcome_of, score
+from benchmarks.peers.exchange import NOTHING, Answer, Estimate, Peer
+from benchmarks.peers.score import outcome_of, score
 from tests.segments.segment_builders import pose
 
 PEER = Peer("somebody", {"voxel": 0.3}, {"numpy": "2"}, 1.5)

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bench.peers.exchange import NOTHING, Cloud, MapFrame
-from bench.peers.scan_context import (
+from benchmarks.peers.exchange import NOTHING, Cloud, MapFrame
+from benchmarks.peers.scan_context import (
     ScanContextParameters,
     ScanContextPeer,
     ScanContexts,

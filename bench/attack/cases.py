@@ -1,8 +1,0 @@
-"""All attack cases, ordered by fault row."""
-
-from bench.attack import connections, storage, tenants, work
-from bench.attack.stage import Case
-
-_ALL = (*work.CASES, *connections.CASES, *storage.CASES, *tenants.CASES)
-
-CASES: tuple[Case, ...] = tuple(sorted(_ALL, key=lambda case: int(case.id[1:])))

@@ -1,0 +1,8 @@
+"""All attack cases, ordered by fault row."""
+
+from benchmarks.attack import connections, storage, tenants, work
+from benchmarks.attack.stage import Case
+
+_ALL = (*work.CASES, *connections.CASES, *storage.CASES, *tenants.CASES)
+
+CASES: tuple[Case, ...] = tuple(sorted(_ALL, key=lambda case: int(case.id[1:])))

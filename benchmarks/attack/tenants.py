@@ -1,0 +1,416 @@
+"""Attacks on what one key learns or takes from another: A9, A12, A19, A20, A21, A25, A26."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from urllib.parse import urljoin
+
+import msgpack  # type: ignore[import-untyped]
+import numpy as np
+from placecell_client import Delta, encode
+from placecell_client.maps.edit import take, with_optional
+
+from benchmarks.attack.stage import NONE, Case, Stage, delta_of, kind_of, with_columns
+from benchmarks.attack.target import HALL, OWNER, READER, RIGHTS, ROBOT, VICTIM, Target
+from benchmarks.attack.wire import ATTACKER, JSON, MAP, MSGPACK, Answer, Request, edit, raw
+from benchmarks.made_map import Kind
+from placecell.core.types import UInt32
+
+ROOT = Path(__file__).resolve().parents[2]
+"""Root folder of the checkout."""
+
+SECRET = "secret-lab"
+"""Name of a map that the key of `hall-*` must not learn."""
+
+
+def foreign_pages(stage: Stage) -> None:
+    """A9: a foreign site's page and a rebound name, against a service without keys."""
+    with stage.service(with_keys=False) as target:
+        kind = kind_of(target)
+        here = target.address.removeprefix("http://")
+        port = here.rpartition(":")[2]
+        evil = {"Host": here, "Origin": "http://evil.example"}
+        pages = {
+            "foreign origin": evil,
+            "null origin": {"Host": here, "Origin": "null"},
+            "cross-site fetch": {"Host": here, "Sec-Fetch-Site": "cross-site"},
+            "same-site fetch": {"Host": here, "Sec-Fetch-Site": "same-site"},
+            "origin that begins alike": {"Host": here, "Origin": "http://127.0.0.1.evil.example"},
+            "origin of another port": {"Host": here, "Origin": "http://127.0.0.1:1"},
+            "rebound name": {
+                "Host": f"evil.example:{port}",
+                "Origin": f"http://evil.example:{port}",
+            },
+            "rebound name, no origin": {"Host": f"evil.example:{port}"},
+            "name that begins alike": {"Host": f"localhost.evil.example:{port}"},
+            "address that begins alike": {"Host": f"127.0.0.1.evil.example:{port}"},
+            "loopback as user": {"Host": f"127.0.0.1@evil.example:{port}"},
+        }
+        writes = [
+            ("DELETE", "/maps/precious"),
+            ("POST", "/maps/precious/age?unseen_since=4000000000"),
+            ("POST", "/maps/precious/compact"),
+            ("POST", "/maps/precious/versions/1/restore"),
+            ("POST", "/maps/precious/ids?count=1000000"),
+            ("POST", "/models/reload"),
+        ]
+        for name, headers in pages.items():
+            _put_precious(stage, target, kind)
+            rebound = "Host" in headers and headers["Host"] != here
+            reads = [("GET", "/maps"), ("GET", "/maps/precious")] if rebound else []
+            for method, path in (*reads, *writes):
+                status = _status(target, method, path, headers)
+                stage.found.statuses[str(status)] += 1
+                stage.expect(
+                    400 <= status < 500 and status != 404,
+                    f"{name}: {method} {path} was answered {status}.",
+                )
+        good = {
+            "address": {"Host": here},
+            "name": {"Host": f"localhost:{port}"},
+            "IPv6": {"Host": f"[::1]:{port}"},
+            "own page": {
+                "Host": here, "Origin": target.address, "Sec-Fetch-Site": "same-origin"
+            },
+            "typed by a user": {"Host": here, "Sec-Fetch-Site": "none"},
+        }  # fmt: skip
+        _put_precious(stage, target, kind)
+        for name, headers in good.items():
+            for method, path in (("GET", "/maps"), ("POST", "/maps/precious/ids?count=1")):
+                status = _status(target, method, path, headers)
+                stage.expect(status == 200, f"{name}: {method} {path} was answered {status}.")
+
+
+def broken_key_file(stage: Stage) -> None:
+    """A12: a key is withdrawn from a file that has a typo or is deleted."""
+    with stage.service() as target:
+        assert target.keys_file is not None
+        whole = target.keys_file.read_text()
+        withdrawn = re.sub(rf"\[{ROBOT}\].*?(?=\n\n)", "", whole, flags=re.DOTALL)
+        before = _key_metrics(stage, target)
+        files = {
+            "a typo": withdrawn + "\n[broken\n",
+            "an unknown field": withdrawn + f'\n[new]\nsha256 = "{"0" * 64}"\nwrites = true\n',
+            "no content": "",
+            "no file": None,
+        }
+        for name, content in files.items():
+            if content is None:
+                target.keys_file.unlink()
+            else:
+                target.keys_file.write_text(content)
+            time.sleep(0.05)
+            used = stage.ask(target, Request("GET", "/maps", key=ROBOT))
+            ready = stage.ask(target, Request("GET", "/readyz"))
+            broken = _key_metrics(stage, target)
+            stage.note(f"{name}: the withdrawn key", used.status)
+            if name == "no content":  # a good file, of no keys
+                stage.expect(used.status == 401, f"{name}: a withdrawn key is {used.status}.")
+                continue
+            # It stays ready as long as a key works, but says what needs somebody.
+            stage.expect(
+                ready.status == 503 or "key" in ready.text.lower(),
+                f"{name}: /readyz is {ready.status} and tells nothing of the keys.",
+            )
+            stage.expect(
+                broken != before and bool(broken), f"{name}: no metric tells of the file of keys."
+            )
+        target.keys_file.write_text(withdrawn)
+        time.sleep(0.05)
+        used = stage.ask(target, Request("GET", "/maps", key=ROBOT))
+        stage.expect(used.status == 401, f"A withdrawn key is answered {used.status}.")
+        ready = stage.ask(target, Request("GET", "/readyz"))
+        stage.expect(ready.status == 200, f"With a good file again /readyz is {ready.status}.")
+
+
+def foreign_names(stage: Stage) -> None:
+    """A19: names of other maps and keys that a key of `hall-*` sees."""
+    with stage.service({"PLACECELL_LIMITS__ROBOT_SEGMENTS": "50"}) as target:
+        kind = kind_of(target)
+        client = target.client(OWNER)
+        owned = kind.made("shared-robot", _ids(1, 37), stage.random)
+        client.put_map(SECRET, owned)
+        merged = with_columns(
+            with_optional(kind.made("hall-robot", _ids(1, 4), stage.random), ()),
+            source=np.array([0, 1, 1, 2], np.uint16),
+            source_ids=np.array([1, 7, 8, 3], np.uint32),
+            sources=(SECRET, "hall-b"),
+        )
+        client.put_map("hall-a", merged)
+        client.edit_map("hall-a", Delta(kind.made("hall-robot", _ids(9, 1), stage.random), NONE))
+        codes = merged.codes[:2].tobytes()
+        match = {"model_id": kind.model_id, "codes": codes, "k": 5}
+        packed = {"Content-Type": MSGPACK}
+        requests = [
+            Request("GET", "/maps", key=HALL),
+            Request("GET", "/maps/hall-a/versions", key=HALL),
+            Request("GET", "/maps/hall-a", key=HALL),
+            Request("GET", "/maps/hall-a/changes?since=0", key=HALL),
+            Request("POST", "/match", msgpack.packb(match), HALL, packed),
+            Request("GET", "/info", key=HALL),
+            Request("GET", f"/maps/{SECRET}", key=HALL),
+            Request("GET", "/maps/no-such-map", key=HALL),
+            Request(
+                "POST",
+                "/maps/hall-new/merge",
+                f'{{"maps": ["hall-a", "{SECRET}"]}}'.encode(),
+                HALL,
+                {"Content-Type": JSON},
+            ),
+        ]
+        answers = [stage.ask(target, request) for request in requests]
+        forbidden, missing = answers[6], answers[7]
+        stage.expect(
+            forbidden.status == missing.status,
+            f"A map that exists is answered {forbidden.status}, one that does not "
+            f"{missing.status}.",
+        )
+        for request, answer in zip(requests, answers, strict=True):
+            told = answer.text
+            is_asked = SECRET in request.path or SECRET.encode() in request.body
+            if not is_asked and request.path != "/maps/hall-a" and "changes" not in request.path:
+                stage.expect(SECRET not in told, f"{request.path} tells the name {SECRET!r}.")
+            elif not is_asked:
+                stage.note(f"{request.path} tells the name", SECRET in told)
+            if request.path.endswith("versions"):
+                others = [name for name in RIGHTS if name != HALL and f'"{name}"' in told]
+                stage.expect(not others, f"{request.path} tells keys' names: {others}.")
+        delta = delta_of(kind.made("shared-robot", _ids(100, 30), stage.random))
+        over = stage.ask(target, edit("hall-c", delta, HALL, "create=true"))
+        stage.expect(over.status == 507, f"Beyond a quota an edit was answered {over.status}.")
+        told = re.sub(r'"request_id": *"[^"]*"', "", over.text)
+        stage.expect(
+            not re.search(r"\b(37|67)\b", told),
+            "A quota's message tells how many segments a robot has in other maps.",
+        )
+
+
+def docs_pages(stage: Stage) -> None:
+    """A20: the documentation pages, and the key requirements in the OpenAPI."""
+    with stage.service(own=False) as target:
+        for path in ("/docs", "/redoc"):
+            page = stage.ask(target, Request("GET", path))
+            if page.status in {401, 404}:
+                continue
+            links = re.findall(r"""(?:src|href)\s*=\s*["']([^"']+)["']""", page.text)
+            foreign = [link for link in links if re.match(r"(https?:)?//", link)]
+            stage.expect(not foreign, f"{path} loads {', '.join(foreign)}.")
+            for link in links:
+                if link not in foreign and not link.startswith(("data:", "#")):
+                    part = stage.ask(target, Request("GET", urljoin(path, link)))
+                    stage.expect(part.status == 200, f"{path} needs {link}: {part.status}.")
+                    beyond = re.findall(r"@import\s+url\(\s*https?:[^)]*\)", part.text)
+                    stage.expect(not beyond, f"{link} loads {beyond[:1]}.")
+        told = stage.ask(target, Request("GET", "/openapi.json"))
+        if told.status == 401:
+            told = stage.ask(target, Request("GET", "/openapi.json", key=READER))
+        schemes = told.json().get("components", {}).get("securitySchemes", {})
+        stage.expect(
+            any(
+                each.get("type") == "http" and each.get("scheme") == "bearer"
+                for each in schemes.values()
+            ),
+            "The OpenAPI has no security scheme for keys.",
+        )
+        paths = told.json()["paths"]
+        secured = bool(told.json().get("security")) or "security" in paths["/maps"]["get"]
+        stage.expect(secured, "The OpenAPI does not say that /maps needs a key.")
+
+
+def unknown_keys(stage: Stage) -> None:
+    """A21: requests without a key and with wrong keys."""
+    with stage.service(own=False) as target:
+        headers = {
+            "no key": {},
+            "wrong key": {"Authorization": "Bearer placecell_wrong"},
+            "no bearer": {"Authorization": "Basic YTpi"},
+            "forged line": {"Authorization": "Bearer x", "X-Request-Id": "a b"},
+        }
+        for name, each in headers.items():
+            before = len(target.service.log())
+            answer = stage.ask(target, Request("GET", "/maps", headers=each))
+            stage.expect(answer.status == 401, f"{name}: it was answered {answer.status}.")
+            time.sleep(0.1)
+            log = target.service.log()[before:]
+            stage.expect(ATTACKER in log, f"{name}: the log does not tell the client's address.")
+            stage.expect("placecell_wrong" not in log, f"{name}: the log tells the key.")
+        before = len(target.service.log())
+        stage.ask_all(
+            target, [Request("GET", "/maps") for _ in range(stage.size(20_000, 2_000))], 8
+        )
+        stage.note("log bytes of a flood", len(target.service.log()) - before)
+
+
+def many_sessions(stage: Stage) -> None:
+    """A25: one key opens sessions until another key's session would be dropped."""
+    with stage.service({"PLACECELL_LIMITS__SESSIONS": "40"}) as target:
+        kind = kind_of(target)
+        codes = stage.random.integers(-127, 128, (60, kind.code_bytes)).astype(np.int8)
+        places = stage.random.uniform(-40, 40, (60, 3)) * [1, 1, 0.05]
+        made = with_columns(
+            kind.made("mapper", _ids(1, 60), stage.random),
+            codes=codes,
+            centroids=places,
+            frame_positions=np.zeros((2, 3)),
+        )
+        # Two places alike: a part of the scan is ambiguous, unless the robot's last request counts.
+        shifted = with_columns(made, centroids=places + [150, 0, 0], ids=_ids(101, 60))
+        shifted = with_columns(shifted, frame_positions=np.full((2, 3), [150.0, 0, 0]))
+        target.client(OWNER).edit_map("hall", Delta(made, NONE), create=True)
+        target.client(OWNER).edit_map("hall", Delta(take(shifted, np.arange(60) < 40), NONE))
+
+        def localize(rows: slice, session: str | None, shift: float) -> Answer:
+            body = {
+                "model_id": kind.model_id,
+                "codes": codes[rows].tobytes(),
+                "centroids": (places[rows] + [shift, 0, 0]).astype("<f8").tobytes(),
+                "maps": ["hall"],
+                "session": session,
+            }
+            return stage.ask(
+                target,
+                Request(
+                    "POST", "/localize", msgpack.packb(body), VICTIM, {"Content-Type": MSGPACK}
+                ),
+            )
+
+        with_memory = localize(slice(20, 60), "victim-session", 0).json()
+        before = localize(slice(0, 40), "victim-session", 0).json()
+        alone = localize(slice(0, 40), None, 0).json()
+        difference = score_of(before) != score_of(alone)
+        stage.note("probability with the session", score_of(before))
+        stage.note("probability without", score_of(alone))
+        stage.note("first request", score_of(with_memory))
+        if not stage.expect(difference, "A session makes no difference: the case shows nothing."):
+            return
+        localize(slice(20, 60), "second-session", 0)
+        body = {
+            "model_id": kind.model_id,
+            "codes": codes[:40].tobytes(),
+            "centroids": places[:40].astype("<f8").tobytes(),
+            "maps": ["hall"],
+        }
+        flood = [
+            Request(
+                "POST",
+                "/localize",
+                msgpack.packb(body | {"session": f"s-{number}"}),
+                READER,
+                {"Content-Type": MSGPACK},
+            )
+            for number in range(60)
+        ]
+        stage.count(stage.ask_all(target, flood, 4))
+        after = localize(slice(0, 40), "second-session", 0).json()
+        stage.note("probability after the flood", score_of(after))
+        stage.expect(
+            score_of(after) != score_of(alone), "Another key's sessions pushed the victim's out."
+        )
+
+
+def pinned_builds(stage: Stage) -> None:
+    """A26: the pinned sources of an image build."""
+    dockerfile = (ROOT / "Dockerfile").read_text()
+    images = re.findall(r"^FROM\s+(\S+)", dockerfile, flags=re.MULTILINE)
+    stages = set(re.findall(r"^FROM\s+\S+\s+AS\s+(\S+)", dockerfile, flags=re.MULTILINE | re.I))
+    by_tag = [each for each in images if "@sha256:" not in each and each not in stages]
+    # Where no registry can be asked, no digest is known: a release is pinned by the script.
+    stage.note("pinned at release", by_tag)
+    unpinned = _unpinned(by_tag)
+    stage.expect(
+        not unpinned,
+        "deploy/pin-images.sh, which writes digests at release, leaves these images by tag: "
+        f"{', '.join(unpinned)}.",
+    )
+    commands = dockerfile.replace("\\\n", " ")
+    installs = re.findall(r"pip (?:install|wheel|download)\b[^&;|\n]*", commands)
+    stage.note("installs", len(installs))
+    # What does not ask an index takes what was built and checked before.
+    bare = [each.strip() for each in installs if not re.search("--require-hashes|--no-index", each)]
+    stage.expect(bool(installs) and not bare, f"Installed without hashes: {', '.join(bare)}.")
+    stage.expect(
+        "PIP_BUILD_CONSTRAINT" in dockerfile
+        or "--build-constraint" in dockerfile
+        or "--no-build-isolation" in dockerfile,
+        "No pins hold for what builds the packages.",
+    )
+    names = re.findall(r"(?:--requirement|-r)[ =](\S+)", dockerfile)
+    files = [ROOT / name for name in names]
+    stage.note("files with hashes", [file.name for file in files])
+    if stage.expect(bool(files), "No file of pins has hashes."):
+        for file in files:
+            lines = file.read_text().replace("\\\n", " ").splitlines()
+            bare = [
+                line.split()[0]
+                for line in lines
+                if re.match(r"[A-Za-z0-9]", line) and "--hash=sha256:" not in line
+            ]
+            stage.expect(not bare, f"{file.name} has no hash for {', '.join(bare[:5])}.")
+
+
+def _unpinned(images: list[str]) -> list[str]:
+    """Run pin-images.sh on a copy with a made-up registry; return the images it leaves by tag."""
+    with tempfile.TemporaryDirectory(prefix="placecell-attack-") as name:
+        copy = Path(name)
+        (copy / "deploy").mkdir()
+        for file in ("Dockerfile", "deploy/pin-images.sh", "deploy/compose.yaml",
+                     "deploy/kubernetes.yaml"):  # fmt: skip
+            shutil.copyfile(ROOT / file, copy / file)
+        docker = copy / "docker"
+        docker.write_text(f"#!/bin/sh\necho sha256:{'0' * 64}\n")
+        docker.chmod(0o755)
+        path = f"{copy}{os.pathsep}{os.environ['PATH']}"
+        command = ["sh", str(copy / "deploy/pin-images.sh")]
+        environment = os.environ | {"PATH": path}
+        subprocess.run(command, env=environment, check=True, capture_output=True, timeout=60)
+        pinned = (copy / "Dockerfile").read_text()
+    return [image for image in images if f"FROM {image}@sha256:" not in pinned]
+
+
+def score_of(answer: dict[str, object]) -> float:
+    """Return the probability of an answer's first localization; -1 if there is none."""
+    told = answer.get("localisations") or answer.get("localizations") or []
+    assert isinstance(told, list)
+    return round(float(told[0]["probability"]), 6) if told else -1.0
+
+
+def _put_precious(stage: Stage, target: Target, kind: Kind) -> None:
+    file = encode(kind.made(VICTIM, _ids(1, 5), np.random.default_rng(0)))
+    headers = {"Content-Type": MAP, "If-Match": "*"}
+    if stage.ask(target, Request("GET", "/maps/precious")).status == 404:
+        headers = {"Content-Type": MAP}
+    stage.ask(target, Request("PUT", "/maps/precious", file, headers=headers))
+
+
+def _status(target: Target, method: str, path: str, headers: dict[str, str]) -> int:
+    """Return the status of a request with exactly these headers."""
+    lines = [f"{method} {path} HTTP/1.1", *(f"{name}: {value}" for name, value in headers.items())]
+    head = "\r\n".join([*lines, "Content-Length: 0", "Connection: close", "", ""])
+    line = raw(target, head.encode()).split(b"\r\n")[0].split()
+    return int(line[1]) if len(line) > 1 else 0
+
+
+def _key_metrics(stage: Stage, target: Target) -> dict[str, str]:
+    """Return the metrics about the key file."""
+    lines = stage.ask(target, Request("GET", "/metrics")).text.splitlines()
+    found = [line.rpartition(" ") for line in lines if re.match(r"[a-z_]*keys?[a-z_]*[ {]", line)]
+    return {name: value for name, _, value in found}
+
+
+def _ids(first: int, count: int) -> UInt32:
+    return np.arange(first, first + count, dtype=np.uint32)
+
+
+CASES = (
+    Case("A9", foreign_pages, "Without keys, no foreign page reads or changes maps."),
+    Case("A12", broken_key_file, "/readyz and a metric report an unreadable key file."),
+    Case("A19", foreign_names, "A key learns nothing of maps and keys that are not its own."),
+    Case("A20", docs_pages, "The documentation pages load nothing from other hosts."),
+    Case("A21", unknown_keys, "The log records refused requests with the client's address."),
+    Case("A25", many_sessions, "One key's sessions displace no other key's."),
+    Case("A26", pinned_builds, "Builds install pinned versions only, by hash."),
+)

@@ -1,0 +1,1 @@
+"""Durability benchmarks: crashes, broken links and power loss."""

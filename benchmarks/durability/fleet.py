@@ -1,0 +1,167 @@
+"""Robots that share one map for minutes, over links that break, by a service that is restarted.
+
+Each adds, replaces and removes segments of its own and pulls what the others did. In the end all
+have the same map, byte for byte, and it holds what each was told that it holds.
+"""
+
+import random
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from threading import Event, Thread
+from typing import Any
+
+import numpy as np
+from placecell_client import Client, encode
+from placecell_client.maps.union import union
+
+from benchmarks.durability.cutting_proxy import CuttingProxy
+from benchmarks.durability.sharer import Sharer
+from benchmarks.made_map import Kind
+from evaluation.recognition.evaluate import machine
+from service.child_process import Service
+
+SITE = "site"
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is done.
+
+    Attributes:
+        clients: robots.
+        seconds: for so long.
+        uptime: seconds from a start of the service to its end, on average.
+        cut_bytes: that a connection bears until it is cut, on average.
+    """
+
+    clients: int = 8
+    seconds: float = 180.0
+    uptime: float = 10.0
+    cut_bytes: float = 300_000.0
+
+
+class Restarter:
+    """Keeps a service behind a proxy, and kills or stops it now and then."""
+
+    def __init__(self, data_dir: Path, options: tuple[str, ...], proxy: CuttingProxy) -> None:
+        self._data_dir = data_dir
+        self._options = options
+        self._proxy = proxy
+        self.kills = 0
+        self.stops = 0
+        self._start()
+
+    @contextmanager
+    def restarting(self, uptime: float, draw: random.Random) -> Iterator[None]:
+        """At work until the block ends, in a thread of its own; then the service runs."""
+        ended = Event()
+        thread = Thread(target=self._run, args=(ended, uptime, draw))
+        thread.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            thread.join()
+
+    def end(self) -> None:
+        """Stop the service."""
+        self._service.stop()
+
+    def _run(self, ended: Event, uptime: float, draw: random.Random) -> None:
+        while not ended.wait(draw.uniform(0.5, 1.5) * uptime):
+            if draw.random() < 0.7:
+                self._service.kill()
+                self.kills += 1
+            else:
+                self._service.stop()
+                self.stops += 1
+            self._start()
+
+    def _start(self) -> None:
+        self._service = Service(self._data_dir, *self._options)
+        self._proxy.service = self._service.address()
+
+
+def fleet(plan: Plan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Run it; the report as `placecell bench fleet` writes it.
+
+    Args:
+        plan: what is done.
+        seed: of everything that is drawn; what threads, links and disks do is not.
+        options: further ones of `placecell serve`.
+    """
+    draw = random.Random(seed)
+    proxy = CuttingProxy(random.Random(draw.getrandbits(64)), None)
+    with tempfile.TemporaryDirectory(prefix="placecell-fleet-") as folder, proxy.running():
+        restarter = Restarter(Path(folder), options, proxy)
+        try:
+            with Client(proxy.address) as client:
+                kind = Kind.of(client.info())
+                client.put_map(SITE, kind.none(), create_only=True)
+            robots = [
+                Sharer(
+                    *(f"robot-{number}", SITE, kind, random.Random(draw.getrandbits(64))),
+                    compacts=number == 0,
+                )
+                for number in range(plan.clients)
+            ]
+            with restarter.restarting(plan.uptime, random.Random(draw.getrandbits(64))):
+                proxy.cut_bytes = plan.cut_bytes
+                _share(robots, proxy.address, plan.seconds)
+            proxy.cut_bytes = None
+            with Client(proxy.address) as client:
+                for robot in robots:
+                    robot.pull(client)
+                file = client.get_map_file(SITE)
+                versions = client.versions(SITE, 1)[0].sequence
+        finally:
+            restarter.end()
+    return _report(plan, seed, robots, file) | {
+        "versions": versions,
+        "connections_cut": proxy.cuts,
+        "kills": restarter.kills,
+        "stops": restarter.stops,
+    }
+
+
+def _report(plan: Plan, seed: int, robots: Sequence[Sharer], file: bytes) -> dict[str, Any]:
+    reserved = np.concatenate([ids for robot in robots for ids in robot.reserved])
+    same = sum(_has(robot, file) for robot in robots)
+    is_union = file == encode(union([robot.own for robot in robots]))
+    twice = len(reserved) - len(np.unique(reserved))
+    wrong = [told for robot in robots for told in robot.wrong]
+    return {
+        "clients": plan.clients,
+        "seconds": plan.seconds,
+        "edits_acknowledged": sum(robot.edits for robot in robots),
+        "pulls": sum(robot.pulls for robot in robots),
+        "asked_again": sum(robot.again for robot in robots),
+        "segments": sum(len(robot.own) for robot in robots),
+        "map_bytes": len(file),
+        "robots_with_the_service_s_map": same,
+        "map_is_the_union": is_union,
+        "ids_reserved_twice": twice,
+        "wrong": wrong,
+        "good": same == len(robots) and is_union and not twice and not wrong,
+        "machine": machine(),
+        "seed": seed,
+        "plan": asdict(plan),
+    }
+
+
+def _share(robots: Sequence[Sharer], address: str, seconds: float) -> None:
+    ended = Event()
+    with ThreadPoolExecutor(len(robots)) as pool:
+        runs = [pool.submit(robot.run, address, ended) for robot in robots]
+        ended.wait(seconds)
+        ended.set()
+        for run in runs:
+            run.result()
+
+
+def _has(robot: Sharer, file: bytes) -> bool:
+    return robot.copy.content is not None and encode(robot.copy.content) == file

@@ -1,0 +1,1 @@
+"""Power loss: replay of recorded disk operations, cut at every moment."""

@@ -1,0 +1,1 @@
+"""Load benchmarks: speed and saturation of the service and of inference."""

@@ -1,0 +1,242 @@
+"""How fast segments become descriptors: every shipped network beside the paper's, in one run.
+
+Rates are of this machine at this hour, so all are measured in turn, again and again, and the
+median is given: what slows the machine down slows each of them. Compare within a run, not across.
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import onnxruntime
+
+from benchmarks.load.networks import PAPER, files, paper_network
+from benchmarks.load.rates import Work, each, measure
+from benchmarks.scans import draw_scans
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
+from placecell.core.parameters import Parameters
+from placecell.core.segments import Segments
+from placecell.descriptors.extractor import Extractor, load_extractor, one_thread_session
+from placecell.descriptors.manifest import PAIR_FILE, Manifest
+from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.pair_classifier import PairClassifier
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from placecell.descriptors.voxels import voxelise
+from placecell.segmentation.pipeline import Progress, silent
+
+PAIRS = 1_250
+"""Queries and candidates of a usual request to `/match`: 50 segments, 25 nearest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is measured, and how long.
+
+    Attributes:
+        batches: segments an inference.
+        threads: how many compute at once, each its own batch, as in the service.
+        repeats: measurements of each, of which the median is given.
+        seconds: of each measurement, at least.
+        segments: how many are taken from the drive.
+        latencies: segments described one by one for the percentiles.
+    """
+
+    batches: tuple[int, ...] = (1, 8, 64)
+    threads: tuple[int, ...] = (1, 2)
+    repeats: int = 5
+    seconds: float = 0.5
+    segments: int = 1024
+    latencies: int = 500
+
+
+def bench(
+    scans: Sequence[Segments],
+    folder: Path,
+    plan: Plan,
+    seed: int = 0,
+    *,
+    models: Path = MODELS_FOLDER,
+    default: str = DEFAULT_MODEL,
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Measure all; the report as `placecell bench describe` writes it.
+
+    Args:
+        scans: the segments of each; so many are drawn that they hold `plan.segments` at least.
+        folder: keeps the paper's network, so that it is exported once.
+
+    Raises:
+        ValueError: there are no segments.
+    """
+    scans = draw_scans(scans, plan.segments, seed)
+    drawn = Segments.concatenate(scans)
+    extractor = load_extractor(models / default, max(plan.threads))
+    parameters = extractor.manifest.parameters
+    networks = [network for name in shipped_models(models) for network in files(models / name)]
+    if not any(network.model == PAPER for network in networks):
+        networks += paper_network(folder, parameters, extractor.manifest.dimension, seed)
+
+    works: dict[Any, tuple[Work, int]] = {}
+    occupancy, extents = voxelise(drawn, parameters)
+    around = np.concatenate([describe_surroundings(scan) for scan in scans])
+    inputs: dict[str, np.ndarray[Any, Any]]
+    inputs = {"occupancy": occupancy, "extents": extents, "surroundings": around}
+    for network in networks:
+        # As the extractor runs it: each thread has its own session.
+        sessions = [one_thread_session(network.file) for _ in range(max(plan.threads))]
+        for batch in plan.batches:
+            for threads in plan.threads:
+                work = inference(sessions[:threads], inputs, batch)
+                works[network, batch, threads] = (work, threads)
+    for threads in plan.threads:
+        works["preprocessing", threads] = (preprocessing(drawn, parameters), threads)
+        works["surroundings", threads] = (each(scans, describe_surroundings), threads)
+    works["points in"] = (each(scans, extractor.describe), max(plan.threads))
+    rates = measure(works, plan.repeats, plan.seconds, progress)
+
+    rows = [
+        {
+            "model": network.model,
+            "precision": network.precision,
+            "served": network.served,
+            "batch": batch,
+            "threads": threads,
+            "segments_per_second": rates[network, batch, threads],
+            "top1": network.top1,
+        }
+        for network in networks
+        for batch in plan.batches
+        for threads in plan.threads
+    ]
+    return {
+        "rows": rows,
+        "points_in_descriptors_out_segments_per_second": rates["points in"],
+        "default_over_paper": ratio(rows, default, max(plan.batches), max(plan.threads)),
+        "preprocessing_segments_per_second": {
+            str(threads): rates["preprocessing", threads] for threads in plan.threads
+        },
+        "surroundings_segments_per_second": {
+            str(threads): rates["surroundings", threads] for threads in plan.threads
+        },
+        "single_segment_ms": latency(extractor, drawn, plan.latencies),
+        "pairs": [
+            pair_latency(models / name, seed)
+            for name in shipped_models(models)
+            if (models / name / PAIR_FILE).exists()
+        ],
+        "default": extractor.manifest.model_id,
+        "machine": machine(),
+        "seed": seed,
+        "sizes": {
+            "segments": len(drawn),
+            "scans": len(scans),
+            "points_mean": float(drawn.counts.mean()),
+            "points_median": float(np.median(drawn.counts)),
+            "grid": list(parameters.grid),
+        },
+        "plan": asdict(plan),
+    }
+
+
+def inference(
+    sessions: Sequence[onnxruntime.InferenceSession],
+    inputs: dict[str, np.ndarray[Any, Any]],
+    batch: int,
+) -> Work:
+    """One batch through a network, another each time; the sessions take turns."""
+    wanted = {given.name for given in sessions[0].get_inputs()}
+    inputs = {name: values for name, values in inputs.items() if name in wanted}
+    count = len(inputs["occupancy"])
+    batch = min(batch, count)
+    places = count // batch
+
+    def work(number: int) -> int:
+        part = slice(number % places * batch, (number % places + 1) * batch)
+        given = {name: values[part] for name, values in inputs.items()}
+        # `rate` counts in steps of the threads, so that a thread stays with its session.
+        sessions[number % len(sessions)].run(["descriptor"], given)
+        return batch
+
+    return work
+
+
+def preprocessing(segments: Segments, parameters: Parameters, batch: int = 64) -> Work:
+    """Alignment and voxelisation of a batch, another each time."""
+    parts = [
+        segments.take(np.arange(first, min(first + batch, len(segments))))
+        for first in range(0, len(segments), batch)
+    ]
+    return each(parts, lambda part: voxelise(part, parameters))
+
+
+def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:
+    """Milliseconds from the points of a single segment to its descriptor: p50 and p99."""
+    times = []
+    for number in range(count):
+        single = segments.take([number % len(segments)])
+        start = perf_counter()
+        extractor.describe(single)
+        times.append(1e3 * (perf_counter() - start))
+    p50, p99 = np.percentile(times, [50, 99])
+    return {"p50": round(float(p50), 3), "p99": round(float(p99), 3)}
+
+
+def pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
+    """What it costs to state a probability: the p50 of a call for 1,250 pairs, on one thread."""
+    manifest = Manifest.load(folder)
+    classifier = PairClassifier(folder, manifest)
+    random = np.random.default_rng(seed)
+    a, b = random.integers(-127, 128, (2, PAIRS, manifest.code_bytes)).astype(np.int8)
+    times = []
+    for _ in range(repeats):
+        start = perf_counter()
+        classifier.probabilities(a, b)
+        times.append(1e3 * (perf_counter() - start))
+    return {
+        "model": manifest.name,
+        "kind": manifest.pair["kind"],
+        "pairs": PAIRS,
+        "p50_ms": round(float(np.median(times)), 3),
+        "bytes": (folder / PAIR_FILE).stat().st_size,
+    }
+
+
+def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int) -> float | None:
+    """How many times the paper's rate the default model reaches; None if either is not there."""
+    found = {
+        row["model"]: row["segments_per_second"]
+        for row in rows
+        if row["served"] and (row["batch"], row["threads"]) == (batch, threads)
+    }
+    if default not in found or PAPER not in found:
+        return None
+    return round(float(found[default] / found[PAPER]), 2)
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """Accuracy against speed of every network, at the largest batch on all threads, as a PNG."""
+    most = (max(report["plan"]["batches"]), max(report["plan"]["threads"]))
+    with figure(file, size=6) as (axes,):
+        for row in report["rows"]:
+            if (row["batch"], row["threads"]) != most:
+                continue
+            speed, name = row["segments_per_second"], f"{row['model']} {row['precision']}"
+            if row["top1"] is None:
+                axes.axvline(speed, color="grey", linestyle=":")
+                axes.annotate(f"{name}: accuracy not known", (speed, 0.02), rotation=90, ha="right")
+            else:
+                axes.plot(speed, row["top1"], "o", color="#1b9e77")
+                axes.annotate(name, (speed, row["top1"]), (5, 5), textcoords="offset points")
+        axes.set(
+            xscale="log",
+            ylim=(0, 1),
+            xlabel=f"inference, segments a second (batch {most[0]}, {most[1]} threads)",
+            ylabel="top1 on the model's validation groups",
+            title=report["machine"]["processor"],
+        )
+        axes.margins(x=0.3)
+        axes.grid(alpha=0.3)

@@ -1,0 +1,200 @@
+"""How the service bears load: the real server over loopback, up to saturation and past it."""
+
+import asyncio
+import re
+import tempfile
+import urllib.request
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.load.generator import Load, Outcome, sent_by_process
+from benchmarks.load.rates import each, rate
+from benchmarks.load.workload import Case, fill, requests
+from benchmarks.scans import draw_scans
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
+from placecell.core.segments import Segments
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.segmentation.pipeline import Progress, silent
+from service.api.body.body import JSON, MSGPACK
+from service.child_process import address_of, running_service
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is measured.
+
+    Attributes:
+        segments: of a request.
+        small: of a request, where batching is shown.
+        k: candidates a query.
+        map_segments: in the map that is searched.
+        levels: offered load, as shares of what the service bears.
+        seconds: of each level.
+        bodies: different requests, sent in turn.
+    """
+
+    segments: int = 50
+    small: int = 5
+    k: int = 10
+    map_segments: int = 10_000
+    levels: tuple[float, ...] = (0.25, 0.5, 0.75, 0.9, 1.1, 1.5, 2.0)
+    seconds: float = 10.0
+    bodies: int = 20
+
+
+def bench(
+    scans: Sequence[Segments], plan: Plan, seed: int = 0, *, progress: Progress = silent
+) -> dict[str, Any]:
+    """Measure all; the report as `placecell bench serve` writes it.
+
+    Raises:
+        ValueError: there are no segments.
+    """
+    drawn = Segments.concatenate(draw_scans(scans, plan.segments * plan.bodies, seed))
+    cases = [
+        Case(MSGPACK, plan.segments, batching=True),
+        Case(JSON, plan.segments, batching=True),
+        Case(MSGPACK, plan.small, batching=True),
+        Case(MSGPACK, plan.small, batching=False),
+    ]
+    library = alone(scans)
+    sent = {case.name: requests(case, drawn, plan.bodies, plan.k) for case in cases}
+    rows: list[dict[str, Any]] = []
+    with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
+        for number in progress(range(len(cases)), len(cases), "loading the service"):
+            case, data = cases[number], Path(folder) / str(number)
+            rows += asyncio.run(_case(case, sent[case.name], drawn, plan, data, seed))
+    main = [row for row in rows if row["case"] == cases[0].name]
+    half = next(row for row in main if row["level"] == 0.5)
+    saturation = main[0]["saturation_segments_per_second"]
+    return {
+        "rows": rows,
+        "saturation_segments_per_second": saturation,
+        "match_50_p99_ms_at_half_saturation": half["milliseconds"]["p99"],
+        "points_in_descriptors_out_segments_per_second": library,
+        "http_over_library": round(saturation / library, 3),
+        "default": DEFAULT_MODEL,
+        "machine": machine(),
+        "seed": seed,
+        "sizes": {
+            "points_mean": float(drawn.counts.mean()),
+            "map_segments": plan.map_segments,
+            "body_bytes": {
+                name: round(float(np.mean([len(one) for one in bodies])))
+                for name, bodies in sent.items()
+            },
+        },
+        "plan": asdict(plan),
+    }
+
+
+def alone(scans: Sequence[Segments]) -> float:
+    """Segments a second of the default model without the service, points in, descriptors out."""
+    extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
+    work = each([scan for scan in scans if len(scan)], extractor.describe)
+    with ThreadPoolExecutor(1) as pool:
+        rate(pool, work, 1, 0.5)
+        return round(float(np.median([rate(pool, work, 1, 1.0) for _ in range(5)])), 1)
+
+
+async def _case(
+    case: Case, sent: tuple[bytes, ...], drawn: Segments, plan: Plan, data_dir: Path, seed: int
+) -> list[dict[str, Any]]:
+    environment = {} if case.batching else {"PLACECELL_LIMITS__BATCH": "1"}
+    with running_service(data_dir, environment=environment) as address:
+        fill(address, drawn, plan.map_segments, seed)
+        host, port = address_of(address)
+
+        async def load(rate: float, seconds: float) -> tuple[Outcome, float]:
+            before = batches(address)
+            outcome = await sent_by_process(Load(host, port, sent, rate, seconds), data_dir)
+            after = batches(address)
+            count = after[1] - before[1]
+            return outcome, (after[0] - before[0]) / count if count else 0.0
+
+        await load(0, 1.0)  # what compiles or allocates at its first use does so now
+        full, _ = await load(0, plan.seconds)
+        most = full.statuses.count(200) / full.elapsed
+        rows = []
+        for level in plan.levels:
+            outcome, batch = await load(level * most, plan.seconds)
+            rows.append(
+                _row(case, level, level * most, outcome)
+                | {
+                    "batch_requests": round(batch, 2),
+                    "saturation_segments_per_second": round(most * case.segments, 1),
+                }
+            )
+        return rows
+
+
+def _row(case: Case, level: float, offered: float, outcome: Outcome) -> dict[str, Any]:
+    statuses, times = np.array(outcome.statuses), np.array(outcome.milliseconds)
+    good, full = statuses == 200, statuses == 429
+    return {
+        "case": case.name,
+        "media_type": case.media_type,
+        "segments": case.segments,
+        "batching": case.batching,
+        "level": level,
+        "offered": round(offered * case.segments, 1),
+        "achieved": round(float(good.sum()) / outcome.elapsed * case.segments, 1),
+        "requests": len(statuses),
+        "milliseconds": percentiles(times[good]),
+        "stages": {stage: percentiles(np.array(spent)) for stage, spent in outcome.stages.items()},
+        "rejected": int(full.sum()),
+        "rejected_milliseconds": percentiles(times[full]),
+        "failed": {str(each): int((statuses == each).sum()) for each in set(outcome.statuses)
+                   if each not in (200, 429)},
+        "generator_cpu_share": round(outcome.cpu / outcome.elapsed, 3),
+    }  # fmt: skip
+
+
+def percentiles(times: np.ndarray[Any, Any]) -> dict[str, float | None]:
+    """p50, p95, p99 and the maximum; None of nothing."""
+    if not len(times):
+        return dict.fromkeys(("p50", "p95", "p99", "max"))
+    found = np.percentile(times, [50, 95, 99, 100]).round(2).tolist()
+    return dict(zip(("p50", "p95", "p99", "max"), found, strict=True))
+
+
+def batches(address: str) -> tuple[float, float]:
+    """Requests that went through the model so far, and in how many batches."""
+    with urllib.request.urlopen(f"{address}/metrics", timeout=30) as answer:
+        text = answer.read().decode()
+    found = [
+        re.search(rf"^placecell_batch_requests_{what} (\S+)", text, re.MULTILINE)
+        for what in ("sum", "count")
+    ]
+    total, count = (float(match[1]) if match else 0.0 for match in found)
+    return total, count
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """Latency and what was answered against what was offered, each case a line, as a PNG."""
+    with figure(file, 2, size=5) as (left, right):
+        for name in dict.fromkeys(row["case"] for row in report["rows"]):
+            rows = [row for row in report["rows"] if row["case"] == name]
+            offered = [row["offered"] for row in rows]
+            worst = [row["milliseconds"]["p99"] for row in rows]
+            (line,) = left.plot(offered, worst, "o-", label=name)
+            medians = [row["milliseconds"]["p50"] for row in rows]
+            left.plot(offered, medians, "--", color=line.get_color())
+            right.plot(offered, [row["achieved"] for row in rows], "o-", label=name)
+        left.set(
+            xlabel="offered, segments a second",
+            ylabel="milliseconds, p99 (p50 dashed)",
+            yscale="log",
+            title="latency of /match",
+        )
+        right.set(xlabel="offered, segments a second", ylabel="answered, segments a second")
+        right.legend(fontsize=8)
+        for axes in (left, right):
+            axes.grid(alpha=0.3)

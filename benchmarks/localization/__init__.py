@@ -1,0 +1,1 @@
+"""Localization benchmarks: map alignment, look-alike floors and tables."""

@@ -1,0 +1,342 @@
+"""Look-alike floors: how often /localize confuses one floor with another, and how surely.
+
+A floor is a set of things, each with a descriptor and a place. Another floor has the same things in
+the same places, but for a share that is replaced by others. Each map sees each thing anew: its
+descriptors differ as two views of one real segment do (`map_content`), its centroids by decimeters.
+The robot sees a part of one floor, in a frame of its own, and asks in all maps at once, by the code
+that answers `/localize`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from placecell_client import CompactMap
+from placecell_client.maps.edit import take
+
+from benchmarks.map_content import Views, map_of
+from evaluation.poses.queries import random_frame
+from evaluation.recognition.evaluate import machine
+from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.localization import LocalisationParameters, Pose
+from placecell.segmentation.pipeline import Progress, silent
+from service.core.metrics import Metrics
+from service.core.settings import Settings
+from service.core.timing import Timing
+from service.inference.model_registry import Model, Models
+from service.maps.index import LayeredIndex
+from service.maps.layers import Layers
+from service.maps.snapshot import StoredMap
+from service.maps.store import Head
+from service.search.localization import Group, InMap, localise_among
+from service.search.shared_index import SharedIndexes
+
+SIZE = np.array([90.0, 40.0, 4.0])
+"""Size of a floor along x, y, z, meters."""
+
+SCATTER = 0.3
+"""Scatter of a thing's centroid between views: standard deviation along each axis, meters."""
+
+SURE = 0.9
+
+NEAR = 3.0, 10.0
+"""Tolerance of a right pose, meters and degrees; how exact a pose is, other benches measure."""
+
+K = 25
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A kind of trial.
+
+    Attributes:
+        name: of the case.
+        floors: that look like the true one, all of one building.
+        things: on a floor.
+        seen: segments that the robot sees.
+        views: of each thing in a map; 1: the map was deduplicated.
+        unchanged: the robot sees only what all floors have.
+        differing: things that differ between two floors; None: the share of the trial.
+        larger: how many times larger the other floors' maps are, by things elsewhere in the
+            building; less than 1: how many times larger the true floor's is.
+        other_model: the other floors were mapped with another model.
+        others: maps of other buildings beside them.
+    """
+
+    name: str
+    floors: int = 1
+    things: int = 150
+    seen: int = 50
+    views: int = 3
+    unchanged: bool = False
+    differing: int | None = None
+    larger: float = 1.0
+    other_model: bool = False
+    others: int = 0
+
+
+CASES = (
+    Case("two floors"),
+    Case("two floors, eight segments", seen=8),
+    Case("unchanged part only", unchanged=True),
+    Case("unchanged part only, eight segments", unchanged=True, seen=8),
+    Case("five floors", floors=4),
+    Case("five things differ", differing=5),
+    Case("large other map", larger=20.0),
+    Case("large true map", larger=1 / 20),
+    Case("deduplicated maps", views=1),
+    Case("two models", other_model=True),
+    Case("twenty floors", floors=19, things=80),
+    Case("among other buildings", others=30),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Result of one trial: one robot that asked once.
+
+    Attributes:
+        case: name of it.
+        share: of the other floors' things that were replaced.
+        differs: share of what the robot sees that the most similar other floor does not have.
+        right: localized in the right map, at the right place.
+        wrong_but_sure: localized elsewhere with a probability of 0.9 or more.
+        wrong: localized elsewhere.
+        ambiguous: not localized, for another place fits as well.
+        names_both: not localized, and both places are told: the true one and its rival.
+    """
+
+    case: str
+    share: float
+    differs: float
+    right: bool
+    wrong_but_sure: bool
+    wrong: bool
+    ambiguous: bool
+    names_both: bool
+
+
+def bench(
+    views: Sequence[Views],
+    models: Sequence[Model],
+    trials: int,
+    seed: int = 0,
+    cases: Sequence[Case] = CASES,
+    *,
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Run the trials, spread evenly over cases and shares of change; return the report.
+
+    Args:
+        views: of each model, the first one's maps are asked.
+        models: the same models, loaded.
+    """
+    done = [
+        run(views, models, cases[number % len(cases)], seed + number)
+        for number in progress(range(trials), trials, "trials")
+    ]
+    decided = [each for each in done if decides(each)]
+    return {
+        "trials": len(done),
+        "wrong_but_sure": sum(each.wrong_but_sure for each in done),
+        "wrong": sum(each.wrong for each in done),
+        "right": sum(each.right for each in done),
+        "ambiguous": sum(each.ambiguous for each in done),
+        "where_the_difference_decides": summary(decided),
+        "by_share": {
+            f"{low:.1f} to {low + 0.1:.1f}": summary(
+                [each for each in done if low <= each.share < low + 0.1 + 1e-9 * (low > 0.45)]
+            )
+            for low in np.arange(0, 0.6, 0.1).round(1).tolist()
+        },
+        "by_case": {
+            case.name: summary([each for each in done if each.case == case.name]) for case in cases
+        },
+        "models": [each.id for each in models],
+        "machine": machine(),
+        "seed": seed,
+    }
+
+
+DECIDES, LEAST = 0.3, 10
+"""Share of the robot's segments, and number of segments, that only the true floor must have for the
+difference to decide."""
+
+
+def decides(trial: Trial) -> bool:
+    """Return whether the robot sees enough of the difference, and scores of one model show it."""
+    seen = {case.name: case.seen for case in CASES}.get(trial.case, 0)
+    is_enough = trial.differs >= DECIDES and trial.differs * seen >= LEAST
+    return is_enough and trial.case != "two models"
+
+
+def summary(trials: Sequence[Trial]) -> dict[str, Any]:
+    """Summarize the trials of each case."""
+    count = len(trials)
+    return {
+        "trials": count,
+        "wrong_but_sure": sum(each.wrong_but_sure for each in trials),
+        "wrong": sum(each.wrong for each in trials),
+        "right": sum(each.right for each in trials),
+        "ambiguous": sum(each.ambiguous for each in trials),
+        "names_both": sum(each.names_both for each in trials),
+        "share_right": round(sum(each.right for each in trials) / count, 4) if count else None,
+    }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Floor:
+    """Floor of a building: things by number, and their positions, float64 (n, 3)."""
+
+    things: Int64
+    places: Float64
+
+
+def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) -> Trial:
+    """Draw floors, map them, and localize a robot of the first floor."""
+    random = np.random.default_rng(seed)
+    share = float(random.uniform(0, 0.6)) if case.differing is None else 0.0
+    count = case.things
+    changed = round(share * count) if case.differing is None else case.differing
+    true = Floor(np.arange(count), random.uniform(0, 1, (count, 3)) * SIZE)
+    floors, fresh = [true], count
+    common = np.ones(count, dtype=bool)
+    for _ in range(case.floors):
+        other = Floor(true.things.copy(), true.places.copy())
+        replaced = random.choice(count, changed, replace=False)
+        other.things[replaced] = fresh + np.arange(changed)
+        other.places[replaced] = random.uniform(0, 1, (changed, 3)) * SIZE
+        common[replaced] = False
+        fresh += changed
+        floors.append(other)
+    for _ in range(case.others):
+        things = fresh + np.arange(count)
+        floors.append(Floor(things, random.uniform(0, 1, (count, 3)) * SIZE))
+        fresh += count
+    extra = round(count * (max(case.larger, 1 / case.larger) - 1))
+    floors = [
+        _extended(floor, extra, fresh + number * extra, random)
+        if (number > 0) == (case.larger > 1)
+        else floor
+        for number, floor in enumerate(floors)
+    ]
+    fresh += extra * len(floors)
+    of_model = [0] + [int(case.other_model)] * (len(floors) - 1)
+    looks = [each.things(fresh, random) for each in views]
+    # Both orders of the names.
+    names = [f"floor-{number:02}" for number in random.permutation(len(floors))]
+    maps = [
+        _mapped(floor, views[model], looks[model], case.views, name, random)
+        for floor, model, name in zip(floors, of_model, names, strict=True)
+    ]
+    # What the robot sees: things around a place, of what all floors have or of all.
+    among = np.flatnonzero(common) if case.unchanged else np.arange(count)
+    middle = true.places[random.choice(among)]
+    away = np.linalg.norm((true.places[among] - middle)[:, :2], axis=1)
+    seen = np.sort(among[np.argsort(away)[: case.seen]])
+    differs = 1.0 - max(
+        float(np.isin(true.things[seen], floor.things).mean()) for floor in floors[1:]
+    )
+    frame = random_frame(seed)
+    here = frame.apply(true.places[seen] + random.normal(scale=SCATTER, size=(len(seen), 3)))
+    groups = []
+    for number, (each, model) in enumerate(zip(views, models, strict=True)):
+        own = tuple(
+            _stored(content, model, name)
+            for content, name, of in sorted(
+                zip(maps, names, of_model, strict=True), key=lambda one: one[1]
+            )
+            if of == number
+        )
+        if own:
+            codes = each.codes(looks[number], true.things[seen], random)
+            groups.append(Group(model, own, codes, here))
+    shared = _Shared()
+    answers = localise_among(
+        groups, K, LocalisationParameters(), Timing(), shared.parts, lambda _: None
+    )
+    return _outcome(answers, case, share, differs, names[0], frame.inverse(), here)
+
+
+def _outcome(
+    answers: Sequence[InMap],
+    case: Case,
+    share: float,
+    differs: float,
+    name: str,
+    truth: Pose,
+    here: Float64,
+) -> Trial:
+    """Return what the robot makes of the answer."""
+    best = answers[0]
+    pose, probability = best.judged.localisation.pose, best.judged.localisation.probability
+    is_told = pose is not None
+    right = is_told and best.stored.name == name and _near(pose, truth, here)
+    told = {each.stored.name for each in answers[:1]} | {
+        each.rival.name for each in answers[:1] if each.rival is not None
+    }
+    return Trial(
+        case.name,
+        share,
+        differs,
+        right,
+        is_told and not right and probability >= SURE,
+        is_told and not right,
+        not is_told and best.judged.localisation.reason == "ambiguous",
+        not is_told and name in told and len(told) == 2,
+    )
+
+
+def _near(pose: Pose | None, truth: Pose, here: Float64) -> bool:
+    assert pose is not None
+    metres, angle = pose.difference(truth, here.mean(axis=0))
+    return metres <= NEAR[0] and bool(np.degrees(angle) <= NEAR[1])
+
+
+def _extended(floor: Floor, count: int, first: int, random: np.random.Generator) -> Floor:
+    """Return a floor with further things beside it, as part of a larger map."""
+    reach = SIZE * (np.ceil(count / len(floor.things)), 1.0, 1.0)
+    places = random.uniform(0, 1, (count, 3)) * reach + (SIZE[0] + 20.0, 0.0, 0.0)
+    return Floor(
+        np.concatenate([floor.things, first + np.arange(count)]),
+        np.concatenate([floor.places, places]),
+    )
+
+
+def _mapped(
+    floor: Floor, views: Views, looks: Float32, times: int, name: str, random: np.random.Generator
+) -> CompactMap:
+    """Return a map of a floor, with each thing seen `views` times."""
+    things = np.repeat(floor.things, times)
+    codes: Int8 = views.codes(looks, things, random)
+    content = map_of(codes, views.manifest, f"robot of {name}", int(random.integers(2**31)))
+    places = np.repeat(floor.places, times, axis=0)
+    places = places + random.normal(scale=SCATTER, size=places.shape)
+    return replace(content, centroids=places, frame=name)
+
+
+def _stored(content: CompactMap, model: Model, name: str) -> StoredMap:
+    layers = Layers.of(take(content, np.arange(len(content))))
+    head = Head(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
+    index = LayeredIndex.of(layers, model.manifest.quantiser)
+    return StoredMap(head, layers, 1, 1, index)
+
+
+class _Shared:
+    """Shared indexes of one trial."""
+
+    def __init__(self) -> None:
+        self.shared = SharedIndexes()
+
+    def parts(self, group: Group) -> Any:
+        quantiser = group.model.manifest.quantiser
+        return self.shared.parts(group.searched, group.searched, group.model.id, quantiser, ())
+
+
+def loaded(folder: Path, names: Sequence[str]) -> list[Model]:
+    """Load the models of a folder as the service loads them."""
+    settings = Settings(models_dir=folder, model=names[0], also=tuple(names[1:]))
+    models = Models(settings, Metrics())
+    return [models.named(name) for name in names]

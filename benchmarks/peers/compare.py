@@ -1,0 +1,93 @@
+"""Peers in turn on the same queries."""
+
+import os
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.peers.exchange import read_answers
+from benchmarks.peers.frames import Stretch, map_poses, near_map, query_poses
+from benchmarks.peers.layout import ANSWERS, answered, lay_out
+from benchmarks.peers.runner import REFINED
+from benchmarks.peers.score import score
+from evaluation.poses.queries import MAPPED_METRES
+from evaluation.recognition.evaluate import machine
+from placecell.segmentation.pipeline import Progress, silent
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def compare(
+    mapped: Sequence[Stretch],
+    asking: Sequence[Stretch],
+    peers: Sequence[str],
+    python: Path,
+    folder: Path,
+    *,
+    refine: bool = True,
+    most: int | None = None,
+    seed: int = 0,
+    resume: bool = False,
+    progress: Progress = silent,
+) -> dict[str, Any]:
+    """Ask all peers, score them; the report as `placecell bench peers` writes it.
+
+    Args:
+        python: interpreter of the peers' environment.
+        folder: for the local maps and the answers.
+        refine: also report each peer with its poses refined.
+        most: queries, spread evenly; all unless given.
+        seed: of the queries' headings.
+        resume: take the local maps that a stopped run of this comparison left in the folder, and
+            ask only those peers that it has no answers of.
+
+    Raises:
+        ValueError: there is no such environment, a peer failed, or there is nothing to resume.
+    """
+    if not python.is_file():
+        raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
+    lay_out(folder, mapped, asking, most=most, seed=seed, resume=resume, progress=progress)
+    poses, truth = map_poses(mapped), query_poses(asking, most, seed)
+    blocks = mapped[0].drive is asking[0].drive
+    within = np.full(len(truth), fill_value=True) if blocks else near_map(poses, truth)
+    rows = []
+    for name in peers:
+        systems = [name, name + REFINED] if refine else [name]
+        if not (resume and answered(folder, name, systems, len(truth))):
+            ask(name, folder, python, refine=refine)
+        for system in systems:
+            peer, answers = read_answers(folder / ANSWERS / f"{system}.jsonl", len(truth))
+            rows.append(score(peer, answers, truth, within))
+    parameters = mapped[0].parameters
+    return {
+        "rows": rows,
+        "map_drive": mapped[0].drive.folder.name,
+        "query_drive": asking[0].drive.folder.name,
+        "map_frames": len(poses),
+        "blocks": blocks,
+        "mapped_metres": None if blocks else MAPPED_METRES,
+        "protocol": parameters.protocol,
+        "every": parameters.frame_step,
+        "accumulated_scans": parameters.accumulated_scans,
+        "local_map_radius": parameters.local_map_radius,
+        "seed": seed,
+        "machine": machine(),
+    }
+
+
+def ask(name: str, folder: Path, python: Path, *, refine: bool) -> None:
+    """Run a peer in its environment.
+
+    Raises:
+        ValueError: it failed.
+    """
+    words = [name, folder, folder / ANSWERS, "--refine" if refine else "--no-refine"]
+    command = [str(word) for word in (python, "-m", "benchmarks.peers.runner", *words)]
+    # Of ours it sees the code alone, none of the packages.
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
+    done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=False)
+    if done.returncode:
+        raise ValueError(f"{name}: ended with status {done.returncode}; what it said stands above")

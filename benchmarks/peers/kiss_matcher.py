@@ -1,0 +1,79 @@
+"""KISS-Matcher as a peer, the package `kiss-matcher`.
+
+Lim et al. 2025, *KISS-Matcher: Fast and Robust Point Cloud Registration Revisited*. It registers
+two clouds and retrieves nothing. So it is given the frames of the map that Scan Context finds most
+alike, and the answer with most inliers counts; or it is given the whole map as one cloud. Its
+Python interface computes the features of both clouds anew for each pair.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import kiss_matcher
+import numpy as np
+
+from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame, Pose
+from benchmarks.peers.scan_context import ScanContexts
+
+
+@dataclass(frozen=True, slots=True)
+class KissMatcherParameters:
+    """Constants; the defaults are those of the package and of its example."""
+
+    voxel_size: float = 0.3
+    """Metres; features have radii of 3 and 5 voxels."""
+    use_quatro: bool = False
+    """Solve for a turn about the vertical alone (Quatro), in place of any rotation."""
+    candidates: int = 1
+    """Frames of the map that are tried; 0 for the whole map at once."""
+    least_inliers: int = 5
+    """Its example takes a registration with so many final inliers for a success."""
+
+
+class KissMatcherPeer:
+    """A pose by registration with what Scan Context finds, or with the whole map."""
+
+    def __init__(self, parameters: KissMatcherParameters) -> None:
+        self.parameters = parameters
+        self.matcher = kiss_matcher.KISSMatcher(
+            kiss_matcher.KISSMatcherConfig(
+                voxel_size=parameters.voxel_size, use_quatro=parameters.use_quatro
+            )
+        )
+
+    def learn(self, frames: Sequence[MapFrame]) -> None:
+        """Take in the map."""
+        self.frames = frames if self.parameters.candidates else [whole(frames)]
+        self.contexts = ScanContexts([frame.cloud for frame in self.frames])
+
+    def locate(self, cloud: Cloud) -> Estimate:
+        """The pose of a local map in the map."""
+        tried = [0]
+        if self.parameters.candidates:
+            found = self.contexts.find(cloud)
+            tried = [one.frame for one in found[: self.parameters.candidates]]
+        registered = (self.register(cloud, self.frames[frame]) for frame in tried)
+        return max(registered, key=lambda estimate: estimate.score)
+
+    def register(self, cloud: Cloud, frame: MapFrame) -> Estimate:
+        """The pose of a local map by one cloud of the map."""
+        solution = self.matcher.estimate(cloud, frame.cloud)
+        if not solution.valid:
+            return NOTHING
+        inliers = int(self.matcher.get_num_final_inliers())
+        pose = frame.pose @ transform_of(solution)
+        return Estimate(pose, float(inliers), inliers >= self.parameters.least_inliers)
+
+
+def transform_of(solution: kiss_matcher.RegistrationSolution) -> Pose:
+    """A solution as a transform (4, 4)."""
+    transform = np.eye(4)
+    transform[:3, :3] = solution.rotation
+    transform[:3, 3] = np.ravel(solution.translation)
+    return transform
+
+
+def whole(frames: Sequence[MapFrame]) -> MapFrame:
+    """All frames of the map as one, in the map's frame."""
+    clouds = [frame.cloud @ frame.pose[:3, :3].T + frame.pose[:3, 3] for frame in frames]
+    return MapFrame(np.eye(4), np.concatenate(clouds).astype(np.float32))

@@ -1,0 +1,129 @@
+"""One peer answers all queries; runs in the peers' environment.
+
+How to run it by hand:
+
+    python -m benchmarks.peers.runner kiss-matcher FOLDER ANSWERS
+"""
+
+import time
+from collections.abc import Sequence
+from dataclasses import asdict
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Annotated, Any, Protocol
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import track
+
+from benchmarks.peers.exchange import (
+    Answer,
+    Cloud,
+    Estimate,
+    MapFrame,
+    Peer,
+    query_files,
+    read_map,
+    write_answers,
+)
+
+PEERS: dict[str, dict[str, Any]] = {
+    "scan-context": {},
+    "map-closures": {},
+    "map-closures-level": {"density_map_resolution": 0.25, "level": True},
+    "kiss-matcher": {},
+    "kiss-matcher-3": {"candidates": 3},
+    "kiss-matcher-map": {"candidates": 0},
+}
+"""By name, what is set otherwise than by default; chosen on the town of seed 7."""
+
+REFINED = "+gicp"
+"""Added to the name of a peer whose poses were refined."""
+
+PACKAGES = ("numpy", "scipy", "map-closures", "kiss-matcher", "small-gicp")
+
+
+class Locator(Protocol):
+    """What a peer does; settings are its `parameters`."""
+
+    parameters: Any
+
+    def learn(self, frames: Sequence[MapFrame]) -> None:
+        """Take in the map."""
+
+    def locate(self, cloud: Cloud) -> Estimate:
+        """The pose of a local map in the map."""
+
+
+def open_peer(name: str) -> Locator:
+    """A peer, by name; its package is imported only now."""
+    settings = PEERS[name]
+    if name.startswith("map-closures"):
+        from benchmarks.peers.map_closures import MapClosuresParameters, MapClosuresPeer
+
+        return MapClosuresPeer(MapClosuresParameters(**settings))
+    if name.startswith("kiss-matcher"):
+        from benchmarks.peers.kiss_matcher import KissMatcherParameters, KissMatcherPeer
+
+        return KissMatcherPeer(KissMatcherParameters(**settings))
+    from benchmarks.peers.scan_context import ScanContextParameters, ScanContextPeer
+
+    return ScanContextPeer(ScanContextParameters(**settings))
+
+
+def run(
+    name: Annotated[str, typer.Argument(help=f"One of {', '.join(PEERS)}.")],
+    folder: Annotated[Path, typer.Argument(help="With the map and the queries.")],
+    answers: Annotated[Path, typer.Argument(help="Folder for PEER.jsonl.")],
+    refine: Annotated[
+        bool, typer.Option(help=f"Refine each pose besides, into PEER{REFINED}.jsonl.")
+    ] = False,
+) -> None:
+    """Let one peer answer all queries."""
+    if name not in PEERS:
+        raise typer.BadParameter(f"{name!r} is none of {', '.join(PEERS)}")
+    locator, frames = open_peer(name), read_map(folder)
+    started = time.perf_counter()
+    locator.learn(frames)
+    learning = time.perf_counter() - started
+    plain, refined = [], []
+    # Standard output belongs to the packages, which write to it as they like.
+    for file in track(query_files(folder), name, console=Console(stderr=True)):
+        cloud = np.load(file)
+        started = time.perf_counter()
+        estimate = locator.locate(cloud)
+        spent = 1000 * (time.perf_counter() - started)
+        plain.append(Answer(estimate, spent))
+        if refine:
+            started = time.perf_counter()
+            estimate = fine(estimate, cloud, frames)
+            refined.append(Answer(estimate, spent + 1000 * (time.perf_counter() - started)))
+    peer = Peer(name, asdict(locator.parameters), versions(), learning)
+    answers.mkdir(parents=True, exist_ok=True)
+    write_answers(answers / f"{name}.jsonl", peer, plain)
+    if refine:
+        peer = Peer(name + REFINED, peer.settings, peer.versions, learning)
+        write_answers(answers / f"{peer.name}.jsonl", peer, refined)
+
+
+def fine(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
+    """The estimate with its pose refined."""
+    from benchmarks.peers.refinement import refine
+
+    return refine(estimate, cloud, frames)
+
+
+def versions() -> dict[str, str]:
+    """Of the packages that are installed."""
+    found = {}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+if __name__ == "__main__":
+    typer.run(run)

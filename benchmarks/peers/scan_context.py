@@ -1,0 +1,150 @@
+"""Scan Context, the plain baseline, written after the paper.
+
+Kim and Kim 2018, *Scan Context: Egocentric Spatial Descriptor for Place Recognition within 3D Point
+Cloud Map*. Constants are the paper's, and those of the authors' program where the paper has none.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame, Pose
+
+Context = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ScanContextParameters:
+    """Constants. Lengths are metres."""
+
+    rings: int = 20
+    sectors: int = 60
+    radius: float = 80.0
+    sensor_height: float = 2.0
+    """Added to all heights, so that what lies on the ground is told from nothing, which is 0."""
+    candidates: int = 10
+    """Frames whose ring keys are nearest; of these the contexts are compared."""
+    sure_below: float = 0.13
+    """Distance below which the authors' program closes a loop (SC_DIST_THRES)."""
+
+
+DEFAULT = ScanContextParameters()
+
+
+def scan_context(cloud: Cloud, parameters: ScanContextParameters = DEFAULT) -> Context:
+    """Greatest height in each ring and sector (section III-A): float64 (rings, sectors).
+
+    Args:
+        cloud: float32 (n, 3), metres, about the sensor, z up.
+    """
+    distance = np.hypot(cloud[:, 0], cloud[:, 1])
+    ring = (distance / parameters.radius * parameters.rings).astype(np.int64)
+    angle = np.arctan2(cloud[:, 1], cloud[:, 0]) % (2 * np.pi)
+    sector = (angle / (2 * np.pi) * parameters.sectors).astype(np.int64) % parameters.sectors
+    near = ring < parameters.rings
+    context = np.zeros((parameters.rings, parameters.sectors))
+    height = cloud[:, 2].astype(np.float64) + parameters.sensor_height
+    np.maximum.at(context, (ring[near], sector[near]), height[near])
+    return context
+
+
+def ring_key(context: Context) -> Context:
+    """Share of each ring's sectors that hold something: (rings,), the same for every heading."""
+    return np.asarray((context > 0).mean(axis=1))
+
+
+def distances(query: Context, candidate: Context) -> Context:
+    """Distance at each angle of whole sectors: (sectors,).
+
+    The angle is the query's heading in the candidate's frame. A distance is one minus the cosine
+    between columns, averaged (equations 5 and 6); columns that are empty in either say nothing and
+    are left out, as in the authors' program.
+    """
+    query, candidate = columns(query), columns(candidate)
+    cosines = query.T @ candidate
+    both = np.outer(query.any(axis=0), candidate.any(axis=0))
+    sectors = np.arange(query.shape[1])
+    # What the query sees in a sector, the candidate sees in the sector further on by the angle.
+    further = (sectors + sectors[:, None]) % len(sectors)
+    compared = both[sectors, further].sum(axis=1)
+    similarity = cosines[sectors, further].sum(axis=1)
+    return np.asarray(1 - similarity / np.maximum(compared, 1))
+
+
+def columns(context: Context) -> Context:
+    """Columns at length 1; empty ones stay empty."""
+    lengths = np.linalg.norm(context, axis=0)
+    return np.asarray(context / np.where(lengths > 0, lengths, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A frame of the map that looks like the query.
+
+    Attributes:
+        frame: its index.
+        distance: of the contexts, at the best angle.
+        yaw: the query's heading in the frame, radians.
+    """
+
+    frame: int
+    distance: float
+    yaw: float
+
+
+class ScanContexts:
+    """The contexts of a map's frames, and a k-d tree over their ring keys."""
+
+    def __init__(
+        self, clouds: Sequence[Cloud], parameters: ScanContextParameters = DEFAULT
+    ) -> None:
+        self.parameters = parameters
+        self.contexts = [scan_context(cloud, parameters) for cloud in clouds]
+        self.keys = cKDTree(np.stack([ring_key(context) for context in self.contexts]))
+
+    def find(self, cloud: Cloud) -> list[Found]:
+        """Frames that look like a local map, the most alike first (section III-D)."""
+        query = scan_context(cloud, self.parameters)
+        count = min(self.parameters.candidates, len(self.contexts))
+        _, nearest = self.keys.query(ring_key(query), k=[*range(1, count + 1)])
+        found = [self.compare(query, int(frame)) for frame in nearest]
+        return sorted(found, key=lambda one: one.distance)
+
+    def compare(self, query: Context, frame: int) -> Found:
+        """A frame at its best angle."""
+        apart = distances(query, self.contexts[frame])
+        best = int(apart.argmin())
+        return Found(frame, float(apart[best]), 2 * np.pi * best / self.parameters.sectors)
+
+
+class ScanContextPeer:
+    """A pose by Scan Context: the place of the frame found, and the angle of the best comparison.
+
+    There is no translation in it: the answer is as far off as the query stands from that frame.
+    """
+
+    def __init__(self, parameters: ScanContextParameters = DEFAULT) -> None:
+        self.parameters = parameters
+
+    def learn(self, frames: Sequence[MapFrame]) -> None:
+        """Take in the map."""
+        self.poses = [frame.pose for frame in frames]
+        self.contexts = ScanContexts([frame.cloud for frame in frames], self.parameters)
+
+    def locate(self, cloud: Cloud) -> Estimate:
+        """The pose of a local map in the map."""
+        if not len(cloud):
+            return NOTHING
+        best = self.contexts.find(cloud)[0]
+        pose = self.poses[best.frame] @ about_z(best.yaw)
+        return Estimate(pose, -best.distance, best.distance < self.parameters.sure_below)
+
+
+def about_z(yaw: float) -> Pose:
+    """A turn about the vertical by an angle in radians: transform (4, 4)."""
+    turn = np.eye(4)
+    turn[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
+    return turn

@@ -1,0 +1,1 @@
+"""Storage benchmarks: large maps, compression and stored views."""

@@ -1,0 +1,198 @@
+"""Maps at scale: what a segment costs on disk and in memory, and how quick a large map is.
+
+The real server over loopback; maps of `map_content`. Another process asks on schedule, this one
+writes meanwhile.
+"""
+
+import asyncio
+import tempfile
+import time
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import faiss
+import msgpack  # type: ignore[import-untyped]
+import numpy as np
+from placecell_client import Client, Description, encode
+
+from benchmarks.load.generator import Load, request_of, sent_by_process
+from benchmarks.load.serve import percentiles
+from benchmarks.load.soak import look
+from benchmarks.map_content import Content, Views, map_of
+from benchmarks.storage.map_writers import MAP, Plan, rebuilding, writing
+from evaluation.figure import figure
+from evaluation.recognition.evaluate import machine
+from placecell.core.types import Int64
+from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.shipped_models import DEFAULT_MODEL
+from placecell.segmentation.pipeline import Progress, silent
+from service.api.body.body import MSGPACK
+from service.child_process import Service, address_of, running_service
+
+
+def bench(
+    views: Views, plan: Plan, seed: int = 0, *, progress: Progress = silent
+) -> dict[str, Any]:
+    """Measure all; the report as `placecell bench maps` writes it."""
+    ten_thousand = views.draw(10_000, 1, seed).codes
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
+        for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
+            content = views.draw(plan.sizes[number], plan.asked, seed)
+            rows.append(_row(views, content, plan, Path(folder) / str(number), seed))
+    return {
+        "rows": rows,
+        "file_bytes_per_segment": len(encode(map_of(ten_thousand, views.manifest, "ann"))) / 10_000,
+        "model_id": views.manifest.model_id,
+        "default": DEFAULT_MODEL,
+        "machine": machine(),
+        "seed": seed,
+        "plan": asdict(plan),
+    }
+
+
+def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
+    file = encode(map_of(content.codes, views.manifest, "ann", seed=seed))
+    row: dict[str, Any] = {"segments": len(content.codes)}
+    row["start_empty_s"] = round(_start(data, plan.starts), 3)
+    with running_service(data) as address, Client(address, timeout=120) as client:
+        empty = look(address)["resident_mb"]
+        started = time.perf_counter()
+        client.put_map(MAP, file)
+        spent = time.perf_counter() - started
+        row["upload_segments_per_second"] = round(len(content.codes) / spent)
+        row |= _recognised(client, content)
+        idle = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"idle_match_50_{key}_ms": idle[key] for key in ("p50", "p99")}
+        row["memory_mb"] = round(look(address)["resident_mb"] - empty, 1)
+        row["process_mb"] = look(address)["resident_mb"]
+    row["disk_bytes_per_segment"] = round(_bytes(data) / len(content.codes), 1)
+    row["start_cache_s"] = round(_start(data, plan.starts) - row["start_empty_s"], 3)
+    for cached in (data / "cache").glob("*"):
+        cached.unlink()
+    row["start_rebuild_s"] = round(_start(data, 1) - row["start_empty_s"], 3)
+    with Service(data) as service:
+        address = service.address()
+        row |= _written_to(address, views, content, plan, data, seed)
+        row["memory_mb_after_writes"] = round(look(address)["resident_mb"] - empty, 1)
+        row["peak_mb"] = service.peak_mb()
+    return row
+
+
+def _written_to(
+    address: str, views: Views, content: Content, plan: Plan, data: Path, seed: int
+) -> dict[str, Any]:
+    """What is answered while robots write, and while the index is made anew."""
+    row: dict[str, Any] = {}
+    with Client(address, timeout=120) as client:
+        with writing(client, views, plan, len(content.codes), seed) as written:
+            busy = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
+        row |= written
+        with rebuilding(client, views, data, len(content.codes), seed) as rebuilt:
+            busy = asyncio.run(_asked(address, content, plan, data))
+        row |= {f"rebuilding_match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
+        row["rebuilds"] = len(rebuilt)
+    return row
+
+
+def _recognised(client: Client, content: Content) -> dict[str, float]:
+    """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
+    model = client.info().model
+    exact = _by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
+    found = []
+    for start in range(0, len(content.asked), 500):
+        codes = content.asked[start : start + 500]
+        nothing = np.zeros((len(codes), 0), np.float32)
+        asked = Description(model["model_id"], codes, nothing, np.zeros((len(codes), 3)), {})
+        for candidates in client.match(asked, maps=[MAP], k=25).queries:
+            assert isinstance(candidates, tuple)
+            found.append(content.things[[candidate.id for candidate in candidates]])
+    ours = np.array(found)
+    recall, best = _shares(ours, content), _shares(exact, content)
+    return {
+        "top1": _shares(ours[:, :1], content),
+        "recall_at_25": recall,
+        "exact_recall_at_25": best,
+        "recall_at_25_of_exact": round(recall / best, 4),
+    }
+
+
+def _by_comparing_all(content: Content, quantiser: Quantiser) -> Int64:
+    """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
+    nearest = faiss.ResultHeap(len(content.asked), 25)
+    asked = quantiser.levels(content.asked).astype(np.float32)
+    for start in range(0, len(content.codes), 100_000):
+        some = quantiser.levels(content.codes[start : start + 100_000]).astype(np.float32)
+        distances, rows = faiss.knn(asked, some, 25)
+        nearest.add_result(distances, rows + start)
+    nearest.finalize()
+    return np.asarray(content.things[nearest.I])
+
+
+def _shares(things: Int64, content: Content) -> float:
+    return float((things == content.asked_things[:, None]).any(axis=1).mean())
+
+
+async def _asked(address: str, content: Content, plan: Plan, folder: Path) -> dict[str, float]:
+    """Milliseconds of `/match` from descriptors, asked on schedule by another process."""
+    bodies = [
+        msgpack.packb(
+            {
+                "model_id": content.model_id,
+                "codes": content.asked[start : start + plan.queries].tobytes(),
+                "maps": [MAP],
+                "k": plan.k,
+            }
+        )
+        for start in range(0, len(content.asked) - plan.queries + 1, plan.queries)
+    ]
+    sent = tuple(request_of("/match", MSGPACK, body) for body in bodies)
+    outcome = await sent_by_process(
+        Load(*address_of(address), sent, plan.rate, plan.seconds), folder
+    )
+    good = np.array(outcome.statuses) == 200
+    if not good.all():
+        raise RuntimeError(f"/match was answered {set(outcome.statuses)}")
+    return {key: spent or 0.0 for key, spent in percentiles(np.array(outcome.milliseconds)).items()}
+
+
+def _start(data: Path, times: int) -> float:
+    """Seconds until the service answers; the median."""
+    spent = []
+    for _ in range(times):
+        started = time.perf_counter()
+        with running_service(data):
+            spent.append(time.perf_counter() - started)
+    return float(np.median(spent))
+
+
+def _bytes(folder: Path) -> int:
+    """Of all files in a folder."""
+    return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+
+
+def draw(report: dict[str, Any], file: Path) -> None:
+    """What maps cost against their size, as a PNG."""
+    rows = report["rows"]
+    sizes = [row["segments"] for row in rows]
+    with figure(file, 3) as (left, middle, right):
+        for name, key, style in (
+            ("p99 under writes", "match_50_p99_ms", "o-"),
+            ("p50 under writes", "match_50_p50_ms", "o--"),
+            ("p99 idle", "idle_match_50_p99_ms", "s-"),
+            ("p50 idle", "idle_match_50_p50_ms", "s--"),
+        ):
+            left.plot(sizes, [row[key] for row in rows], style, label=name)
+        left.set(title="/match of 50 descriptors", ylabel="milliseconds")
+        for name, key in (("process", "process_mb"), ("store and index", "memory_mb")):
+            middle.plot(sizes, [row[key] for row in rows], "o-", label=name)
+        middle.set(title="memory", ylabel="MB")
+        for name, key in (("from the cache", "start_cache_s"), ("rebuilt", "start_rebuild_s")):
+            right.plot(sizes, [row[key] for row in rows], "o-", label=name)
+        right.set(title="start, beyond that of an empty service", ylabel="seconds")
+        for axes in (left, middle, right):
+            axes.set(xscale="log", xlabel="segments")
+            axes.grid(alpha=0.3)
+            axes.legend(fontsize=8)

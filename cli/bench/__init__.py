@@ -1,0 +1,41 @@
+"""`placecell bench`: what is measured, one file a bench."""
+
+import typer
+
+from cli.bench.align import align
+from cli.bench.attack import attack
+from cli.bench.crash import crash
+from cli.bench.describe import describe
+from cli.bench.fleet import fleet
+from cli.bench.floors import floors
+from cli.bench.json_requests import json_requests
+from cli.bench.ladder import ladder
+from cli.bench.localize import localize
+from cli.bench.maps import maps
+from cli.bench.peers import peers
+from cli.bench.pose_tables import localisation
+from cli.bench.power_loss import powerloss
+from cli.bench.serve import serve
+from cli.bench.soak import soak
+from cli.bench.town import town
+from cli.bench.views import views
+from cli.drive_options import takes_drives
+
+bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
+bench.command()(takes_drives(describe))
+bench.command()(takes_drives(serve))
+bench.command()(takes_drives(soak))
+bench.command()(takes_drives(maps))
+bench.command()(takes_drives(ladder))
+bench.command()(takes_drives(localize))
+bench.command()(takes_drives(floors))
+bench.command()(localisation)
+bench.command()(takes_drives(align))
+bench.command()(town)
+bench.command()(takes_drives(views))
+bench.command()(takes_drives(peers))
+bench.command()(crash)
+bench.command()(powerloss)
+bench.command()(fleet)
+bench.command()(attack)
+bench.command("json")(json_requests)

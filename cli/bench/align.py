@@ -1,0 +1,62 @@
+"""`placecell bench align`: how often two maps are laid on each other rightly."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.bench.options import JsonFile, write_json
+from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
+
+
+def align(
+    town: Annotated[Path, typer.Argument(help="Folder of 'placecell town --metres M --pairs N'.")],
+    model: Annotated[
+        str | None,
+        typer.Option(help="A model's name or folder. (default: the one that is served)"),
+    ] = None,
+    recording_a: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What 'placecell prepare' made of the first drive."),
+    ] = None,
+    recording_b: Annotated[Path | None, typer.Option(metavar="FILE", help="Of the second.")] = None,
+    json_file: JsonFile = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Draw agreement against overlap into this PNG."),
+    ] = None,
+) -> None:
+    """Align pairs of maps, each in a frame of its own: some overlap, some do not.
+
+    Through the service's own code, in this process. Right is within 0.5 m and 1 degree, in the
+    middle of what both maps have.
+    """
+    from benchmarks.localization.align import bench as run
+    from benchmarks.localization.align import draw
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+
+    with clear_errors():
+        folder = model_folder(model or DEFAULT_MODEL)
+        report = run(town, folder, (recording_a, recording_b), show)
+        write_json(report, json_file)
+        if plot:
+            draw(report, plot)
+    print_report(report)
+
+
+def print_report(report: dict[str, Any]) -> None:
+    """The figures on the terminal."""
+    table = new_table("", "pairs", "right", "wrong", "not aligned")
+    for name in ("overlapping", "overlapping_enough", "apart"):
+        if name in report:
+            row = report[name]
+            counts = (row["pairs"], row["right"], row["wrong"], row["pairs"] - row["aligned"])
+            table.add_row(name.replace("_", " "), *map(str, counts))
+    print_tables(table)
+    if report["median_position_error_m"] is not None:
+        typer.echo(
+            f"median error {report['median_position_error_m']:.3f} m, "
+            f"{report['median_yaw_error_deg']:.3f} deg; "
+            f"{report['p50_ms']:.0f} ms (p50), {report['p99_ms']:.0f} ms (p99)"
+        )

@@ -1,0 +1,93 @@
+"""`placecell bench describe`: how fast segments become descriptors."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.bench.options import JsonFile, Kept, Seed, Source, scans_from, write_json
+from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
+
+
+def describe(
+    segments: Source = None,
+    json_file: JsonFile = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Draw accuracy against speed into this PNG."),
+    ] = None,
+    output: Kept = Path("out/bench"),
+    repeats: Annotated[
+        int, typer.Option(min=1, help="Measurements of each figure; the median is given.")
+    ] = 5,
+    seconds: Annotated[
+        float, typer.Option(min=0.0, help="Duration of each measurement, at least.")
+    ] = 0.5,
+    seed: Seed = 7,
+) -> None:
+    """Measure how fast segments become descriptors.
+
+    Every shipped network beside the paper's own, in turn in one run, with batches of 1, 8 and 64
+    on 1 and 2 threads; alignment and voxelisation alone; and the whole way from points to
+    descriptors with the default model. The paper's network gets random weights, for which torch
+    is needed the first time; without it the ratio to the paper is left out.
+
+    On a busy machine believe the ratios, not the rates. Example:
+
+        placecell bench describe --json figures.json --plot speed.png
+    """
+    from benchmarks.load.describe import Plan, draw
+    from benchmarks.load.describe import bench as run
+
+    with clear_errors():
+        some, name = scans_from(segments, output, seed)
+        plan = Plan(repeats=repeats, seconds=seconds)
+        report = run(some, output, plan, seed, progress=show)
+        report["source"] = name
+        write_json(report, json_file)
+        if plot:
+            draw(report, plot)
+    print_report(report)
+
+
+def print_report(report: dict[str, Any]) -> None:
+    """The figures on the terminal."""
+    sizes, machine = report["sizes"], report["machine"]
+    typer.echo(
+        f"{machine['processor']}, {machine['cores']} cores; {sizes['segments']:,} segments of "
+        f"{sizes['points_mean']:.0f} points on average, from {report['source']}"
+    )
+    table = new_table(title="inference, segments a second")
+    for name in ("model", "precision", "batch", "threads", "rate", "top1"):
+        table.add_column(
+            name, justify="left" if name in {"model", "precision"} else "right", overflow="fold"
+        )
+    for row in report["rows"]:
+        table.add_row(
+            row["model"],
+            row["precision"],
+            str(row["batch"]),
+            str(row["threads"]),
+            f"{row['segments_per_second']:,.0f}",
+            "-" if row["top1"] is None else f"{row['top1']:.1%}",
+        )
+    print_tables(table)
+    for threads, rate in report["preprocessing_segments_per_second"].items():
+        typer.echo(f"align and voxelise, {threads} threads: {rate:,.0f} segments a second")
+    for threads, rate in report["surroundings_segments_per_second"].items():
+        typer.echo(f"surroundings, {threads} threads: {rate:,.0f} segments a second")
+    whole = report["points_in_descriptors_out_segments_per_second"]
+    typer.echo(f"points in, descriptors out: {whole:,.0f} segments a second")
+    single = report["single_segment_ms"]
+    typer.echo(f"a single segment: {single['p50']:.2f} ms (p50), {single['p99']:.2f} ms (p99)")
+    for pair in report["pairs"]:
+        typer.echo(
+            f"{pair['pairs']:,} probabilities by {pair['model']} ({pair['kind']}, "
+            f"{pair['bytes'] / 1e6:.1f} MB): {pair['p50_ms']:.2f} ms"
+        )
+    times = report["default_over_paper"]
+    if times is None:
+        typer.echo("the paper's network was not measured: building it needs torch")
+    else:
+        typer.echo(f"{report['default']}: {times:.1f} times as fast as the paper's network")

@@ -1,0 +1,58 @@
+"""`placecell bench floors`: measure whether /localize tells look-alike floors apart."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.bench.options import JsonFile, Kept, Seed, Source, recording_from, write_json
+from cli.sources import clear_errors, show
+from cli.tables import new_table, print_tables
+
+
+def floors(
+    segments: Source = None,
+    trials: Annotated[
+        int, typer.Option(min=1, help="Number of /localize requests, spread over all cases.")
+    ] = 500,
+    json_file: JsonFile = None,
+    output: Kept = Path("out/bench"),
+    seed: Seed = 7,
+) -> None:
+    """Measure how often /localize over maps of similar floors is right, ambiguous, or misleading.
+
+    A floor has the things of another one, but for 0 to 60% that are replaced by others. Each map
+    and each robot sees them anew: descriptors differ as two views of one real segment do, centroids
+    by 0.3 m along each axis. Cases: eight segments, only what all floors have, up to twenty floors,
+    five things that differ, unequal sizes, deduplicated maps, two models, other buildings.
+    """
+    from benchmarks.localization.floors import bench as run
+    from benchmarks.localization.floors import loaded
+    from benchmarks.map_content import Views
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+
+    names = (DEFAULT_MODEL, OTHER_MODEL)
+    with clear_errors():
+        recording = recording_from(segments, output, seed, scans=60)
+        views = [Views.of(load_extractor(MODELS_FOLDER / each), recording, seed) for each in names]
+        models = loaded(MODELS_FOLDER, names)
+        report = run(views, models, trials, seed, progress=show) | {"source": recording.name}
+        write_json(report, json_file)
+    print_rows(report)
+
+
+OTHER_MODEL = "group"
+"""Model of the other floors in the case with two models."""
+
+
+def print_rows(report: dict[str, Any]) -> None:
+    """Print the figures as a table."""
+    columns = ("trials", "right", "ambiguous", "wrong", "wrong_but_sure")
+    titles = ("trials", "right", "ambiguous", "wrong", "wrong but sure")
+    table = new_table("floors", *titles, title="similar floors in several maps")
+    shares = {f"{name} changed": row for name, row in report["by_share"].items()}
+    decided = {"the difference decides": report["where_the_difference_decides"]}
+    for name, row in {**report["by_case"], **shares, **decided, "all": report}.items():
+        table.add_row(name, *(str(row[column]) for column in columns))
+    print_tables(table)

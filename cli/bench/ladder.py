@@ -1,0 +1,56 @@
+"""`placecell bench ladder`: how far descriptors can be compressed."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.bench.options import JsonFile, write_json
+from cli.sources import clear_errors, load, parse_scans
+from cli.tables import new_table, print_tables
+
+
+def ladder(
+    drive: Annotated[
+        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+    ],
+    scans: Annotated[
+        str,
+        typer.Option(
+            metavar="FIRST:LAST",
+            help="Groups wholly within these scans are asked for; what must be fitted is fitted "
+            "to the others.",
+        ),
+    ],
+    model: Annotated[str, typer.Option(help="A model's name or folder.")] = "",
+    json_file: JsonFile = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw recognition against bytes.")
+    ] = None,
+) -> None:
+    """Measure what each way to store descriptors costs, in bytes and in recognition."""
+    from benchmarks.storage.ladder import draw
+    from benchmarks.storage.ladder import ladder as run
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+
+    with clear_errors():
+        extractor = load_extractor(model_folder(model or DEFAULT_MODEL))
+        report = run(extractor, load(drive), parse_scans(scans))
+        write_json(report, json_file)
+        if plot:
+            draw(report, plot)
+    print_rows(report)
+
+
+def print_rows(report: dict[str, Any]) -> None:
+    """The figures on the terminal."""
+    table = new_table("storage", "bytes", "top1", "cross view", "recall at 25")
+    for row in report["rows"]:
+        shares = (row[key] for key in ("top1", "cross_view_top1", "recall_at_25"))
+        table.add_row(
+            row["storage"],
+            f"{row['bytes']:.0f}",
+            *("-" if share is None else f"{share:.1%}" for share in shares),
+        )
+    print_tables(table)

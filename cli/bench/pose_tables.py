@@ -1,0 +1,43 @@
+"""`placecell bench localisation`: the tables of docs/results/localization.md."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.sources import clear_errors
+from cli.tables import JsonFile, write_json
+
+
+def localisation(
+    folders: Annotated[
+        list[Path],
+        typer.Argument(
+            help="One a case, a column each: with MODEL.json of 'placecell evaluate-poses' and "
+            "peers*.json of 'placecell bench peers'."
+        ),
+    ],
+    system: Annotated[
+        str | None,
+        typer.Option(help="Only this one's figures, in full. (default: all systems, in short)"),
+    ] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Write figures of localisation, measured before, as a table in Markdown."""
+    from benchmarks.localization.pose_tables import comparison, in_full, read
+
+    with clear_errors():
+        cases = {folder.name: read(folder) for folder in folders}
+        if empty := [name for name, figures in cases.items() if not figures]:
+            raise ValueError(f"{empty[0]}: holds no figures (*.json)")
+        if system is None:
+            lines = list(comparison(cases))
+        else:
+            there = dict.fromkeys(name for figures in cases.values() for name in figures)
+            if system not in there:
+                raise ValueError(f"no system {system!r}; there are {', '.join(there)}")
+            lines = list(
+                in_full({name: each[system] for name, each in cases.items() if system in each})
+            )
+        write_json({"cases": cases}, json_file)
+    typer.echo("\n".join(lines))

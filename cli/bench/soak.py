@@ -1,0 +1,47 @@
+"""`placecell bench soak`: the service among clients that misbehave."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cli.bench.options import JsonFile, Kept, Seed, Source, scans_from, write_json
+from cli.sources import clear_errors
+
+
+def soak(
+    segments: Source = None,
+    minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 10.0,
+    json_file: JsonFile = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw memory over time into this PNG.")
+    ] = None,
+    output: Kept = Path("out/bench"),
+    seed: Seed = 7,
+) -> None:
+    """Run the service for minutes at 80% of what it bears, among clients that misbehave.
+
+    Some die in the midst of a request, some send slowly, some send garbage. Ends with status 1 if
+    any client that behaved got an answer that is not expected.
+    """
+    from benchmarks.load.soak import Soak, draw_memory
+    from benchmarks.load.soak import soak as run
+
+    with clear_errors():
+        some, name = scans_from(segments, output, seed)
+        report = run(some, Soak(seconds=60 * minutes), seed)
+        report["source"] = name
+        write_json(report, json_file)
+        if plot:
+            draw_memory(report, plot)
+    typer.echo(
+        f"{report['requests']:,} requests: {report['statuses']}, p99 "
+        f"{report['milliseconds']['p99']} ms; bad clients: {report['bad_clients']}"
+    )
+    typer.echo(
+        f"memory {report['memory_mb_first_half']:.0f} MB in the first half, "
+        f"{report['memory_mb_second_half']:.0f} MB in the second; at most "
+        f"{report['descriptors_most']:.0f} file descriptors, {report['descriptors_last']:.0f} after"
+    )
+    if report["unexpected"]:
+        raise typer.Exit(1)

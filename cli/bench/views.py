@@ -1,0 +1,48 @@
+"""`placecell bench views`: what several views of a thing are worth."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cli.bench.options import JsonFile, Seed, write_json
+from cli.sources import clear_errors, load, parse_scans
+from cli.tables import new_table, print_tables
+
+
+def views(
+    drive: Annotated[
+        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+    ],
+    scans: Annotated[
+        str,
+        typer.Option(metavar="FIRST:LAST", help="Groups wholly within these scans are taken."),
+    ],
+    model: Annotated[str, typer.Option(help="A model's name or folder.")] = "",
+    json_file: JsonFile = None,
+    seed: Seed = 7,
+) -> None:
+    """Measure how many segments a map needs if things are stored once, or from several sides."""
+    from benchmarks.storage.views import views as run
+    from placecell.descriptors.extractor import load_extractor
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+
+    with clear_errors():
+        extractor = load_extractor(model_folder(model or DEFAULT_MODEL))
+        report = run(extractor, load(drive), parse_scans(scans), seed)
+        write_json(report, json_file)
+    print_rows(report)
+
+
+def print_rows(report: dict[str, Any]) -> None:
+    """The figures on the terminal."""
+    table = new_table("kept", "views", "segments", "cross view, top1", "cross view, recall at 25")
+    for row in report["rows"]:
+        shares = (row[key] for key in ("cross_view_top1", "cross_view_recall_at_25"))
+        table.add_row(
+            row["kept"],
+            "-" if row["views"] is None else str(row["views"]),
+            f"{row['segments']:,}",
+            *(f"{share:.1%}" for share in shares),
+        )
+    print_tables(table)

@@ -1,0 +1,1 @@
+"""Demo: two robots share a map and localize in it."""

@@ -1,0 +1,97 @@
+"""The demo: robot A shares its map through the service, robot B finds its place in it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from placecell_client import Client, encode
+
+from demo.meeting import Meeting, meet
+from demo.score import Score, score
+from evaluation.poses.robot import Robot, ask
+from placecell.datasets import Drive
+from service.child_process import running_service
+
+MAP = "robot_a"
+K = 25
+REQUESTS = 60
+"""Frames that robot B asks about: enough for percentiles, few enough to wait for."""
+
+SHORT_METRES = 24.0
+"""Below two blocks of 12 m a drive is short."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What the demo measured.
+
+    Attributes:
+        score: candidates right.
+        figures: of the map, the requests, the drive; for the terminal and for JSON.
+        meeting: poses, and the map of both; None if they were not asked for.
+    """
+
+    score: Score
+    figures: dict[str, Any]
+    meeting: Meeting | None
+
+
+def run(
+    mapper: Robot, asker: Robot, folder: Path, model: str, pictures: Path | None = None
+) -> Outcome:
+    """Start the service, upload A's map, let B ask, score.
+
+    Args:
+        folder: for the service's data.
+        model: by name.
+        pictures: folder of the pictures. With one, robot B asks for its pose too, and both maps
+            are merged.
+
+    Raises:
+        ValueError: a robot saw no segments.
+    """
+    for robot in (mapper, asker):
+        robot.check_segments()
+    with running_service(folder, "--model", model) as address, Client(address) as client:
+        compact = mapper.build_map(client, frame=mapper.drive.folder.name)
+        data = encode(compact)
+        client.put_map(MAP, data)
+        views = [(scan, segments) for scan, segments, _ in asker.views() if len(segments)]
+        spread = np.unique(np.linspace(0, len(views) - 1, REQUESTS).astype(int))
+        asked = [views[index] for index in spread]
+        answers, milliseconds = ask(asker, client, [MAP], K, asked)
+        model_id = client.info().model_id
+        meeting = None if pictures is None else meet(mapper, asker, client, MAP, asked)
+    result = score(answers, compact.centroids, mapper.to_common)
+    p50, p99 = np.percentile(milliseconds, [50, 99])
+    figures = {
+        "model_id": model_id,
+        "path_m": round(asker.drive.path_length(), 1),
+        "segments_in_map": len(compact),
+        "map_bytes": len(data),
+        "bytes_per_segment": round(len(data) / max(len(compact), 1), 1),
+        "requests": len(milliseconds),
+        "queries": result.queries,
+        "queries_findable": result.findable,
+        "right_by_chance": result.chance,
+        **{f"right_at_{cut}": share for cut, share in result.right.items()},
+        "request_p50_ms": round(float(p50), 1),
+        "request_p99_ms": round(float(p99), 1),
+    }
+    if pictures is not None and meeting is not None:
+        from demo.merged_map_picture import draw_site
+        from demo.picture import draw_matches
+
+        title = f"Segments of {asker.name}, matched in the map of {mapper.name}"
+        right = result.first_is_right
+        matches = pictures / "matches.png"
+        draw_matches(matches, mapper, asker, compact.centroids, answers, right, title)
+        draw_site(pictures / "site.png", mapper, asker, compact.centroids, meeting)
+        figures |= meeting.figures()
+    return Outcome(result, figures, meeting)
+
+
+def is_short(drive: Drive) -> bool:
+    """Whether a drive has less than two whole blocks."""
+    return drive.path_length() < SHORT_METRES
