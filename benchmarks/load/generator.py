@@ -1,4 +1,4 @@
-"""An open-loop load generator, as a process of its own: `python -m benchmarks.load.generator` reads a plan.
+"""Open-loop load generator, a process of its own: `python -m benchmarks.load.generator PLAN`.
 
 Requests leave when they are due, whether or not the answers to earlier ones came; a latency counts
 from when the request was due. Bodies were encoded beforehand, and the protocol is spoken in a few

@@ -18,8 +18,8 @@ from placecell.datasets import open_drive
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import Confidence
 from placecell.segmentation.recording import Recording
-from tests.segments.segment_builders import pose, write_odometry, write_raw
-from tests.segments.test_kitti_raw import record, unit_at_the_sensor
+from tests.placecell.datasets.test_kitti_raw import record, unit_at_the_sensor
+from tests.placecell.segment_builders import pose, write_odometry, write_raw
 
 FIGURES = {
     "model_id",

@@ -14,7 +14,7 @@ from demo.run import Outcome
 from demo.score import Score
 from evaluation.poses.robot import Robot
 from placecell.localization import Pose
-from tests.segments.segment_builders import MemoryDrive, pose
+from tests.placecell.segment_builders import MemoryDrive, pose
 
 HERE = np.zeros(3)
 RIGHT = Told(HERE, HERE, 0.1, 0.1, 5.0)

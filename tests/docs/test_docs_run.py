@@ -31,7 +31,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.child_process import running_service
 from tests.docs import http_examples
-from tests.segments.segment_builders import pose, write_odometry
+from tests.placecell.segment_builders import pose, write_odometry
 from town import ODOMETRY_FILE
 
 ROOT = Path(__file__).parents[2]

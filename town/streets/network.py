@@ -120,7 +120,7 @@ class Network:
         return int(self.designs[street])
 
     def raised(self) -> Bool:
-        """Where the ground is a kerb higher than a carriageway, by region (see `town.streets.ground`)."""
+        """Tell, by region of `town.streets.ground`, where the ground is a curb higher than a road."""
         columns, rows = len(self.plan.easts), len(self.plan.norths)
         raised = np.zeros((2 * columns + 3, 2 * rows + 3), dtype=bool)
         raised[1:-1, 1:-1] = True

@@ -1,0 +1,51 @@
+"""The bench of `/localize`, on a small map."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from benchmarks.load import localize
+from benchmarks.load.localize import Plan, road_with_queries
+from benchmarks.map_content import VIEWS, Views
+from cli import app
+from evaluation.poses.queries import random_frame
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from tests.benchmarks.test_ladder import recorded_from_two_places
+
+
+def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def small(sizes: tuple[int, ...], seconds: float) -> Plan:
+        return Plan(sizes, requests=5, rate=5, seconds=seconds)
+
+    monkeypatch.setattr(localize, "Plan", small)
+    recorded_from_two_places().save(tmp_path / "boxes.safetensors")
+    words = ["bench", "localize", "--segments", tmp_path / "boxes.safetensors", "--seconds", 1,
+             "--size", 2000, "--json", tmp_path / "localize.json"]  # fmt: skip
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    report = json.loads((tmp_path / "localize.json").read_text())
+    (row,) = report["rows"]
+    assert row["segments"] == 2000
+    assert row["requests"] == 5
+    assert row["milliseconds"]["p50"] > 0
+    assert {"search", "verify"} <= set(row["stages"])
+    assert 0 <= row["localised_right"] <= 1
+
+
+def test_what_is_asked_about_stands_in_the_map() -> None:
+    extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
+    views = Views.of(extractor, recorded_from_two_places(), 0)
+    frame = random_frame(1)
+    road, asked = road_with_queries(views, 2000, Plan(requests=3, queries=20), frame, seed=0)
+    road.check()
+    assert len(road) == 2000
+    assert len(asked) == 3
+    back = frame.inverse()
+    for each in asked:
+        seen = back.apply(each.centroids)
+        apart = np.linalg.norm(road.centroids[:, None] - seen, axis=2)
+        assert ((apart < 2).sum(axis=0) >= VIEWS - 1).all()

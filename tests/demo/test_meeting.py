@@ -1,0 +1,52 @@
+"""Two robots meet, and the service refuses to merge their maps."""
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+from placecell_client import Client, ServiceError
+
+from demo.meeting import meet
+from evaluation.poses.local_service import Local
+from evaluation.poses.queries import Pair
+from tests.benchmarks.drive_builders import trip
+from tests.service.service_builders import write_eigenvalue_model
+
+
+class Refusing:
+    """A service that merges nothing, and tells why when it is asked what it would do."""
+
+    def __init__(self, local: Local, kind: str) -> None:
+        self.describe, self.info = local.describe, local.info
+        self.kind = kind
+
+    def put_map(self, name: str, data: bytes) -> None:
+        assert (name, len(data) > 0) == ("b", True)
+
+    def merge_maps(self, site: str, maps: list[str], *, dry_run: bool = False) -> Any:
+        assert (site, maps) == ("site", ["a", "b"])
+        if dry_run:
+            return SimpleNamespace(alignments=(SimpleNamespace(detail="They lie apart."),))
+        raise ServiceError(409, "no", "nothing was changed", f"urn:placecell:problem:{self.kind}")
+
+
+def meeting(folder: Path, kind: str) -> Any:
+    write_eigenvalue_model(folder / "models")
+    for name in ("a", "b"):
+        trip(folder / name, 3, left=range(0))
+    pair = Pair.of(folder / "a", folder / "b")
+    with Local.open(folder / "models" / "tiny") as local:
+        return meet(pair.mapper, pair.asker, cast(Client, Refusing(local, kind)), "a", [])
+
+
+def test_maps_that_cannot_be_laid_are_told_with_the_reason(tmp_path: Path) -> None:
+    met = meeting(tmp_path, "not-aligned")
+    assert (met.laid, met.refusal) == (None, "They lie apart.")
+    assert not met.is_merged
+    assert not met.is_told
+
+
+def test_another_refusal_is_no_outcome(tmp_path: Path) -> None:
+    with pytest.raises(ServiceError):
+        meeting(tmp_path, "other-model")

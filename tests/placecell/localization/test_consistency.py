@@ -1,0 +1,72 @@
+import numpy as np
+import pytest
+
+from placecell.core.types import Float64
+from placecell.localization.consistency import consistent
+from placecell.localization.correspondences import Correspondences
+from placecell.localization.parameters import LocalisationParameters
+from tests.placecell.localization.scene_builders import a_pose, any_rotation
+
+
+def pairs(source: Float64, target: Float64) -> Correspondences:
+    numbers = np.arange(len(source))
+    return Correspondences(
+        numbers, numbers, numbers, source, target, np.ones(len(source)), len(source)
+    )
+
+
+def agree(here: list[float], there: list[float], **changes: float | str) -> bool:
+    """Whether the origin and these two points are the same pair, seen in two frames."""
+    source, target = np.array([[0.0] * 3, here]), np.array([[0.0] * 3, there])
+    parameters = LocalisationParameters(**changes)  # type: ignore[arg-type]
+    return bool(consistent(pairs(source, target), parameters)[0, 1])
+
+
+@pytest.mark.parametrize(
+    ("here", "there", "agreeing"),
+    [
+        ([10, 0, 0], [0, 10, 0], True),
+        ([10, 0, 0], [0, 10.9, 0], True),
+        ([10, 0, 0], [0, 11.1, 0], False),
+        ([10, 0, 0], [0, 8.9, 0], False),
+        ([0.3, 0, 0], [0, 0, 0], True),
+        # Heights: half a metre, and 2 degrees, which are 0.35 m at 10 m.
+        ([10, 0, 0], [10, 0, 0.84], True),
+        ([10, 0, 0], [10, 0, 0.86], False),
+        ([0, 0, 3], [0, 0, -3], False),
+    ],
+)
+def test_heights_and_level_distances_are_kept(
+    here: list[float], there: list[float], agreeing: bool
+) -> None:
+    assert agree(here, there) is agreeing
+
+
+def test_without_gravity_distances_in_space_are() -> None:
+    assert agree([0, 0, 10], [10, 0, 0], model="se3")
+    assert not agree([0, 0, 10], [10, 0, 0])
+    assert not agree([0, 0, 10], [11.1, 0, 0], model="se3")
+
+
+def test_nothing_agrees_with_itself_its_query_or_its_place() -> None:
+    points = np.zeros((3, 3))
+    found = Correspondences(
+        np.array([0, 0, 1]), np.array([0, 1, 0]), np.arange(3), points, points, np.ones(3), 2
+    )
+    expected = np.zeros((3, 3), dtype=bool)
+    expected[1, 2] = expected[2, 1] = True
+    np.testing.assert_array_equal(consistent(found, LocalisationParameters()), expected)
+
+
+@pytest.mark.parametrize(("model", "move"), [("yaw", a_pose), ("se3", any_rotation)])
+def test_a_motion_keeps_everything_consistent(model: str, move: object) -> None:
+    random = np.random.default_rng(0)
+    source = random.uniform(-40, 40, (40, 3))
+    pose = move(random)  # type: ignore[operator]
+    parameters = LocalisationParameters(model=model)  # type: ignore[arg-type]
+    graph = consistent(pairs(source, pose.apply(source)), parameters)
+    assert graph.sum() == 40 * 39
+    # And of other points there are few.
+    other = consistent(pairs(source, random.uniform(-40, 40, (40, 3))), parameters)
+    assert other.sum() < 0.2 * 40 * 39
+    np.testing.assert_array_equal(other, other.T)

@@ -1,0 +1,354 @@
+"""The service as a process, over real sockets."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from placecell_client import Client, MapFileError, Maps, ServiceError, encode
+from typer.testing import CliRunner
+
+from cli import app
+from placecell.descriptors.manifest import Manifest
+from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
+
+PROGRAM = "import service.server; service.server.HEAD_SECONDS = 2; from cli import app; app()"
+"""`placecell`, but less patient."""
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def command(models_dir: Path, data_dir: Path, *more: str) -> list[str]:
+    return [
+        sys.executable, "-c", PROGRAM, "serve", "--model", "tiny", "--port", "0",
+        "--models-dir", str(models_dir), "--data-dir", str(data_dir), *more,
+    ]  # fmt: skip
+
+
+@contextmanager
+def running(
+    models_dir: Path, data_dir: Path, *options: str
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """The process and its address."""
+    process = subprocess.Popen(
+        command(models_dir, data_dir, *options),
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0.5"},
+    )
+    assert process.stdout is not None
+    try:
+        line = process.stdout.readline()
+        assert "listens on http://" in line
+        yield process, line.split("listens on ")[1].split()[0]
+    finally:
+        process.kill()
+        process.wait(60)
+        process.stdout.close()
+
+
+def refused(*arguments: str, models_dir: Path, data_dir: Path) -> str:
+    """What the service says as it exits with 1."""
+    done = subprocess.run(
+        command(models_dir, data_dir, *arguments),
+        capture_output=True, text=True, timeout=60, cwd=ROOT, check=False,
+    )  # fmt: skip
+    assert done.returncode == 1, done
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    assert done.stderr.count("\n") == 1
+    return done.stderr
+
+
+def raw_request(address: str, head: str, *body: bytes) -> tuple[int, str]:
+    """Send bytes as they are; the status and the rest of the answer."""
+    host, port = address.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port)), timeout=60) as connection:
+        connection.sendall(head.replace("\n", "\r\n").encode())
+        try:
+            for part in body:
+                connection.sendall(part)
+        except (BrokenPipeError, ConnectionResetError):
+            pass  # answered already
+        answer = b""
+        try:
+            while part := connection.recv(65536):
+                answer += part
+        except ConnectionResetError:
+            pass
+    return int(answer.split()[1]), answer.decode()
+
+
+def peak_memory(process: subprocess.Popen[str]) -> int:
+    """Bytes, the most that the process ever held."""
+    status = Path(f"/proc/{process.pid}/status").read_text()
+    return int(status.split("VmHWM:")[1].split()[0]) * 1024
+
+
+def test_an_answered_upload_survives_sigkill(
+    models_dir: Path, data_dir: Path, manifest: Manifest
+) -> None:
+    stored = map_of(random_codes(50), manifest.model_id)
+    clouds = [cloud(seed) for seed in range(5)]
+    with running(models_dir, data_dir) as (process, address), Client(address) as client:
+        summary = client.put_map("yard", stored)
+        description = client.describe(clouds, [9.0, -3.0, 1.7])
+        before = client.match(description, k=20)
+        process.send_signal(signal.SIGKILL)
+        process.wait(60)
+    with running(models_dir, data_dir) as (_, address), Client(address) as client:
+        assert client.get_map_file("yard") == encode(stored)
+        assert client.maps() == Maps((summary,))
+        after = client.match(description, k=20)
+        assert after.queries == before.queries
+        assert len(after.queries[0]) == 20
+        by_segments = client.match(segments=clouds, sensors=[9.0, -3.0, 1.7], k=20)
+        assert by_segments.queries == before.queries
+
+
+def test_the_client_speaks_to_the_service(
+    models_dir: Path, data_dir: Path, manifest: Manifest
+) -> None:
+    with running(models_dir, data_dir) as (_, address), Client(address) as client:
+        info = client.info()
+        assert info.model_id == manifest.model_id
+        assert info.limits["min_points"] == 10
+        described = client.describe([cloud(0), cloud(1)[:2], cloud(2)], np.zeros((3, 3)))
+        assert described.model_id == manifest.model_id
+        assert described.codes.shape == (3, 7)
+        assert set(described.errors) == {1}
+        stored = map_of(described.codes[[0, 2]], manifest.model_id)
+        client.put_map("yard", encode(stored))
+        np.testing.assert_array_equal(client.get_map("yard").codes, stored.codes)
+        matches = client.match(described, maps=["yard"], k=1)
+        assert [query[0].id if query else None for query in matches.queries] == [100, None, 101]
+        assert matches.searched == ("yard",)
+        with pytest.raises(ServiceError) as raised:
+            client.put_map("../yard", stored)
+        assert raised.value.status == 404
+        for name in ("..", ".", "a b"):
+            with pytest.raises(ServiceError) as raised:
+                client.put_map(name, stored)
+            assert raised.value.type == "urn:placecell:problem:invalid-map-name"
+        client.delete_map("yard")
+        with pytest.raises(ServiceError, match="'yard'"):
+            client.get_map("yard")
+        with pytest.raises(MapFileError):
+            client.put_map("yard", map_of(random_codes(2), ""))
+
+
+def test_bad_input_over_a_real_socket(models_dir: Path, data_dir: Path, manifest: Manifest) -> None:
+    yard = encode(map_of(random_codes(50), manifest.model_id))
+    million = b",".join([b"[1.25,2.25,3.25]"] * 1_000_000)
+    with (
+        running(models_dir, data_dir) as (process, address),
+        httpx.Client(base_url=address, timeout=60) as client,
+    ):
+        assert client.put("/maps/yard", content=yard).status_code == 201
+        before = peak_memory(process)
+
+        def ten_million_points() -> Iterator[bytes]:
+            yield b'{"segments": [{"sensor": [0, 0, 0], "points": ['
+            for part in range(10):
+                yield million + (b"," if part < 9 else b"]}]}")
+
+        stated = sum(map(len, ten_million_points()))
+        for headers in ({}, {"Content-Length": str(stated)}):
+            response = client.post("/describe", content=ten_million_points(), headers=headers)
+            assert response.status_code == 413
+            assert response.headers["content-type"] == PROBLEM
+            assert f"{40 << 20} bytes" in response.json()["detail"]
+        # The bodies have 170 MB each; the limit is 40 MiB, held in parts until it is passed.
+        assert peak_memory(process) - before < 60_000_000
+
+        for path in ("/maps/..", "/maps/../../etc/passwd", "/maps/..%2f..%2fetc%2fpasswd"):
+            head = f"DELETE {path} HTTP/1.1\nHost: localhost\nConnection: close\n\n"
+            status, answer = raw_request(address, head)
+            assert status in {404, 405, 422}
+            assert PROBLEM in answer
+        head = (
+            "POST /describe HTTP/1.1\nHost: localhost\nContent-Length: 999\nConnection: close\n\n"
+        )
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=60) as connection:
+            connection.sendall(head.replace("\n", "\r\n").encode() + b'{"segments"')
+        assert client.get("/livez").status_code == 200
+        assert client.get("/maps/yard").content == yard
+
+
+def test_a_second_service_on_a_data_directory_says_so(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        message = refused(models_dir=models_dir, data_dir=data_dir)
+        assert str(data_dir) in message
+        assert "in use by another service" in message
+        assert httpx.get(f"{address}/livez").status_code == 200
+
+
+def test_a_service_that_cannot_start_says_why(
+    models_dir: Path, tmp_path: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        said = refused("--port", port, models_dir=models_dir, data_dir=data_dir)
+        assert f"cannot listen on 127.0.0.1 port {port}" in said
+
+    # How a process ends is seen; what else it says is seen without one.
+    monkeypatch.setattr("service.core.logging.install", lambda *_: None)
+
+    def why(*arguments: str, models: Path = models_dir, data: Path = data_dir) -> str:
+        words = command(models, data, *arguments)
+        result = CliRunner().invoke(app, words[words.index("serve") :])
+        assert result.exit_code == 1, result.output
+        assert isinstance(result.exception, SystemExit)
+        assert result.stdout == ""
+        assert result.stderr.count("\n") == 1
+        return result.stderr
+
+    assert "--allow-remote" in why("--host", "0.0.0.0")
+    assert "host 'no.such.host.invalid'" in why("--host", "no.such.host.invalid")
+    assert "'absent' cannot be loaded" in why("--model", "absent")
+    write_onnx_model(tmp_path / "models", "cut")
+    model = tmp_path / "models" / "cut" / "model.onnx"
+    model.write_bytes(model.read_bytes()[:-1])
+    assert "'cut' cannot be loaded" in why("--model", "cut", models=tmp_path / "models")
+    (tmp_path / "file").write_text("")
+    assert "data directory" in why(data=tmp_path / "file")
+    assert not data_dir.exists()
+
+
+def test_settings_come_from_the_environment(
+    models_dir: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PLACECELL_LIMITS__K", "7")
+    with running(models_dir, data_dir) as (_, address):
+        info: Any = httpx.get(f"{address}/info").json()
+    assert info["limits"]["k"] == 7
+    monkeypatch.setenv("PLACECELL_LIMITS__K", "many")
+    done = subprocess.run(
+        command(models_dir, data_dir),
+        capture_output=True, text=True, timeout=60, cwd=ROOT, check=False,
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "limits.k" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        for head in ("what is this\n\n", "GET /livez HTTP/1.1\nbad header\n\n", "\x00\x01\n\n"):
+            status, answer = raw_request(address, head)
+            assert status == 400
+            assert PROBLEM in answer
+            assert "invalid-http" in answer
+        huge = "GET /livez HTTP/1.1\nHost: localhost\nX-Huge: " + "a" * 200_000 + "\n\n"
+        status, answer = raw_request(address, huge)
+        assert status == 431
+        assert PROBLEM in answer
+        assert httpx.get(f"{address}/livez").status_code == 200
+
+
+def test_sigterm_drains(models_dir: Path, data_dir: Path) -> None:
+    """First it is not ready, but answers; what is in flight is answered; then it ends."""
+    body = b'{"model_id": "m", "codes": [[1]]}'
+    head = (
+        f"POST /match HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n\r\n".encode()
+    )
+    with running(models_dir, data_dir) as (process, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=60) as connection:
+            connection.sendall(head + body[:5])
+            assert httpx.get(f"{address}/readyz").status_code == 200
+            process.send_signal(signal.SIGTERM)
+            deadline = time.monotonic() + 30
+            while (status := httpx.get(f"{address}/readyz").status_code) == 200:
+                assert time.monotonic() < deadline
+            assert status == 503
+            assert httpx.get(f"{address}/livez").status_code == 200
+            while True:
+                try:
+                    httpx.get(f"{address}/livez")
+                except httpx.TransportError:
+                    break
+                assert time.monotonic() < deadline
+            connection.sendall(body[5:])
+            answer = connection.recv(65536)
+            # The codes are of no model that is loaded: an answer all the same.
+            assert answer.startswith(b"HTTP/1.1 409")
+        assert process.wait(30) == 0
+    # What the log held is in the database, which was closed.
+    assert not (data_dir / "maps.sqlite-wal").exists()
+
+
+def test_a_service_with_keys_may_listen_to_all(
+    models_dir: Path, data_dir: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "keys.toml"
+    file.write_text("[a]\nsha256 = '" + "0" * 64 + "'\n")
+    with running(models_dir, data_dir, "--host", "0.0.0.0", "--keys-file", str(file)) as (_, shown):
+        port = shown.rpartition(":")[2]
+        assert httpx.get(f"http://127.0.0.1:{port}/livez").status_code == 200
+        assert httpx.get(f"http://127.0.0.1:{port}/maps").status_code == 401
+
+
+def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        host, port = address.removeprefix("http://").split(":")
+        heads = (b"", b"GET /livez HT", b"POST /describe HTTP/1.1\r\nHost: localhost\r\n")
+        connections = [socket.create_connection((host, int(port)), timeout=30) for _ in heads]
+        for connection, head in zip(connections, heads, strict=True):
+            connection.sendall(head)
+        for connection in connections:
+            with connection, suppress(ConnectionResetError):
+                assert connection.recv(1000) == b""
+        # Refused before its body has come, a client may not go on for ever.
+        with socket.create_connection((host, int(port)), timeout=30) as connection:
+            head = b"POST /describe HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/plain\r\n"
+            connection.sendall(head + b"Content-Length: 99\r\n\r\n")
+            answer = b""
+            with suppress(ConnectionResetError):
+                while part := connection.recv(1000):
+                    answer += part
+            assert answer.startswith(b"HTTP/1.1 415")
+        with httpx.Client(base_url=address) as client:
+            for _ in range(4):
+                assert client.get("/livez").status_code == 200
+
+
+def test_a_bad_chunk_after_the_answer_ends_the_connection(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (_, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=30) as connection:
+            head = b"POST /describe HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/plain\r\n"
+            connection.sendall(head + b"Transfer-Encoding: chunked\r\n\r\n")
+            assert connection.recv(65536).startswith(b"HTTP/1.1 415")
+            connection.sendall(b"zz\r\n")
+            with suppress(ConnectionResetError):
+                while connection.recv(65536):
+                    pass
+        assert httpx.get(f"{address}/livez").status_code == 200
+
+
+def test_a_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None:
+    with running(models_dir, data_dir) as (process, address):
+        host, port = address.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=60) as connection:
+            connection.sendall(
+                b"PUT /maps/a HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nx"
+            )
+            assert httpx.get(f"{address}/livez").status_code == 200
+            process.send_signal(signal.SIGTERM)
+            time.sleep(0.2)
+            assert process.poll() is None
+            process.send_signal(signal.SIGTERM)
+            # Not after the ten seconds that the upload might still take.
+            process.wait(5)

@@ -1,0 +1,447 @@
+"""`/localize` over HTTP: a robot in a map whose codes are all different."""
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import msgpack  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+from placecell_client import CompactMap, Delta, encode, encode_delta
+from placecell_client.maps.edit import take
+from scipy.spatial.transform import Rotation
+
+from placecell.core.types import Float64, Int8, Int64
+from placecell.descriptors.manifest import Manifest
+from placecell.localization import Pose
+from tests.service.core.test_auth import made
+from tests.service.service_builders import (
+    MSGPACK,
+    assert_problem,
+    cloud,
+    map_of,
+    post_packed,
+    random_codes,
+    request_of,
+)
+
+TRUTH = Pose.of_yaw(0.7, np.array([120.0, -40.0, 3.0]))
+"""Of the robot's frame in the map's."""
+
+
+def street_map(manifest: Manifest, seed: int = 0, **changes: Any) -> CompactMap:
+    """Two hundred segments along a street, their descriptors all different."""
+    random = np.random.default_rng(seed)
+    content = map_of(random_codes(200, seed), manifest.model_id, **changes)
+    centroids = random.uniform((-200, -15, 0), (200, 15, 4), (200, 3)).round(2)
+    return replace(content, centroids=centroids)
+
+
+def seen_in(content: CompactMap, rows: Int64 | None = None) -> tuple[Int8, Float64]:
+    """Codes and centroids, in the robot's frame, of what it sees of a map."""
+    rows = np.arange(40) if rows is None else rows
+    return content.codes[rows], TRUTH.inverse().apply(content.centroids[rows])
+
+
+def by_codes(manifest: Manifest, codes: Int8, centroids: Float64, **more: Any) -> dict[str, Any]:
+    return {
+        "model_id": manifest.model_id,
+        "codes": codes.tolist(),
+        "centroids": centroids.tolist(),
+    } | more
+
+
+def packed(body: dict[str, Any]) -> dict[str, Any]:
+    """The same request with the blobs of msgpack."""
+    blobs = {
+        "codes": np.array(body["codes"], np.int8).tobytes(),
+        "centroids": np.array(body["centroids"], "<f8").tobytes(),
+    }
+    return body | blobs
+
+
+@pytest.fixture
+def content(manifest: Manifest) -> CompactMap:
+    return street_map(manifest)
+
+
+@pytest.fixture
+def stocked(service: Any, content: CompactMap) -> Any:
+    assert service.put("/maps/street", content=encode(content)).status_code == 201
+    return service
+
+
+@pytest.fixture
+def body(manifest: Manifest, content: CompactMap) -> dict[str, Any]:
+    return by_codes(manifest, *seen_in(content))
+
+
+def assert_found(told: dict[str, Any]) -> None:
+    assert told["localised"], told
+    assert told["reason"] is None
+    assert told["detail"] == ""
+    np.testing.assert_allclose(told["pose"]["translation"], TRUTH.translation, atol=0.05)
+    assert told["pose"]["yaw"] == pytest.approx(TRUTH.yaw, abs=1e-3)
+    turned = Rotation.from_quat(told["pose"]["rotation"]).as_matrix()
+    np.testing.assert_allclose(turned, TRUTH.rotation, atol=1e-3)
+    assert told["pose"]["rotation"][3] >= 0
+
+
+def test_a_robot_is_told_where_it_is(stocked: Any, manifest: Manifest, body: Any) -> None:
+    response = stocked.post("/localize", json=body)
+    assert response.status_code == 200, response.text
+    answer = response.json()
+    assert answer["model_id"] == manifest.model_id
+    assert answer["unusable"] == answer["skipped"] == []
+    (told,) = answer["localisations"]
+    assert (told["map"], told["frame"]) == ("street", "town")
+    assert_found(told)
+    assert told["probability"] > 0.9
+    assert told["score"] > 0
+    # Segment i was found as row i, whose id is 100 + i.
+    assert [each["query"] for each in told["inliers"]] == list(range(40))
+    assert [each["id"] for each in told["inliers"]] == list(range(100, 140))
+    assert max(each["residual"] for each in told["inliers"]) < 0.05
+    covariance = np.array(told["covariance"])
+    assert covariance.shape == (4, 4)
+    assert (np.linalg.eigvalsh(covariance) > 0).all()
+    stages = [part.split(";")[0] for part in response.headers["server-timing"].split(", ")]
+    assert stages == ["receive", "queue", "decode", "search", "verify", "encode"]
+
+
+def test_both_encodings_say_the_same(stocked: Any, body: Any) -> None:
+    first = stocked.post("/localize", json=body).json()
+    listed = post_packed(stocked, "/localize", packed(body), "application/json").json()
+    told = post_packed(stocked, "/localize", packed(body))
+    assert told.headers["content-type"] == MSGPACK
+    also = stocked.post("/localize", json=body, headers={"Accept": MSGPACK})
+    assert first == listed == msgpack.unpackb(told.content) == msgpack.unpackb(also.content)
+
+
+def test_all_six_degrees_on_demand(stocked: Any, body: Any, content: CompactMap) -> None:
+    (told,) = stocked.post("/localize", json=body | {"motion": "se3"}).json()["localisations"]
+    assert told["localised"]
+    assert np.array(told["covariance"]).shape == (6, 6)
+    # A robot on its side.
+    tilt = Pose(Rotation.from_euler("x", 80, degrees=True).as_matrix(), np.zeros(3))
+    lying = tilt.apply(np.array(body["centroids"])).tolist()
+    asked = body | {"centroids": lying}
+    assert not stocked.post("/localize", json=asked).json()["localisations"][0]["localised"]
+    asked |= {"motion": "se3"}
+    (told,) = stocked.post("/localize", json=asked).json()["localisations"]
+    pose = told["pose"]
+    turned = Rotation.from_quat(pose["rotation"]).apply(lying) + pose["translation"]
+    np.testing.assert_allclose(turned, content.centroids[:40], atol=0.2)
+
+
+def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
+    random = np.random.default_rng(9)
+    strange = by_codes(manifest, random_codes(40, 9), random.uniform(-30, 30, (40, 3)))
+    (told,) = stocked.post("/localize", json=strange).json()["localisations"]
+    assert not told["localised"]
+    assert told["reason"] == "too-few-segments"
+    assert told["detail"]
+    assert told["pose"] is told["covariance"] is None
+    assert told["inliers"] == []
+
+
+def test_too_few_segments_are_told(stocked: Any, manifest: Manifest, content: CompactMap) -> None:
+    few = by_codes(manifest, *seen_in(content, np.arange(2)))
+    (told,) = stocked.post("/localize", json=few).json()["localisations"]
+    assert told["reason"] == "too-few-segments"
+    assert told["probability"] == told["score"] == 0
+    assert told["others"] == []
+
+
+def twice(content: CompactMap) -> CompactMap:
+    """A street that stands in two places, 250 m apart."""
+    shift = np.array([0.0, 250.0, 0.0])
+    return replace(
+        content,
+        codes=np.concatenate([content.codes, content.codes]),
+        centroids=np.concatenate([content.centroids, content.centroids + shift]),
+        ids=np.arange(400, dtype=np.uint32),
+        robot=np.zeros(400, np.uint16),
+        frame_index=np.zeros(400, np.uint32),
+    )
+
+
+def test_two_equal_places_are_ambiguous_and_both_are_told(
+    service: Any, content: CompactMap, body: Any
+) -> None:
+    assert service.put("/maps/both", content=encode(twice(content))).status_code == 201
+    (told,) = service.post("/localize", json=body).json()["localisations"]
+    assert told["reason"] == "ambiguous"
+    assert told["pose"] is None
+    first, second = (np.array(each["pose"]["translation"]) for each in told["others"])
+    assert abs(abs(first - second)[1] - 250) < 1
+    assert {each["inliers"] for each in told["others"]} == {40}
+
+
+def with_landmarks(content: CompactMap) -> CompactMap:
+    """A street that stands in two places; the second one has twenty things besides."""
+    both = twice(content)
+    return replace(
+        both,
+        codes=np.concatenate([both.codes, random_codes(20, 77)]),
+        centroids=np.concatenate([both.centroids, content.centroids[:20] + (3.0, 250.0, 0.0)]),
+        ids=np.arange(420, dtype=np.uint32),
+        robot=np.zeros(420, np.uint16),
+        frame_index=np.zeros(420, np.uint32),
+    )
+
+
+def test_requests_of_a_session_support_each_other(
+    service: Any, manifest: Manifest, content: CompactMap, body: Any
+) -> None:
+    """The robot has passed a landmark of the second place; of the rest, both have the same."""
+    landmarks = with_landmarks(content)
+    assert service.put("/maps/both", content=encode(landmarks)).status_code == 201
+    passed = [
+        by_codes(manifest, *seen_in(landmarks, np.arange(400 + first, 420)), session="ann-1")
+        for first in range(6)
+    ]
+
+    def place(asked: dict[str, Any]) -> Any:
+        (told,) = service.post("/localize", json=asked).json()["localisations"]
+        return told["pose"] and round(told["pose"]["translation"][1], 0)
+
+    assert place(body | {"session": "ann-1"}) is None
+    # Sent again it says no more than once.
+    for _ in range(6):
+        assert place(passed[0]) == -40.0
+    assert place(body | {"session": "ann-1"}) is None
+    for asked in passed:
+        assert place(asked) == -40.0
+    assert place(body | {"session": "ann-1"}) == -40.0
+    # Of others' sessions, and without one, nothing is known.
+    assert place(body | {"session": "ann-2"}) is None
+    assert place(body) is None
+
+
+def put(service: Any, content: CompactMap, **headers: str) -> None:
+    answer = service.put("/maps/both", content=encode(content), headers=headers)
+    assert answer.is_success, answer.text
+
+
+def removed_and_made_anew(service: Any, content: CompactMap) -> None:
+    assert service.delete("/maps/both").status_code == 204
+    put(service, content)
+
+
+def restored(service: Any, content: CompactMap) -> None:
+    edited(service, content)
+    answer = service.post("/maps/both/versions/1/restore")
+    assert answer.is_success, answer.text
+
+
+def post_edit(service: Any, *delta: Any) -> None:
+    answer = service.post(
+        "/maps/both/segments", content=encode_delta(Delta(*delta)), headers={"If-Match": "*"}
+    )
+    assert answer.is_success, answer.text
+
+
+def edited(service: Any, content: CompactMap) -> None:
+    """Without some that the robot does not see."""
+    post_edit(service, take(content, slice(0)), content.ids[150:160])
+
+
+def replaced(service: Any, content: CompactMap) -> None:
+    put(service, take(content, ~np.isin(content.ids, range(150, 160))), **{"If-Match": "*"})
+
+
+def emptied_and_filled(service: Any, content: CompactMap) -> None:
+    post_edit(service, take(content, slice(0)), content.ids)
+    post_edit(service, content, content.ids[:0])
+
+
+@pytest.mark.parametrize(
+    ("act", "counts"),
+    [
+        (edited, True),
+        (replaced, False),
+        (removed_and_made_anew, False),
+        (restored, False),
+        (emptied_and_filled, False),
+    ],
+)
+def test_what_was_found_before_counts_while_the_map_lies_where_it_lay(
+    service: Any, manifest: Manifest, content: CompactMap, body: Any, act: Any, counts: bool
+) -> None:
+    landmarks = with_landmarks(content)
+    put(service, landmarks)
+    for first in range(6):
+        rows = np.arange(400 + first, 420)
+        asked = by_codes(manifest, *seen_in(landmarks, rows), session="ann")
+        (told,) = service.post("/localize", json=asked).json()["localisations"]
+        assert told["localised"]
+    act(service, landmarks)
+    (told,) = service.post("/localize", json=body | {"session": "ann"}).json()["localisations"]
+    assert told["localised"] is counts, told
+    assert told["reason"] == (None if counts else "ambiguous")
+
+
+def test_each_map_says_where_the_robot_is_in_it(
+    service: Any, manifest: Manifest, content: CompactMap, body: Any
+) -> None:
+    other = street_map(manifest, seed=5, frame="elsewhere")
+    for name, each in (("a-other", other), ("b-street", content), ("c-empty", None)):
+        stored = map_of(random_codes(0), manifest.model_id) if each is None else each
+        assert service.put(f"/maps/{name}", content=encode(stored)).status_code == 201
+    told = service.post("/localize", json=body).json()["localisations"]
+    assert [each["map"] for each in told] == ["b-street", "a-other", "c-empty"]
+    assert [each["localised"] for each in told] == [True, False, False]
+    assert_found(told[0])
+    assert told[2]["reason"] == "too-few-segments"
+    told = service.post("/localize", json=body | {"maps": ["a-other"]}).json()["localisations"]
+    assert [each["map"] for each in told] == ["a-other"]
+
+
+def test_without_maps_nothing_is_said(service: Any, body: Any) -> None:
+    assert service.post("/localize", json=body).json()["localisations"] == []
+    clouds = [cloud(0), cloud(1)[:3]]
+    answer = service.post("/localize", json=request_of(clouds)).json()
+    assert answer["localisations"] == []
+    assert [each["query"] for each in answer["unusable"]] == [1]
+    assert answer["unusable"][0]["error"]["type"].endswith("too-few-points")
+
+
+def test_segments_are_localised_as_their_codes_are(service: Any, manifest: Manifest) -> None:
+    clouds = [cloud(seed) for seed in range(30)]
+    clouds[4] = clouds[4][:3]
+    described = service.post("/describe", json=request_of(clouds)).json()["descriptors"]
+    good = [index for index in range(30) if index != 4]
+    codes = np.array([described[index]["codes"] for index in good], np.int8)
+    centroids = np.array([described[index]["centroid"] for index in good])
+    stored = map_of(codes, manifest.model_id)
+    stored = replace(stored, centroids=TRUTH.apply(centroids).round(2))
+    assert service.put("/maps/own", content=encode(stored)).status_code == 201
+    answer = service.post("/localize", json=request_of(clouds)).json()
+    (by_segments,) = answer["localisations"]
+    assert [each["query"] for each in answer["unusable"]] == [4]
+    # Twenty metres of segments tell the pose; inliers are numbered as the request's segments.
+    assert by_segments["localised"], by_segments
+    assert {each["query"] for each in by_segments["inliers"]} <= set(good)
+    for each in by_segments["inliers"]:
+        assert good[each["id"] - 100] == each["query"]
+    (told,) = service.post("/localize", json=by_codes(manifest, codes, centroids)).json()[
+        "localisations"
+    ]
+    np.testing.assert_allclose(
+        told["pose"]["translation"], by_segments["pose"]["translation"], atol=1e-6
+    )
+    assert told["score"] == pytest.approx(by_segments["score"])
+
+
+def test_another_model_s_map_is_skipped_or_refused(
+    start: Any, manifest: Manifest, other_manifest: Manifest, content: CompactMap, body: Any
+) -> None:
+    with start(model="other") as service:
+        stored = encode(street_map(other_manifest))
+        assert service.put("/maps/old", content=stored).status_code == 201
+    with start(model="tiny") as service:
+        assert service.put("/maps/street", content=encode(content)).status_code == 201
+        answer = service.post("/localize", json=body).json()
+        assert [each["map"] for each in answer["localisations"]] == ["street"]
+        assert answer["skipped"] == [{"map": "old", "model_id": other_manifest.model_id}]
+        refused = service.post("/localize", json=body | {"maps": ["old"]})
+        assert_problem(refused, 409, "other-model", other_manifest.model_id)
+
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "kind", "detail"),
+    [
+        ({"centroids": None}, 422, "invalid-request", "centroids"),
+        ({"centroids": []}, 422, "invalid-request", "/centroids"),
+        ({"centroids": [[0, 0, 0]]}, 422, "invalid-request", "1 of them for 40 codes"),
+        ({"centroids": [[0, 0]] * 40}, 422, "invalid-request", "/centroids/0"),
+        ({"centroids": [[0, 0, 1e9]] * 40}, 422, "invalid-request", "/centroids/0/2"),
+        ({"centroids": [["0", 0, 0]] * 40}, 422, "invalid-request", "/centroids/0/0"),
+        ({"motion": "se2"}, 422, "invalid-request", "/motion"),
+        ({"session": ""}, 422, "invalid-request", "/session"),
+        ({"session": "a b"}, 422, "invalid-request", "/session"),
+        ({"session": "x" * 65}, 422, "invalid-request", "/session"),
+        ({"session": 7}, 422, "invalid-request", "/session"),
+        ({"k": 0}, 422, "invalid-request", "/k"),
+        ({"k": 101}, 422, "invalid-request", "the limit is 100"),
+        ({"maps": ["nowhere"]}, 404, "unknown-map", "nowhere"),
+        ({"model_id": "other-1"}, 409, "other-model", "other-1"),
+        ({"luck": 1}, 422, "invalid-request", "/luck"),
+        (request_of([cloud(0)]), 422, "invalid-request", "either"),
+    ],
+)
+def test_bad_requests_are_refused_with_the_reason(
+    stocked: Any, body: Any, changes: Any, status: int, kind: str, detail: str
+) -> None:
+    assert_problem(stocked.post("/localize", json=body | changes), status, kind, detail)
+    assert stocked.post("/localize", json=body).status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("changes", "detail"),
+    [
+        ({"centroids": b"\0" * 25}, "/centroids: 25 bytes, not a multiple of 24"),
+        ({"centroids": np.full(120, NAN).tobytes()}, "/centroids/0/0"),
+        ({"centroids": np.full(120, 1e9).tobytes()}, "/centroids/0/0"),
+        ({"centroids": b"\0" * 24}, "1 of them for 40 codes"),
+        ({"centroids": [0.0] * 120}, "/centroids: not a bin"),
+        ({"codes": b"\0" * 13}, "/codes: 13 bytes"),
+    ],
+)
+def test_bad_blobs_are_refused_with_the_place(
+    stocked: Any, body: Any, changes: Any, detail: str
+) -> None:
+    refused = post_packed(stocked, "/localize", packed(body) | changes)
+    assert_problem(refused, 422, "invalid-request", detail)
+
+
+def test_segments_come_without_centroids(stocked: Any) -> None:
+    asked = request_of([cloud(0)]) | {"centroids": [[0, 0, 0]]}
+    assert_problem(stocked.post("/localize", json=asked), 422, "invalid-request", "centroids")
+
+
+def test_a_key_sees_its_own_maps_and_sessions(
+    start: Any, tmp_path: Path, content: CompactMap, body: Any
+) -> None:
+    file = tmp_path / "keys.toml"
+    everything, halls = made(file, "all", "--write"), made(file, "halls", "--map", "hall-*")
+    with start(keys_file=file) as service:
+        put = service.put("/maps/street", content=encode(content), headers=everything)
+        assert put.status_code == 201
+        assert_problem(service.post("/localize", json=body), 401, "unauthorized")
+        assert service.post("/localize", json=body, headers=halls).json()["localisations"] == []
+        named = body | {"maps": ["street"]}
+        assert_problem(service.post("/localize", json=named, headers=halls), 403, "forbidden")
+        sessions = service.app.state.placecell.sessions
+        assert service.post(
+            "/localize", json=body | {"session": "s"}, headers=everything
+        ).is_success
+        assert len(sessions) == 1
+
+
+def test_many_robots_at_once_do_not_disturb_each_other(stocked: Any, body: Any) -> None:
+    expected = stocked.post("/localize", json=body).json()
+    answers: list[Any] = []
+
+    def ask(number: int) -> None:
+        for _ in range(5):
+            asked = body | ({"session": f"robot-{number}"} if number % 2 else {})
+            answers.append(stocked.post("/localize", json=asked).json())
+
+    threads = [threading.Thread(target=ask, args=(number,)) for number in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(answers) == 30
+    for answer in answers:
+        np.testing.assert_allclose(
+            answer["localisations"][0]["pose"]["translation"],
+            expected["localisations"][0]["pose"]["translation"],
+            atol=1e-6,
+        )
