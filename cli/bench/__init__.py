@@ -13,7 +13,7 @@ from cli.bench.ladder import ladder
 from cli.bench.localize import localize
 from cli.bench.maps import maps
 from cli.bench.peers import peers
-from cli.bench.pose_tables import localisation
+from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
 from cli.bench.serve import serve
 from cli.bench.soak import soak
@@ -29,7 +29,7 @@ bench.command()(takes_drives(maps))
 bench.command()(takes_drives(ladder))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
-bench.command()(localisation)
+bench.command()(pose_tables)
 bench.command()(takes_drives(align))
 bench.command()(town)
 bench.command()(takes_drives(views))

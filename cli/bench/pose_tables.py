@@ -1,4 +1,4 @@
-"""`placecell bench localisation`: the tables of docs/results/localization.md."""
+"""`placecell bench pose-tables`: the tables of docs/results/localization.md."""
 
 from pathlib import Path
 from typing import Annotated
@@ -9,7 +9,7 @@ from cli.sources import clear_errors
 from cli.tables import JsonFile, write_json
 
 
-def localisation(
+def pose_tables(
     folders: Annotated[
         list[Path],
         typer.Argument(

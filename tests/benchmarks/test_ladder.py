@@ -19,7 +19,7 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.quantizer import Quantiser
 from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 from placecell.segmentation.recording import Recording
-from tests.training.conftest import make_shapes
+from tests.training_sets import make_shapes
 
 EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)
 

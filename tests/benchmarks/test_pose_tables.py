@@ -80,7 +80,7 @@ def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localised() -> None:
 
 def test_the_command_writes_either(folder: Path, tmp_path: Path) -> None:
     def run(*words: object) -> tuple[int, str]:
-        done = CliRunner().invoke(app, ["bench", "localisation", *map(str, words)])
+        done = CliRunner().invoke(app, ["bench", "pose-tables", *map(str, words)])
         return done.exit_code, done.output
 
     assert "scan-context" in run(folder)[1]

@@ -82,7 +82,7 @@ def test_B16_wrong_words_are_told_in_two_lines(
             assert option.opts[0] in said
             assert len(said.strip().splitlines()) <= 2
     reads = {"prepare", "evaluate", "evaluate-poses", "train", "study", "verify", "ladder", "views"}
-    if path[-1] in reads | {"peers", "align", "localisation", "list", "show"}:
+    if path[-1] in reads | {"peers", "align", "pose-tables", "list", "show"}:
         more = ["--scans", "0:9"] if path[-1] in {"ladder", "views"} else []
         status, said = run(*path, *arguments, *url, *more)
         assert status == 1

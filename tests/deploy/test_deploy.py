@@ -262,7 +262,7 @@ def test_kubernetes_names_belong_together() -> None:
 
 def test_images_are_of_one_version() -> None:
     ours = f"placecell:{PROJECT['project']['version']}"
-    readme = (DEPLOY / "README.md").read_text()
+    readme = (ROOT / "docs" / "tutorials" / "deploy.md").read_text()
 
     assert COMPOSED["image"] == CONTAINER["image"] == ours
     assert set(re.findall(r"placecell:\d[\w.]*", readme)) == {ours}

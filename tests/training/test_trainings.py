@@ -11,7 +11,7 @@ from evaluation.recognition.retrieval import top1
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.segmentation.recording import Recording
-from tests.training.conftest import make_shapes
+from tests.training_sets import make_shapes
 from training.data.augmentation import Augmentation
 from training.data.training_set import Source, TrainingSet
 from training.methods import contrastive, group_based, siamese

@@ -120,7 +120,7 @@ class Network:
         return int(self.designs[street])
 
     def raised(self) -> Bool:
-        """Tell, by region of `town.streets.ground`, where the ground is a curb higher than a road."""
+        """Tell, by region of `town.streets.ground`, where the ground is raised by a curb."""
         columns, rows = len(self.plan.easts), len(self.plan.norths)
         raised = np.zeros((2 * columns + 3, 2 * rows + 3), dtype=bool)
         raised[1:-1, 1:-1] = True

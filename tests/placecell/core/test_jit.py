@@ -183,7 +183,15 @@ def test_B2_every_compiled_function_has_the_one_decorator() -> None:
     root = Path(jit.__file__).parents[2]
     using = [
         file.relative_to(root).as_posix()
-        for folder in ("segments", "service", "town", "bench", "cli", "training")
+        for folder in (
+            "placecell",
+            "service",
+            "town",
+            "evaluation",
+            "benchmarks",
+            "cli",
+            "training",
+        )
         for file in (root / folder).rglob("*.py")
         if "njit(" in file.read_text() or "numba.jit" in file.read_text()
     ]
