@@ -28,8 +28,9 @@ def study(
     from rich.progress import track
 
     with clear_errors():
+        from evaluation.machine import machine
         from evaluation.plots import studies
-        from evaluation.recognition.evaluate import machine, open_models
+        from evaluation.recognition.evaluate import open_models
         from evaluation.recognition.study import study as study_of
         from placecell.core.parameters import SURROUNDINGS_V1
         from training.data.training_set import TrainingSet

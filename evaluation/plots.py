@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from evaluation.figure import figure
-from training.methods.siamese import SiameseRecipe
 
 Models = dict[str, dict[str, Any]]
 
@@ -87,25 +86,32 @@ def distance_distributions(models: Models, names: list[str], file: Path) -> None
             place.legend()
 
 
-def dropout(model: dict[str, Any]) -> float:
-    """Of a Siamese training, as it was changed or as the recipe has it."""
-    return float(model["changes"].get("dropout", SiameseRecipe().dropout))
+def dropout(model: dict[str, Any], usual: float) -> float:
+    """Return the dropout of a Siamese training: as it was changed, or the usual one."""
+    return float(model["changes"].get("dropout", usual))
 
 
-def by_dropout(models: Models, network: str) -> list[dict[str, Any]]:
-    """The Siamese of seed 0 with each dropout, least first."""
+def by_dropout(models: Models, network: str, usual: float) -> list[dict[str, Any]]:
+    """Return the Siamese models of seed 0, in ascending order of their dropout."""
     swept = [
         model
         for model in models.values()
         if (model["method"], model["network"], model["seed"]) == ("siamese", network, 0)
     ]
-    return sorted(swept, key=dropout)
+    return sorted(swept, key=lambda model: dropout(model, usual))
 
 
-def overfitting(models: Models, network: str, file: Path) -> None:
-    """Siamese training and validation accuracy, by dropout."""
+def overfitting(models: Models, network: str, usual: float, file: Path) -> None:
+    """Draw the accuracy of Siamese trainings in training and validation, by dropout.
+
+    Args:
+        models: the models of an experiment's report, by name.
+        network: the trunk whose trainings are drawn.
+        usual: dropout of a training that did not change it.
+        file: the picture to write.
+    """
     with figure(file, size=5.5) as (axes,):
-        for index, model in enumerate(by_dropout(models, network)):
+        for index, model in enumerate(by_dropout(models, network, usual)):
             epochs = range(1, len(model["history"]) + 1)
             for key, style in (("accuracy", "-"), ("validation_accuracy", "--")):
                 axes.plot(
@@ -113,7 +119,7 @@ def overfitting(models: Models, network: str, file: Path) -> None:
                     [epoch[key] for epoch in model["history"]],
                     style,
                     color=f"C{index}",
-                    label=f"dropout {dropout(model)}, {key.replace('_', ' ')}",
+                    label=f"dropout {dropout(model, usual)}, {key.replace('_', ' ')}",
                 )
         axes.set(xlabel="epoch", ylabel="accuracy over pairs", title="Siamese, regularisation")
         axes.legend(fontsize=8)

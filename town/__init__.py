@@ -8,7 +8,7 @@ from a third. The same seeds give the same files, byte for byte.
 writes two drives along the same streets in opposite directions, in the KITTI odometry layout.
 
     town = Town.build(seed=7)
-    route = Route.wander(town, length=400.0)
+    route = Route.wander(town.plan, town.terrain, length=400.0)
     write_drive(Path("out/drive"), town, route, traffic_seed=1, scans=350)
 
 writes one. A large town has tens of kilometres of streets, of which only what is near is built:

@@ -15,7 +15,7 @@ import numpy as np
 from benchmarks.attack.cases import CASES
 from benchmarks.attack.stage import Case, Stage
 from benchmarks.attack.target import CORES, Target
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 
 DESCRIPTORS = 8_192
 """Largest number of files that this process and the services that it starts may open."""

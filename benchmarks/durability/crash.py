@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.durability.crasher import MOMENTS, Crasher, Plan
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 
 
 def crash(

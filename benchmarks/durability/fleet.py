@@ -21,7 +21,7 @@ from placecell_client.maps.union import union
 from benchmarks.durability.cutting_proxy import CuttingProxy
 from benchmarks.durability.sharer import Sharer
 from benchmarks.made_map import Kind
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from service.child_process import Service
 
 SITE = "site"

@@ -17,7 +17,7 @@ from benchmarks.load.networks import PAPER, files, paper_network
 from benchmarks.load.rates import Work, each, measure
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import Extractor, load_extractor, one_thread_session

@@ -20,8 +20,8 @@ from placecell_client.maps.edit import take
 from benchmarks.load.generator import Load, request_of, sent_by_process
 from benchmarks.load.serve import percentiles
 from benchmarks.map_content import VIEWS, Views, map_of
+from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
-from evaluation.recognition.evaluate import machine
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
 from service.api.body.body import MSGPACK

@@ -17,7 +17,7 @@ from benchmarks.load.rates import each, rate
 from benchmarks.load.workload import Case, fill, requests
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER

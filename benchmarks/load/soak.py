@@ -21,7 +21,7 @@ from benchmarks.load.serve import Plan, percentiles
 from benchmarks.load.workload import Case, fill, requests
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from placecell.core.segments import Segments
 from service.api.body.body import MSGPACK
 from service.child_process import address_of, running_service

@@ -11,11 +11,11 @@ from placecell_client import CompactMap, moved
 from placecell_client.maps.edit import take
 
 from evaluation.figure import figure
+from evaluation.machine import machine
 from evaluation.poses.local_service import Local
 from evaluation.poses.recordings import recording_of
 from evaluation.poses.report import bounds
 from evaluation.poses.robot import Robot
-from evaluation.recognition.evaluate import machine
 from placecell.core.types import Float64
 from placecell.datasets import open_drive
 from placecell.localization import Pose

@@ -17,8 +17,8 @@ from placecell_client import CompactMap
 from placecell_client.maps.edit import take
 
 from benchmarks.map_content import Views, map_of
+from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
-from evaluation.recognition.evaluate import machine
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalisationParameters, Pose
 from placecell.segmentation.pipeline import Progress, silent
@@ -28,10 +28,10 @@ from service.core.timing import Timing
 from service.inference.model_registry import Model, Models
 from service.maps.index import LayeredIndex
 from service.maps.layers import Layers
+from service.maps.shared_index import SharedIndexes
 from service.maps.snapshot import StoredMap
 from service.maps.store import Head
 from service.search.localization import Group, InMap, localise_among
-from service.search.shared_index import SharedIndexes
 
 SIZE = np.array([90.0, 40.0, 4.0])
 """Size of a floor along x, y, z, meters."""

@@ -13,8 +13,8 @@ from benchmarks.peers.frames import Stretch, map_poses, near_map, query_poses
 from benchmarks.peers.layout import ANSWERS, answered, lay_out
 from benchmarks.peers.runner import REFINED
 from benchmarks.peers.score import score
+from evaluation.machine import machine
 from evaluation.poses.queries import MAPPED_METRES
-from evaluation.recognition.evaluate import machine
 from placecell.segmentation.pipeline import Progress, silent
 
 ROOT = Path(__file__).resolve().parents[2]

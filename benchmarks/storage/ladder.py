@@ -8,7 +8,8 @@ import faiss
 import numpy as np
 
 from evaluation.figure import figure
-from evaluation.recognition.evaluate import machine, retrieval
+from evaluation.machine import machine
+from evaluation.recognition.evaluate import retrieval
 from placecell.core.types import Bool, Float32
 from placecell.descriptors.extractor import Extractor
 from placecell.descriptors.quantizer import LEVELS, Quantiser

@@ -22,7 +22,7 @@ from benchmarks.load.soak import look
 from benchmarks.map_content import Content, Views, map_of
 from benchmarks.storage.map_writers import MAP, Plan, rebuilding, writing
 from evaluation.figure import figure
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from placecell.core.types import Int64
 from placecell.descriptors.quantizer import Quantiser
 from placecell.descriptors.shipped_models import DEFAULT_MODEL

@@ -6,7 +6,7 @@ import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.edit import empty
 
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from evaluation.recognition.retrieval import CANDIDATES, CROSS_VIEW_METRES, distance_rows
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64

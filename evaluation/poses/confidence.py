@@ -15,10 +15,10 @@ import numpy as np
 from placecell_client.maps.edit import take
 from scipy.optimize import minimize
 
+from evaluation.machine import machine
 from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame
 from evaluation.poses.report import RIGHT, reliability_of
-from evaluation.recognition.evaluate import machine
 from placecell.core.types import Bool, Float64, Int64
 from placecell.localization import Confidence, LocalisationParameters, Pose
 from placecell.localization.confidence import FEATURES

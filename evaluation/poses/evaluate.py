@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from evaluation.figure import figure
+from evaluation.machine import machine
 from evaluation.poses.local_service import Local
 from evaluation.poses.queries import MAPPED_METRES, Pair, PoseQuery, random_frame
 from evaluation.poses.report import Outcome, report
-from evaluation.recognition.evaluate import machine
 from placecell.localization import Localisation, LocalisationParameters
 from placecell.localization.covariance import at_point
 from placecell.localization.evidence import History, middle_of

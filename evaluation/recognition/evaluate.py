@@ -1,6 +1,5 @@
 """`placecell evaluate`: every extractor on a drive, under a named protocol (paper IV-B)."""
 
-import platform
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -8,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.machine import machine
 from evaluation.recognition import retrieval as recognition
 from placecell.core.parameters import PROTOCOL_V1
-from placecell.core.processors import available_cores
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor, load_extractor
@@ -199,23 +198,3 @@ def evaluate(
         "machine": machine(),
         "seed": seed,
     }
-
-
-def machine() -> dict[str, Any]:
-    """What a figure was measured on."""
-    return {
-        "processor": processor_name(),
-        "cores": available_cores(),
-        "system": platform.system(),
-        "python": platform.python_version(),
-    }
-
-
-def processor_name() -> str:
-    """The processor's name where the system tells it."""
-    information = Path("/proc/cpuinfo")
-    if information.exists():
-        for line in information.read_text().splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()

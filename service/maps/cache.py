@@ -12,7 +12,7 @@ from pathlib import Path
 
 from placecell_client import CompactMap, decode, encode
 
-from service.maps.sqlite.database import sync_folder
+from service.core.files import sync_folder
 from service.maps.store import Head, History
 
 _SUFFIX = ".cache"

@@ -21,9 +21,9 @@ from service.maps.index import LayeredIndex, MapIndex
 from service.maps.layers import Layers
 from service.maps.quotas import NoRoomError, Quotas, Usage
 from service.maps.replay import newest
+from service.maps.shared_index import SharedIndexes
 from service.maps.snapshot import KEEPS_FRAME, StoredMap
 from service.maps.store import Head, Ids, MapStore, Note, StoreError
-from service.search.shared_index import SharedIndexes
 
 logger = logging.getLogger("placecell")
 

@@ -14,11 +14,11 @@ from placecell.localization.localize import unknown
 from service.core.timing import Timing
 from service.inference.match_probability import likely
 from service.inference.model_registry import Model
+from service.maps.shared_index import Part
 from service.maps.snapshot import StoredMap
 from service.search.links import pose_between
 from service.search.matching import found_in
 from service.search.ranking import FULL, best_of, votes_of
-from service.search.shared_index import Part
 
 
 class MapSurroundings:

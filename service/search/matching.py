@@ -12,8 +12,8 @@ from service.core.auth import Holder
 from service.core.problems import Problem
 from service.inference.model_registry import Model, Models
 from service.maps.repository import Maps
+from service.maps.shared_index import Part, Patterns
 from service.maps.snapshot import StoredMap
-from service.search.shared_index import Part, Patterns
 
 Candidate = dict[str, Any]
 """As `CandidateOut` says; not made of it, for there are hundreds a request."""

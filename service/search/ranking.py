@@ -16,8 +16,8 @@ from placecell.core.jit import compiled
 from placecell.core.spatial import evenly
 from placecell.core.types import Float32, Float64, Int8, Int32, Int64
 from placecell.localization import LocalisationParameters
+from service.maps.shared_index import Part, centred
 from service.maps.snapshot import StoredMap
-from service.search.shared_index import Part, centred
 
 FULL = 8
 """Largest number of maps that are searched in full."""

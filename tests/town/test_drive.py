@@ -20,7 +20,9 @@ def town() -> Town:
 
 @pytest.fixture(scope="module")
 def route(town: Town) -> Route:
-    return Route.through(town, [(0, 0), (1, 0), (1, 1)]).cut(start=40.0, length=30.0)
+    return Route.through(town.plan, town.terrain, [(0, 0), (1, 0), (1, 1)]).cut(
+        start=40.0, length=30.0
+    )
 
 
 def write(folder: Path, town: Town, route: Route, *, cars: int = 1, noise: int = 1,

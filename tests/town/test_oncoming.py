@@ -11,7 +11,8 @@ from town.geometry.shapes import box
 
 @pytest.fixture(scope="module")
 def route() -> Route:
-    return Route.through(Town.build(seed=3, streets=(4, 2)), [(0, 0), (1, 0), (2, 0), (3, 0)])
+    town = Town.build(seed=3, streets=(4, 2))
+    return Route.through(town.plan, town.terrain, [(0, 0), (1, 0), (2, 0), (3, 0)])
 
 
 def test_cars_keep_to_the_other_lane(route: Route) -> None:

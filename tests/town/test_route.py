@@ -14,7 +14,7 @@ def town() -> Town:
 @pytest.fixture(scope="module")
 def route(town: Town) -> Route:
     """Straight on, then left, then right."""
-    return Route.through(town, [(0, 0), (1, 0), (1, 1), (2, 1)])
+    return Route.through(town.plan, town.terrain, [(0, 0), (1, 0), (1, 1), (2, 1)])
 
 
 def headings(route: Route, step: float = 1.0) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
@@ -82,13 +82,13 @@ def test_cut_takes_the_stretch_asked_for(route: Route) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_wander_is_as_long_as_asked(town: Town, seed: int) -> None:
-    wandering = Route.wander(town, 300.0, seed=seed)
+    wandering = Route.wander(town.plan, town.terrain, 300.0, seed=seed)
     assert wandering.length() >= 300.0
     assert np.abs(np.diff(headings(wandering))).max() < 0.2  # no turning on the spot
 
 
 def test_a_route_needs_streets(town: Town) -> None:
     with pytest.raises(ValueError, match="two crossings"):
-        Route.through(town, [(0, 0)])
+        Route.through(town.plan, town.terrain, [(0, 0)])
     with pytest.raises(ValueError, match="no street joins"):
-        Route.through(town, [(0, 0), (1, 1)])
+        Route.through(town.plan, town.terrain, [(0, 0), (1, 1)])

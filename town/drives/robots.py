@@ -43,7 +43,9 @@ def two_robots(
     town = Town.build(seed)
     # The inner lane of a turn is shorter than the centre line.
     length = 1.08 * scans * spacing + 4.0
-    route = Route.wander(town, length + 20.0, seed).cut(start=10.0, length=length)
+    route = Route.wander(town.plan, town.terrain, length + 20.0, seed).cut(
+        start=10.0, length=length
+    )
     lidar = replace(HDL_64E, columns=columns)
     drives = []
     for number, (name, way) in enumerate([("robot_a", route), ("robot_b", route.reversed())]):

@@ -11,7 +11,6 @@ import numpy as np
 from placecell.core.types import Float64
 from town.streets.plan import Crossing, Plan
 from town.streets.terrain import Terrain
-from town.town import Town
 
 CORNER_RADIUS = 9.0
 """Of the centre line where a route turns at a crossing, metres."""
@@ -36,7 +35,7 @@ class Route:
 
     @classmethod
     def through(
-        cls, town: Town, crossings: Sequence[tuple[int, int]], lane_offset: float = 1.6
+        cls, plan: Plan, terrain: Terrain, crossings: Sequence[Crossing], lane_offset: float = 1.6
     ) -> Self:
         """A route over crossings, each (column, row) next to the one before it.
 
@@ -48,7 +47,7 @@ class Route:
         for (i, j), (k, m) in pairwise(crossings):
             if abs(i - k) + abs(j - m) != 1:
                 raise ValueError(f"no street joins the crossings {(i, j)} and {(k, m)} directly")
-        return cls.over(town.plan, town.terrain, crossings, lane_offset)
+        return cls.over(plan, terrain, crossings, lane_offset)
 
     @classmethod
     def over(
@@ -59,14 +58,16 @@ class Route:
         return cls(terrain, terrain.bend(rounded(corners)), lane_offset)
 
     @classmethod
-    def wander(cls, town: Town, length: float, seed: int = 0, lane_offset: float = 1.6) -> Self:
+    def wander(
+        cls, plan: Plan, terrain: Terrain, length: float, seed: int = 0, lane_offset: float = 1.6
+    ) -> Self:
         """A random route of at least this length, that never turns back on the spot.
 
         Args:
             length: metres.
         """
-        crossings = stroll(town.plan, length, np.random.default_rng([seed, 2]))
-        return cls.through(town, crossings, lane_offset)
+        crossings = stroll(plan, length, np.random.default_rng([seed, 2]))
+        return cls.through(plan, terrain, crossings, lane_offset)
 
     def reversed(self) -> Self:
         """The same streets the other way, so in the other lane."""

@@ -15,7 +15,7 @@ from typing import Any
 
 from rich.progress import Progress
 
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from placecell.descriptors.extractor import MODEL_FILE
 from placecell.descriptors.manifest import FILE as MANIFEST_FILE
 from training.data.training_set import Source, TrainingSet, check_apart

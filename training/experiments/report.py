@@ -7,6 +7,7 @@ from typing import Any
 
 from evaluation import plots
 from training.methods.registry import METHODS
+from training.methods.siamese import SiameseRecipe
 
 PAPER = {
     "eigenvalue": "about 6%",
@@ -18,6 +19,8 @@ PAPER = {
 
 PAPER_TIMES = {"group": "1 h", "siamese": "6 h", "contrastive": "24 h"}
 """On a GTX 980."""
+
+DROPOUT = SiameseRecipe().dropout
 
 
 def write_report(report: dict[str, Any], output: Path) -> Path:
@@ -32,7 +35,7 @@ def write_report(report: dict[str, Any], output: Path) -> Path:
     plots.distance_distributions(
         models, [contrastive, f"{contrastive}-random-pairs"], output / "distances.png"
     )
-    plots.overfitting(models, network, output / "overfitting.png")
+    plots.overfitting(models, network, DROPOUT, output / "overfitting.png")
     plots.reliability(models, output / "reliability.png")
     test, training = report["test"], report["training"]
     sources = ", ".join(
@@ -184,10 +187,10 @@ def _figures(models: plots.Models, network: str) -> list[str]:
         "| dropout | training accuracy | validation accuracy | test top1 | test pair accuracy |",
         "|---|---|---|---|---|",
         *(
-            f"| {plots.dropout(model)} | {model['history'][-1]['accuracy']:.1%} "
+            f"| {plots.dropout(model, DROPOUT)} | {model['history'][-1]['accuracy']:.1%} "
             f"| {model['history'][-1]['validation_accuracy']:.1%} "
             f"| {model['figures']['top1']:.1%} | {model['figures']['pair_accuracy']:.1%} |"
-            for model in plots.by_dropout(models, network)
+            for model in plots.by_dropout(models, network, DROPOUT)
         ),
         "",
         "![Over-fitting by dropout](overfitting.png)",

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.machine import machine
 from evaluation.recognition import retrieval
-from evaluation.recognition.evaluate import machine, measure
+from evaluation.recognition.evaluate import measure
 from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
 from placecell.core.types import Float32, Int64
 from placecell.descriptors.eigenvalue import eigenvalue_descriptors

@@ -20,7 +20,7 @@ from placecell_client import encode
 from benchmarks.durability.power_loss.disk import KEEPS, Disk, write
 from benchmarks.durability.power_loss.disk_log import Step
 from benchmarks.durability.power_loss.recorded_run import NAME, UNKEPT, Outline, RecordedRun, record
-from evaluation.recognition.evaluate import machine
+from evaluation.machine import machine
 from service.maps.cache import MapCache
 from service.maps.replay import newest
 from service.maps.snapshot import tag_of

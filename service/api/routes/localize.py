@@ -19,11 +19,11 @@ from service.api.state import HolderOf, State, StateOf, TimingOf
 from service.core.auth import Holder
 from service.core.problems import documented
 from service.core.timing import Timing
+from service.maps.shared_index import Part
 from service.maps.snapshot import StoredMap
 from service.search.localization import Group, InMap, localise_among
 from service.search.matching import parts_of
 from service.search.sessions import SessionKey
-from service.search.shared_index import Part
 
 router = APIRouter(tags=["recognition"])
 

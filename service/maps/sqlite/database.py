@@ -10,6 +10,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Literal, TypeVar
 
+from service.core.files import sync_folder
 from service.maps.sqlite.disk_reserve import FULL, DiskReserve
 from service.maps.store import StoreError, Trouble
 
@@ -460,15 +461,6 @@ def _make(path: Path, layout: Layout) -> None:
             connection.execute("COMMIT")
         unfinished.replace(path)
         sync_folder(path.parent)
-
-
-def sync_folder(folder: Path) -> None:
-    """Make new names, renames and removals in a folder last."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
 
 
 def _inode_of(path: Path) -> tuple[int, int]:

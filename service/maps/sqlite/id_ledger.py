@@ -16,7 +16,7 @@ import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
-from service.maps.sqlite.database import sync_folder
+from service.core.files import sync_folder
 from service.maps.sqlite.disk_reserve import FULL
 from service.maps.store import StoreError
 

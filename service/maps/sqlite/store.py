@@ -9,8 +9,9 @@ from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
+from service.core.files import sync_folder
 from service.maps.sqlite.data_lock import locked
-from service.maps.sqlite.database import ADVICE, Database, Layout, sync_folder
+from service.maps.sqlite.database import ADVICE, Database, Layout
 from service.maps.sqlite.history import SqliteHistory
 from service.maps.sqlite.id_ledger import SKIPPED, IdLedger
 from service.maps.sqlite.owners import Owners

@@ -16,10 +16,10 @@ from pathlib import Path
 from threading import Lock
 
 from placecell.core.cancellation import holding
+from service.core.files import sync_folder
 from service.core.problems import Problem
 from service.core.settings import Limits
 from service.maps.quotas import OverQuotaError
-from service.maps.sqlite.database import sync_folder
 from service.maps.store import StoreError
 
 FOLDER = "uploads"
