@@ -1,4 +1,4 @@
-"""A model's card: what a reader must know before using it, written from its manifest."""
+"""Model card: what a reader must know before using a model, written from its manifest."""
 
 import textwrap
 from pathlib import Path
@@ -27,31 +27,31 @@ CARD = """# Model `{name}`
 
 ## Figures
 
-On the validation groups ({held_out:.0%} of the training set's groups, held out whole), of
-descriptors as stored; not comparable with a test drive, for there are fewer groups to confuse.
+Measured on the validation groups ({held_out:.0%} of the training set's groups, held out whole), with
+descriptors as stored. A test drive has more groups to confuse, so its figures are lower.
 {near}
 
 | figure | value |
 |---|---|
 {figures}
 
-Pairs are judged by: {pair_kind} (AUC on held-out groups by kind: {pair_auc}).
-Stated probabilities, of held-out segments with each of their {nearest} nearest among {database:,},
-are off by {calibration_error:.3f} on average.
+Pair classifier: {pair_kind} (AUC on held-out groups by kind: {pair_auc}).
+The stated probabilities of held-out segments, each with its {nearest} nearest among {database:,}, are
+off by {calibration_error:.3f} on average.
 
-## Train it again
+## Train this model again
 
 {command}
 """
 
 WHAT = {
-    "eigenvalue": "SegMatch's seven eigenvalue features, standardised: the paper's baseline.",
+    "eigenvalue": "SegMatch's seven eigenvalue features, standardized: the paper's baseline.",
     "siamese": "The paper's Siamese extractor: two branches and a third network, trained on pairs.",
     "contrastive": "The paper's contrastive extractor: trained to bring matches together and keep "
     "hard non-matches apart.",
-    "context": "A segment by itself, by the multi-similarity loss, and what stands around "
-    "it, by linear discriminant analysis.",
-    "group": "The paper's group-based extractor: trained to tell groups of segments apart.",
+    "context": "The segment by the multi-similarity loss, and its neighborhood by linear "
+    "discriminant analysis.",
+    "group": "The paper's group-based extractor: trained to classify groups of segments.",
 }
 
 
@@ -59,7 +59,7 @@ def write_card(folder: Path, manifest: Manifest) -> None:
     """Write `README.md` into the model's folder."""
     training = manifest.training
     sources = [
-        f"| {source['drive']} | {source['scans'][0]} to {source['scans'][1]}, a frame every "
+        f"| {source['drive']} | {source['scans'][0]} to {source['scans'][1]}, a capture every "
         f"{source['frame_step']} | {source['segments']:,} |"
         for source in training["sources"]
     ]
@@ -84,7 +84,8 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             licences=training["licence"],
             near=""
             if manifest.surroundings is None
-            else "What stands around them was learned from: optimistic figures, then.\n",
+            else "The neighborhoods of these groups were part of the training, so the figures are "
+            "optimistic.\n",
             held_out=training["validation_share"],
             figures="\n".join(figures),
             pair_kind=manifest.pair["kind"],
