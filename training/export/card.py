@@ -27,8 +27,8 @@ CARD = """# Model `{name}`
 
 ## Figures
 
-Measured on the validation groups ({held_out:.0%} of the training set's groups, held out whole), with
-descriptors as stored. A test drive has more groups to confuse, so its figures are lower.
+Measured on the validation groups ({held_out:.0%} of the training set's groups, held out whole),
+with descriptors as stored. A test drive has more groups to confuse, so its figures are lower.
 {near}
 
 | figure | value |
@@ -36,8 +36,8 @@ descriptors as stored. A test drive has more groups to confuse, so its figures a
 {figures}
 
 Pair classifier: {pair_kind} (AUC on held-out groups by kind: {pair_auc}).
-The stated probabilities of held-out segments, each with its {nearest} nearest among {database:,}, are
-off by {calibration_error:.3f} on average.
+The stated probabilities of held-out segments, each with its {nearest} nearest among {database:,},
+are off by {calibration_error:.3f} on average.
 
 ## Train this model again
 
