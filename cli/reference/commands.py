@@ -1,5 +1,6 @@
 """The command line: one section a command, from its help texts."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,16 @@ import typer
 
 from cli.reference.markdown import code, paragraphs, table
 from cli.reference.paths import shown
+
+TYPES = {
+    "int": "integer",
+    "int range": "integer",
+    "float": "number",
+    "float range": "number",
+    "str": "text",
+    "datetime": "date or time",
+}
+"""Names of types as the page shows them; others stay as they are."""
 
 
 def command_pages() -> dict[str, str]:
@@ -20,7 +31,8 @@ def command_pages() -> dict[str, str]:
         ["Command", "Does"],
         ([f"[`{name}`](#{_anchor(name)})", _first(each.help)] for name, each in sections),
     )
-    return {"commands": contents + "".join(f"\n{_section(*each)}" for each in sections)}
+    context = root.make_context("placecell", ["--help"], resilient_parsing=True)
+    return {"commands": contents + "".join(f"\n{_section(*each, context)}" for each in sections)}
 
 
 def _sections(group: Any, name: str) -> Iterator[tuple[str, Any]]:
@@ -33,7 +45,7 @@ def _sections(group: Any, name: str) -> Iterator[tuple[str, Any]]:
             yield f"{name} {word}", command
 
 
-def _section(name: str, command: Any) -> str:
+def _section(name: str, command: Any, context: Any) -> str:
     parts = [f"## `{name}`\n\n", paragraphs(command.help or "")]
     arguments = [each for each in command.params if each.param_type_name == "argument"]
     options = [each for each in command.params if each.param_type_name == "option"]
@@ -48,7 +60,11 @@ def _section(name: str, command: Any) -> str:
             panels.setdefault(option.rich_help_panel or "Option", []).append(option)
     for panel, members in panels.items():
         rows = (
-            [", ".join(map(code, (*each.opts, *each.secondary_opts))), _value(each), _help(each)]
+            [
+                ", ".join(map(code, (*each.opts, *each.secondary_opts))),
+                _value(each, context),
+                _help(each),
+            ]
             for each in members
         )
         parts.append("\n" + table([panel, "Value", "Meaning"], rows))
@@ -64,12 +80,23 @@ def _metavar(parameter: Any) -> str:
     return str(parameter.metavar or parameter.name.upper())
 
 
-def _value(option: Any) -> str:
+def _value(option: Any, context: Any) -> str:
     if option.is_flag:
         return ""
-    kind = option.metavar or str(option.display_type).strip("<>")
-    repeat = ", repeatable" if option.multiple or "list[" in kind else ""
-    return code(kind.replace("list[", "").replace("]", "") if repeat else kind) + repeat
+    kind = str(option.metavar or option.display_type(context).strip("<>"))
+    element = re.fullmatch(r"list\[(.+)\]", kind)
+    shown = TYPES.get(element[1] if element else kind, element[1] if element else kind)
+    repeated = ", repeatable" if option.multiple or element else ""
+    return code(shown + _bounds(option)) + repeated
+
+
+def _bounds(option: Any) -> str:
+    """Return the range of a number, such as ` 0 to 1`."""
+    if option.min is None and option.max is None:
+        return ""
+    if option.max is None:
+        return f" >= {option.min:g}"
+    return f" <= {option.max:g}" if option.min is None else f" {option.min:g} to {option.max:g}"
 
 
 def _help(parameter: Any) -> str:
@@ -78,7 +105,7 @@ def _help(parameter: Any) -> str:
     default = parameter.default
     if parameter.required:
         more.append("Required.")
-    elif default not in (None, False, ()) and "default" not in text.lower():
+    elif default is not None and default is not False and "default" not in text.lower():
         more.append(f"Default: {code(_shown(default))}.")
     if parameter.envvar:
         more.append(f"Environment: {code(parameter.envvar)}.")

@@ -43,7 +43,7 @@ def _route(route: dict[str, Any]) -> str:
             code(each["name"]) + (" (required)" if each.get("required") else ""),
             each["in"],
             _type(each["schema"]),
-            each.get("description", ""),
+            each.get("description", "") + _default(each["schema"]),
         ]
         for each in route.get("parameters", [])
     ]
