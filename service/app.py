@@ -7,7 +7,7 @@ from importlib import metadata
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
-from service.api import docs_pages, openapi
+from service.api import docs_pages, error_handlers, openapi
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
@@ -25,7 +25,6 @@ from service.api.routes import (
     versions,
 )
 from service.api.state import State, open_state
-from service.core import problems
 from service.core.settings import Settings
 
 EXPOSED_HEADERS = (
@@ -95,7 +94,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         )
     app.add_middleware(OriginGuard, settings=settings)
     app.add_middleware(Account)
-    problems.install(app)
+    error_handlers.install(app)
     openapi.install(app)
     if settings.docs:
         docs_pages.install(app)

@@ -17,6 +17,7 @@ from h11._receivebuffer import ReceiveBuffer
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.api.admission.addresses import client_network
+from service.api.body.problem_json import response_of
 from service.api.state import State
 from service.core.problems import Problem
 
@@ -238,7 +239,7 @@ class Protocol(H11Protocol):
         error = sys.exc_info()[1]
         status = getattr(error, "error_status_hint", 400)
         problem = Problem(status, "invalid-http", f"The request is not HTTP/1.1: {error!s:.100}.")
-        body = problem.response
+        body = response_of(problem)
         head = h11.Response(
             status_code=status,
             headers=[*body.raw_headers, (b"connection", b"close")],

@@ -10,6 +10,7 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
 from service.api.body.body import JSON, MSGPACK
+from service.api.body.problem_json import ProblemBody
 from service.api.schemas.alignment import MergeRequest
 from service.api.schemas.localization import LocalizeRequest
 from service.api.schemas.msgpack import (
@@ -19,7 +20,6 @@ from service.api.schemas.msgpack import (
     PackedMatchRequest,
 )
 from service.api.schemas.recognition import DescribeRequest, MatchRequest
-from service.core.problems import ProblemBody
 
 _REFERENCE = "#/components/schemas/{model}"
 _SCHEMAS: tuple[type[BaseModel], ...] = (

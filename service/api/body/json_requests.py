@@ -20,7 +20,7 @@ from service.api.schemas.recognition import (
     Request,
     ScanRequest,
 )
-from service.core.problems import Problem, errors_of, invalid
+from service.core.problems import Problem, errors_of, invalid, invalid_values
 from service.core.settings import Limits
 
 Schema = TypeVar("Schema", bound=BaseModel)
@@ -141,7 +141,7 @@ def _told(schema: type[Schema], arrays: Arrays) -> Schema:
         for item in found:
             item["loc"] = _moved(item["loc"], arrays)
             item["msg"] = moved(str(item["msg"]), arrays, named)
-        raise invalid(error, found) from error
+        raise invalid_values(found) from error
     # The two ways to read disagree; the plain one is right.
     try:
         return schema.model_validate_json(arrays.body)

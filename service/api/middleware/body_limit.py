@@ -4,6 +4,7 @@ import anyio
 from starlette._utils import get_route_path
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.api.body.problem_json import response_of
 from service.core.problems import Problem
 from service.core.settings import Limits
 
@@ -34,7 +35,7 @@ class BodyLimit:
             if b"expect" not in headers:
                 await discard(receive, *PATIENCE)
             scope["app"].state.placecell.metrics.rejected.labels("body-too-large").inc()
-            await _too_large(limit).response(scope, receive, send)
+            await response_of(_too_large(limit))(scope, receive, send)
             return
         received = 0
 

@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from service.api.body.problem_json import response_of
 from service.core.problems import Problem
 from service.core.settings import Settings
 
@@ -38,7 +39,7 @@ class OriginGuard:
             problem = self._problem(scope)
             if problem is not None:
                 scope["app"].state.placecell.metrics.rejected.labels(problem.kind).inc()
-                await problem.response(scope, receive, send)
+                await response_of(problem)(scope, receive, send)
                 return
         await self._app(scope, receive, send)
 

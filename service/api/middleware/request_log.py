@@ -9,6 +9,7 @@ from time import perf_counter
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.api.body.problem_json import response_of
 from service.api.middleware.refusal_log import TOLD, RefusalLog, address_of
 from service.core.problems import Problem, unexpected
 from service.core.timing import Timing
@@ -64,12 +65,12 @@ class Account:
             stopping = Problem(
                 503, "stopping", "The service stops.", headers={"Connection": "close"}
             )
-            await stopping.response(scope, receive, noted)
+            await response_of(stopping)(scope, receive, noted)
         except Exception:
             logger.exception("failed at %s", scope["path"])
             if status:
                 raise
-            await unexpected().response(scope, receive, noted)
+            await response_of(unexpected())(scope, receive, noted)
         finally:
             self._note(scope, status, timing)
 

@@ -12,14 +12,14 @@ from placecell.map_alignment import AlignmentParameters
 from service.api.alignment_responses import alignment_of, merged_of
 from service.api.audit import tell_written
 from service.api.body.body import JSON
+from service.api.body.problem_json import documented
 from service.api.openapi import json_body
 from service.api.path_parameters import Name, OtherName
-from service.api.query_parsing import invalid as invalid_value
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
 from service.core.cost import check_cost, cost_of_aligning
-from service.core.problems import documented, invalid
+from service.core.problems import invalid, invalid_value
 from service.inference.model_registry import Model
 from service.maps.snapshot import StoredMap
 from service.merging.alignment import K, MapSide, align_maps, check_same_model

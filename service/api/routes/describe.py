@@ -6,11 +6,11 @@ from fastapi import APIRouter, Request, Response
 
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, MSGPACK, Body, answer_type, parse, render
+from service.api.body.problem_json import documented
 from service.api.openapi import body_of, packed_response
 from service.api.schemas.msgpack import PackedDescribeRequest, PackedDescribeResponse
 from service.api.schemas.recognition import DescribeRequest, DescribeResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf
-from service.core.problems import documented
 from service.core.timing import Timing
 from service.inference.describer import Described, Prepared
 from service.inference.model_registry import Model

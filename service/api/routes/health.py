@@ -9,10 +9,11 @@ from placecell_client.maps.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from placecell.descriptors.manifest import Manifest
+from service.api.body.problem_json import documented
 from service.api.schemas.info import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.api.state import HolderOf, StateOf
 from service.core.cost import MACHINE, RATES
-from service.core.problems import Problem, documented
+from service.core.problems import Problem
 
 router = APIRouter(tags=["health"])
 

@@ -9,6 +9,7 @@ from placecell.localization import Hypothesis, LocalisationParameters
 from placecell.localization.evidence import Evidence, middle_of
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
+from service.api.body.problem_json import documented
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import Asked, Queries, read_query
 from service.api.responses import pose_of
@@ -17,7 +18,6 @@ from service.api.schemas.msgpack import PackedLocalizeRequest
 from service.api.schemas.recognition import Failed
 from service.api.state import HolderOf, State, StateOf, TimingOf
 from service.core.auth import Holder
-from service.core.problems import documented
 from service.core.timing import Timing
 from service.maps.shared_index import Part
 from service.maps.snapshot import StoredMap

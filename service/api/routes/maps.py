@@ -11,13 +11,13 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import JSON, OCTETS, render
+from service.api.body.problem_json import documented
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import summary_of
 from service.api.schemas.maps import MapOut, MapsResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
-from service.core.problems import documented
 from service.maps.history import version as version_of
 from service.maps.history import version_file, version_tag
 from service.maps.snapshot import StoredMap

@@ -7,13 +7,13 @@ from fastapi import APIRouter, Request, Response
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
 from service.api.body.msgpack_codec import Items
+from service.api.body.problem_json import documented
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import Asked, Queries, read_query
 from service.api.schemas.msgpack import PackedMatchRequest
 from service.api.schemas.recognition import Failed, MatchRequest, MatchResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf
 from service.core.auth import Holder
-from service.core.problems import documented
 from service.core.timing import Timing
 from service.search.matching import Candidate, found_in, merged, parts_of
 

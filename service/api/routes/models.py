@@ -4,9 +4,10 @@ from fastapi import APIRouter, Request
 
 from placecell.descriptors.manifest import ModelError
 from service.api.audit import logger
+from service.api.body.problem_json import documented
 from service.api.schemas.info import ReloadResponse
 from service.api.state import HolderOf, State, StateOf
-from service.core.problems import Problem, documented
+from service.core.problems import Problem
 
 router = APIRouter(tags=["models"])
 

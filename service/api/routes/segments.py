@@ -10,13 +10,13 @@ from placecell_client.maps.delta_file import MEDIA_TYPE
 from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import OCTETS
+from service.api.body.problem_json import documented
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of
 from service.api.schemas.maps import IdsOut, WrittenOut
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
-from service.core.problems import documented
 from service.maps.snapshot import StoredMap
 from service.maps.sync import Page
 from service.maps.visibility import delta_for

@@ -7,12 +7,12 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.api.audit import tell, tell_written
 from service.api.body.body import OCTETS
+from service.api.body.problem_json import documented
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.routes.maps import NEW_RESPONSE, put_response
 from service.api.schemas.maps import MapOut, PartOut, UploadOut, UploadsResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
-from service.core.problems import documented
 from service.maps.writes.writer import Writer, Written
 
 router = APIRouter(tags=["maps"])

@@ -7,12 +7,12 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import JSON, render
+from service.api.body.problem_json import documented
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of, version_of
 from service.api.schemas.maps import CompactOut, VersionsResponse, WrittenOut
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
-from service.core.problems import documented
 from service.maps.history import commits_of
 from service.maps.snapshot import StoredMap
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from placecell.descriptors.manifest import Manifest
 from service.api.body import body as bodies
+from service.api.body.problem_json import response_of
 from service.api.schemas.msgpack import PackedDescribeRequest, PackedMatchRequest
 from service.api.schemas.recognition import DescribeRequest, MatchRequest
 from service.core.problems import Problem
@@ -167,7 +168,7 @@ def read(body: bytes) -> None:
             outcome = problem
         if isinstance(outcome, Problem):
             assert outcome.status in {400, 413, 422}
-            assert len(bytes(outcome.response.body)) < 10_000
+            assert len(bytes(response_of(outcome).body)) < 10_000
         else:
             assert isinstance(outcome, twin)
 
