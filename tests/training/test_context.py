@@ -26,10 +26,10 @@ from training.methods.context import (
     rotation,
     scatter,
 )
+from training.methods.fit import Sgd
 from training.methods.group_based import GroupBasedRecipe
 from training.methods.networks import DescriptorNetwork, normalisation_statistics
 from training.methods.run import Run
-from training.methods.sgd import Sgd
 
 SIZE = SURROUNDINGS_V1.size
 

@@ -7,9 +7,9 @@ import pytest
 
 from training.data.training_set import TrainingSet
 from training.methods import metric
+from training.methods.fit import Sgd
 from training.methods.metric import LOSSES, MetricRecipe, draw_batch
 from training.methods.run import Run
-from training.methods.sgd import Sgd
 
 
 def test_a_batch_holds_as_many_of_each_group() -> None:

@@ -15,9 +15,9 @@ from tests.training_sets import make_shapes
 from training.data.augmentation import Augmentation
 from training.data.training_set import Source, TrainingSet
 from training.methods import contrastive, group_based, siamese
+from training.methods.fit import Sgd
 from training.methods.networks import describe
 from training.methods.run import Run
-from training.methods.sgd import Sgd
 
 SMALL = Sgd(learning_rate=0.05, batch=16)
 

@@ -31,11 +31,11 @@ from training.export.publishing import (
 )
 from training.methods import metric
 from training.methods.context import ContextRecipe, learn_surroundings
+from training.methods.fit import Sgd
 from training.methods.group_based import GroupBasedRecipe
 from training.methods.metric import MetricRecipe
 from training.methods.registry import Trained, train_segment
 from training.methods.run import Run
-from training.methods.sgd import Sgd
 
 RATES = (0.05, 0.2)
 """Learning rates that each loss is tried with; the best on the validation groups counts."""

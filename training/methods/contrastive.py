@@ -8,6 +8,7 @@ epoch from the current descriptors, and sub-sampled so as not to dwell on the fe
     placecell train contrastive DRIVE@0:299 --seed 0
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,12 +16,15 @@ import torch
 from torch import Tensor
 
 from evaluation.recognition.retrieval import distance_rows, top1
-from placecell.core.types import Float32, Int64
+from placecell.core.types import Float32, Int64, UInt8
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
+from training.methods.fit import BatchLoss, Sgd, fit
 from training.methods.networks import DescriptorNetwork, describe, normalisation_statistics
-from training.methods.run import Run
-from training.methods.sgd import Sgd
+from training.methods.run import Figures, Run
+
+PairBatch = tuple[UInt8, Float32, Float32]
+"""Occupancy and extents of both sides of a batch's pairs, and 1 for those that match."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,42 +119,42 @@ def train(
     mean, deviation = normalisation_statistics(training)
     model = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     steps = len(training) // recipe.sgd.batch
-    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
-    descriptors = None
-    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
-        random = run.random(epoch)
+    described: list[Float32] = []  # of the training set, after the last epoch of this run
+
+    def draw(epoch: int, random: np.random.Generator) -> Iterator[PairBatch]:
         if recipe.hard and epoch:
-            if descriptors is None:  # this run was stopped, and goes on
-                descriptors = describe(model, training)
-            matches, others = hard_pairs(descriptors, training.groups, recipe.hardest, random)
+            if not described:  # the run was stopped, and resumes
+                described.append(describe(model, training))
+            matches, others = hard_pairs(described.pop(), training.groups, recipe.hardest, random)
         else:
             matches, others = random_pairs(training.groups, random)
         others = random.permutation(others)
         matches = random.permutation(matches)[: int(len(others) * recipe.matches_share)]
-        share = len(matches) / len(others)
-        losses = []
-        model.train()
+        return batches(matches, others, random)
+
+    def batches(matches: Int64, others: Int64, random: np.random.Generator) -> Iterator[PairBatch]:
+        share, batch = len(matches) / len(others), recipe.sgd.batch
         for step in range(steps):
-            batch = recipe.sgd.batch
             some_matches = matches[int(step * batch * share) : int((step + 1) * batch * share)]
             pairs = np.concatenate([some_matches, others[step * batch : (step + 1) * batch]])
-            is_match = torch.zeros(len(pairs))
+            is_match = np.zeros(len(pairs), dtype=np.float32)
             is_match[: len(some_matches)] = 1
             occupancy, extents = recipe.augmentation.copies(
                 training.segments.take(pairs.T.reshape(-1)), training.parameters, random
             )
-            described = model(torch.from_numpy(occupancy), torch.from_numpy(extents))
-            a, b = described[: len(pairs)], described[len(pairs) :]
-            loss = contrastive_loss(is_match, (a - b).square().sum(dim=1), recipe.margin)
-            optimiser.zero_grad()
-            loss.backward()
-            optimiser.step()
-            schedule.step()
-            losses.append(loss.item())
-        descriptors = describe(model, training)
-        run.note(
-            loss=float(np.mean(losses)),
-            top1=top1(descriptors, training.groups),
-            validation_top1=top1(describe(model, validation), validation.groups),
-        )
+            yield occupancy, extents, is_match
+
+    def loss_of(batch: PairBatch) -> BatchLoss:
+        occupancy, extents, is_match = map(torch.from_numpy, batch)
+        a, b = model(occupancy, extents).chunk(2)
+        return contrastive_loss(is_match, (a - b).square().sum(dim=1), recipe.margin), {}
+
+    def validate() -> Figures:
+        described[:] = [describe(model, training)]
+        return {
+            "top1": top1(described[0], training.groups),
+            "validation_top1": top1(describe(model, validation), validation.groups),
+        }
+
+    fit(model, run, recipe.sgd, recipe.epochs, steps, draw, loss_of, validate)
     return model

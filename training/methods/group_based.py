@@ -7,6 +7,7 @@ segments are left out.
     placecell train group DRIVE@0:299 --seed 0
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,17 +15,20 @@ import torch
 from torch import Tensor, nn
 
 from evaluation.recognition.retrieval import top1
-from placecell.core.types import Int64
+from placecell.core.types import Float32, Int64, UInt8
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
+from training.methods.fit import BatchLoss, Sgd, fit
 from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
     normalisation_statistics,
 )
-from training.methods.run import Run
-from training.methods.sgd import Sgd
+from training.methods.run import Figures, Run
+
+LabeledBatch = tuple[UInt8, Float32, Int64]
+"""Occupancy, extents and groups of a batch."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,33 +86,29 @@ def train(
     held_out = held_out_segments(classes, recipe.held_out, np.random.default_rng(run.seed))
     learned = np.setdiff1d(np.arange(len(classes)), held_out)
     steps = len(learned) // recipe.sgd.batch
-    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
     cross_entropy = nn.CrossEntropyLoss()
-    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
-        random = run.random(epoch)
+
+    def draw(_epoch: int, random: np.random.Generator) -> Iterator[LabeledBatch]:
         order = random.permutation(learned)
-        losses, right = [], 0
-        model.train()
         for step in range(steps):
             chosen = order[step * recipe.sgd.batch : (step + 1) * recipe.sgd.batch]
             occupancy, extents = recipe.augmentation.copies(
                 classes.segments.take(chosen), classes.parameters, random
             )
-            labels = torch.from_numpy(classes.groups[chosen])
-            logits = model(torch.from_numpy(occupancy), torch.from_numpy(extents))
-            loss = cross_entropy(logits, labels)
-            optimiser.zero_grad()
-            loss.backward()
-            optimiser.step()
-            schedule.step()
-            losses.append(loss.item())
-            right += int((logits.argmax(dim=1) == labels).sum())
-        run.note(
-            loss=np.mean(losses),
-            accuracy=right / (steps * recipe.sgd.batch),
-            **classification_accuracy(model, classes, held_out),
-            validation_top1=top1(describe(extractor, validation), validation.groups),
-        )
+            yield occupancy, extents, classes.groups[chosen]
+
+    def loss_of(batch: LabeledBatch) -> BatchLoss:
+        occupancy, extents, labels = map(torch.from_numpy, batch)
+        logits = model(occupancy, extents)
+        right = int((logits.argmax(dim=1) == labels).sum())
+        return cross_entropy(logits, labels), {"accuracy": right / len(labels)}
+
+    def validate() -> Figures:
+        found = top1(describe(extractor, validation), validation.groups)
+        held = classification_accuracy(model, classes, held_out)
+        return held | {"validation_top1": found}
+
+    fit(model, run, recipe.sgd, recipe.epochs, steps, draw, loss_of, validate)
     return extractor
 
 

@@ -4,7 +4,7 @@ A batch holds several segments of each of some groups, so that there are matches
 are those of pytorch-metric-learning, by the names of their papers.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,14 +15,15 @@ from evaluation.recognition.retrieval import top1
 from placecell.core.types import Int64
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
+from training.methods.fit import BatchLoss, Sgd, fit
+from training.methods.group_based import LabeledBatch
 from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
     normalisation_statistics,
 )
-from training.methods.run import Run
-from training.methods.sgd import Sgd
+from training.methods.run import Figures, Run
 
 GROUPS, VIEWS = 32, 4
 """Of a batch: groups, and segments of each."""
@@ -93,25 +94,23 @@ def train(
     loss_of = losses(len(classes.group_sizes()))[recipe.loss]()
     model = nn.ModuleList([extractor, loss_of])
     steps = len(classes) // (GROUPS * VIEWS)
-    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
-    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
-        random = run.random(epoch)
-        total = 0.0
-        model.train()
+
+    def draw(_epoch: int, random: np.random.Generator) -> Iterator[LabeledBatch]:
         for _ in range(steps):
             chosen = draw_batch(classes.groups, random)
             occupancy, extents = recipe.augmentation.copies(
                 classes.segments.take(chosen), classes.parameters, random
             )
-            descriptors = extractor(torch.from_numpy(occupancy), torch.from_numpy(extents))
-            loss = loss_of(descriptors, torch.from_numpy(classes.groups[chosen]))
-            optimiser.zero_grad()
-            loss.backward()
-            optimiser.step()
-            schedule.step()
-            total += loss.item()
-        found = top1(describe(extractor, validation), validation.groups)
-        run.note(loss=total / steps, validation_top1=found)
+            yield occupancy, extents, classes.groups[chosen]
+
+    def loss_in(batch: LabeledBatch) -> BatchLoss:
+        occupancy, extents, labels = map(torch.from_numpy, batch)
+        return loss_of(extractor(occupancy, extents), labels), {}
+
+    def validate() -> Figures:
+        return {"validation_top1": top1(describe(extractor, validation), validation.groups)}
+
+    fit(model, run, recipe.sgd, recipe.epochs, steps, draw, loss_in, validate)
     return extractor
 
 

@@ -7,6 +7,7 @@ as many matches as non-matches.
     placecell train siamese DRIVE@0:299 --seed 0
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,17 +15,20 @@ import torch
 from torch import Tensor, nn
 
 from evaluation.recognition.retrieval import top1
-from placecell.core.types import Float32, Int64
+from placecell.core.types import Float32, Int64, UInt8
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
+from training.methods.fit import BatchLoss, Sgd, fit
 from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
     normalisation_statistics,
 )
-from training.methods.run import Run
-from training.methods.sgd import Sgd
+from training.methods.run import Figures, Run
+
+PairBatch = tuple[UInt8, Float32, Float32]
+"""Occupancy and extents of both sides of a batch's pairs, and 1 for those that match."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,35 +130,32 @@ def train(
     model = Siamese(DescriptorNetwork(network, mean, deviation, recipe.dropout))
     pairs_an_epoch = len(sample_pairs(training.groups, recipe.pairs, np.random.default_rng(0))[0])
     steps = pairs_an_epoch // recipe.sgd.batch
-    optimiser, schedule = recipe.sgd.start(model, recipe.epochs, steps)
     held_out = sample_pairs(validation.groups, 4000, np.random.default_rng(run.seed))
     cross_entropy = nn.BCEWithLogitsLoss()
-    for epoch in run.epochs(recipe.epochs, model, optimiser, schedule):
-        random = run.random(epoch)
+
+    def draw(_epoch: int, random: np.random.Generator) -> Iterator[PairBatch]:
         pairs, labels = sample_pairs(training.groups, recipe.pairs, random)
-        losses, right = [], 0
-        model.train()
         for step in range(steps):
             rows = slice(step * recipe.sgd.batch, (step + 1) * recipe.sgd.batch)
             occupancy, extents = recipe.augmentation.copies(
                 training.segments.take(pairs[rows].T.reshape(-1)), training.parameters, random
             )
-            logits = model(torch.from_numpy(occupancy), torch.from_numpy(extents))
-            truth = torch.from_numpy(labels[rows])
-            loss = cross_entropy(logits, truth)
-            optimiser.zero_grad()
-            loss.backward()
-            optimiser.step()
-            schedule.step()
-            losses.append(loss.item())
-            right += int(((logits > 0) == (truth > 0.5)).sum())
+            yield occupancy, extents, labels[rows]
+
+    def loss_of(batch: PairBatch) -> BatchLoss:
+        occupancy, extents, truth = map(torch.from_numpy, batch)
+        logits = model(occupancy, extents)
+        right = int(((logits > 0) == (truth > 0.5)).sum())
+        return cross_entropy(logits, truth), {"accuracy": right / len(truth)}
+
+    def validate() -> Figures:
         descriptors = describe(model.extractor, validation)
-        run.note(
-            loss=np.mean(losses),
-            accuracy=right / (steps * recipe.sgd.batch),
-            validation_accuracy=pair_accuracy(model.match, descriptors, *held_out),
-            validation_top1=top1(descriptors, validation.groups),
-        )
+        return {
+            "validation_accuracy": pair_accuracy(model.match, descriptors, *held_out),
+            "validation_top1": top1(descriptors, validation.groups),
+        }
+
+    fit(model, run, recipe.sgd, recipe.epochs, steps, draw, loss_of, validate)
     return model
 
 
