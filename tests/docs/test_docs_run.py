@@ -111,6 +111,7 @@ def in_list(lines: list[str], at: int) -> bool:
 
 BLOCKS = [block for file in DOCUMENTS for block in blocks_of(file)]
 SHELL = [block for block in BLOCKS if block.kind in {"sh", "bash", "console"} and not block.reason]
+MARKED = [block for block in BLOCKS if block.kind in {"sh", "bash", "console"} and block.reason]
 PYTHON = [block for block in BLOCKS if block.kind == "python" and not block.reason]
 SPANS = sorted(
     {
@@ -168,6 +169,13 @@ def test_B8_commands_exist_with_their_options(block: Block) -> None:
             assert set(words[1:]) <= set(targets)
         else:
             assert words[0] == "curl", f"{block}: {line!r} is neither run nor marked as not run"
+
+
+@pytest.mark.parametrize("block", MARKED, ids=str)
+def test_B8_commands_that_are_not_run_exist_too(block: Block) -> None:
+    for line in commands_of(block):
+        if line.startswith("placecell "):
+            check_placecell(plain(line.split("&&")[0])[1:])
 
 
 @pytest.mark.parametrize(("file", "span"), SPANS)

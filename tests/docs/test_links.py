@@ -18,10 +18,15 @@ DOCUMENTS = sorted(
 )
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 NAMED = re.compile(r"\bdocs/[\w./-]+\.md\b")
+FOLDERS = [
+    folder
+    for folder in ROOT.iterdir()
+    if folder.is_dir() and not folder.name.startswith(".") and folder.name not in {"docs", "site"}
+]
 SOURCES = [
     file
-    for folder in ("service", "client", "cli", "training", "town", "deploy", "tests", "models")
-    for file in (ROOT / folder).rglob("*")
+    for folder in (*FOLDERS, ROOT / ".github")
+    for file in folder.rglob("*")
     if file.suffix in {".py", ".md", ".yaml", ".service", ".sh"}
     and "site-packages" not in file.parts
 ]

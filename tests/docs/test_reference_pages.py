@@ -6,8 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from prometheus_client import generate_latest
 
 from cli.reference.pages import FOLDER, PAGES, generate
+from service.core.metrics import Metrics
+from service.core.settings import OTHER_NAMES, Limits, Settings, variables
 
 ROOT = Path(__file__).parents[2]
 
@@ -67,3 +70,24 @@ def test_no_documented_problem_is_unknown_to_the_code() -> None:
     for kind in documented_kinds().keys() - HTTP_PHRASES:
         made = any(re.fullmatch(pattern, kind) for pattern in patterns)
         assert made or re.search(rf'["\':]{kind}["\']', text), f"errors.md: {kind} is never raised"
+
+
+def named_in_docs(pattern: str) -> set[str]:
+    """Return what the documents name, by a pattern with one group."""
+    files = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), ROOT / "deploy" / "README.md"]
+    return {
+        name for file in files for name in re.findall(pattern, file.read_text(encoding="utf-8"))
+    }
+
+
+def test_settings_that_the_documents_name_exist() -> None:
+    known = {*variables(Settings), *OTHER_NAMES, "PLACECELL_KEYS"}  # the last is of compose.yaml
+    assert named_in_docs(r"\b(PLACECELL_[A-Z_]*[A-Z])\b") <= known
+    assert named_in_docs(r"\blimits\.([a-z_]+)") - {"md"} <= Limits.model_fields.keys()
+
+
+def test_metrics_that_the_documents_name_exist() -> None:
+    shown = generate_latest(Metrics().registry).decode()
+    names = named_in_docs(r"\b(placecell_(?!client)[a-z_]+)\b")
+    missing = {name for name in names if not re.search(rf"^# HELP {name}\b", shown, re.MULTILINE)}
+    assert not missing
