@@ -28,7 +28,7 @@ def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segm
     return drawn[: int(np.searchsorted(ends, segments)) + 1]
 
 
-def scans_of(recording: Recording) -> list[Segments]:
+def scans_in(recording: Recording) -> list[Segments]:
     """The segments of each scan that is a frame, as a robot would send them."""
     return [
         recording.segments.take(np.flatnonzero(recording.frames == scan))

@@ -12,7 +12,7 @@ from placecell.segmentation.pipeline import Progress, segment_frames, silent
 from town import City, write_drive
 
 
-def bench(
+def measure_town(
     folder: Path,
     metres: float,
     scans: int,

@@ -32,8 +32,8 @@ def demo(
     one. Ends with status 0 only if that came out right; on a drive of less than 24 m robot B must
     be recognised, and the rest is told.
     """
-    from demo.meeting import elsewhere
-    from demo.run import is_short, run
+    from demo.meeting import in_own_frame
+    from demo.run import is_short, run_demo
     from evaluation.poses.queries import random_frame
     from evaluation.poses.robots import robots_of_drive, robots_of_town
     from placecell.descriptors.manifest import Manifest
@@ -57,9 +57,9 @@ def demo(
             if seen:
                 typer.echo(f"{DEFAULT_MODEL} was trained on scans of this drive.")
         # Nothing but the segments tells how robot B's frame lies to robot A's.
-        asker = elsewhere(asker, random_frame(seed))
-        outcome = run(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
-        baseline = run(mapper, asker, Path(scratch) / "baseline", BASELINE)
+        asker = in_own_frame(asker, random_frame(seed))
+        outcome = run_demo(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
+        baseline = run_demo(mapper, asker, Path(scratch) / "baseline", BASELINE)
     figures = outcome.figures | {BASELINE: baseline.figures}
     (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
     write_json(figures, json_file)

@@ -21,7 +21,7 @@ SITE = "site"
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class PoseAnswer:
     """What the service told of one frame.
 
     Attributes:
@@ -56,7 +56,7 @@ class Meeting:
         refusal: why the maps were not merged, in the service's words; empty if they were.
     """
 
-    told: Sequence[Told]
+    told: Sequence[PoseAnswer]
     laid: Pose | None
     off: tuple[float, float]
     segments: int
@@ -94,7 +94,7 @@ class Meeting:
         }
 
 
-def meet(
+def localize_and_merge(
     mapper: Robot,
     asker: Robot,
     client: Client,
@@ -129,20 +129,20 @@ def meet(
 
 def _ask(
     asker: Robot, client: Client, name: str, scan: int, segments: Segments, truth: Pose
-) -> Told:
+) -> PoseAnswer:
     started = time.perf_counter()
     answer = client.localize(segments=clouds(segments), sensors=segments.sensors, maps=[name])
     milliseconds = 1e3 * (time.perf_counter() - started)
     sensor = asker.drive.poses[scan, :3, 3]
     here = truth.apply(sensor)
     if answer.best is None or answer.best.pose is None:
-        return Told(here, None, np.inf, np.inf, milliseconds)
+        return PoseAnswer(here, None, np.inf, np.inf, milliseconds)
     pose = Pose.of_matrix(answer.best.pose.matrix)
     metres, angle = pose.difference(truth, sensor)
-    return Told(here, pose.apply(sensor), metres, float(np.degrees(angle)), milliseconds)
+    return PoseAnswer(here, pose.apply(sensor), metres, float(np.degrees(angle)), milliseconds)
 
 
-def elsewhere(robot: Robot, frame: Pose) -> Robot:
+def in_own_frame(robot: Robot, frame: Pose) -> Robot:
     """The same robot, with another world: nothing tells how that lies to anybody else's.
 
     Args:

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from demo.match_picture import RIGHT, WRONG
 from demo.meeting import Meeting
-from demo.picture import RIGHT, WRONG
 from evaluation.poses.robot import Robot
 from placecell.core.types import Float64
 

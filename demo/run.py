@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from placecell_client import Client, encode
 
-from demo.meeting import Meeting, meet
+from demo.meeting import Meeting, localize_and_merge
 from demo.score import Score, score
 from evaluation.poses.robot import Robot, ask
 from placecell.datasets import Drive
@@ -23,7 +23,7 @@ SHORT_METRES = 24.0
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class DemoResult:
     """What the demo measured.
 
     Attributes:
@@ -37,9 +37,9 @@ class Outcome:
     meeting: Meeting | None
 
 
-def run(
+def run_demo(
     mapper: Robot, asker: Robot, folder: Path, model: str, pictures: Path | None = None
-) -> Outcome:
+) -> DemoResult:
     """Start the service, upload A's map, let B ask, score.
 
     Args:
@@ -62,7 +62,9 @@ def run(
         asked = [views[index] for index in spread]
         answers, milliseconds = ask(asker, client, [MAP], K, asked)
         model_id = client.info().model_id
-        meeting = None if pictures is None else meet(mapper, asker, client, MAP, asked)
+        meeting = (
+            None if pictures is None else localize_and_merge(mapper, asker, client, MAP, asked)
+        )
     result = score(answers, compact.centroids, mapper.to_common)
     p50, p99 = np.percentile(milliseconds, [50, 99])
     figures = {
@@ -80,8 +82,8 @@ def run(
         "request_p99_ms": round(float(p99), 1),
     }
     if pictures is not None and meeting is not None:
+        from demo.match_picture import draw_matches
         from demo.merged_map_picture import draw_site
-        from demo.picture import draw_matches
 
         title = f"Segments of {asker.name}, matched in the map of {mapper.name}"
         right = result.first_is_right
@@ -89,7 +91,7 @@ def run(
         draw_matches(matches, mapper, asker, compact.centroids, answers, right, title)
         draw_site(pictures / "site.png", mapper, asker, compact.centroids, meeting)
         figures |= meeting.figures()
-    return Outcome(result, figures, meeting)
+    return DemoResult(result, figures, meeting)
 
 
 def is_short(drive: Drive) -> bool:

@@ -1,8 +1,8 @@
 """All attack cases, ordered by fault row."""
 
 from benchmarks.attack import connections, storage, tenants, work
-from benchmarks.attack.stage import Case
+from benchmarks.attack.stage import AttackCase
 
 _ALL = (*work.CASES, *connections.CASES, *storage.CASES, *tenants.CASES)
 
-CASES: tuple[Case, ...] = tuple(sorted(_ALL, key=lambda case: int(case.id[1:])))
+CASES: tuple[AttackCase, ...] = tuple(sorted(_ALL, key=lambda case: int(case.id[1:])))

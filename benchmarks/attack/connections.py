@@ -11,21 +11,21 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Delta, encode
 
-from benchmarks.attack.stage import NONE, VICTIM_MAP, Case, Stage, kind_of
+from benchmarks.attack.stage import NONE, VICTIM_MAP, AttackCase, Stage, template_of
 from benchmarks.attack.target import OWNER, READER, ROBOT, VICTIM, WRITER, Target
 from benchmarks.attack.wire import (
     DELTA,
     JSON,
     MAP,
     MSGPACK,
-    Answer,
-    Request,
+    AttackRequest,
+    AttackResponse,
     abandon,
     connect,
+    exchange_bytes,
     head_of,
-    raw,
 )
-from benchmarks.made_map import Kind
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 
 PIECE = 1 << 14
 SMALL_WINDOW = 1 << 12
@@ -39,8 +39,8 @@ def slow_download(stage: Stage) -> None:
     """A3: downloads over slow links that keep reading."""
     count = stage.size(320_000, 320_000)  # 14.9 MB
     with stage.service(own=False) as target:
-        kind = kind_of(target)
-        file = _put_map(stage, target, kind, "large", count)
+        template = template_of(target)
+        file = _put_map(stage, target, template, "large", count)
         stage.note("bytes", len(file))
         # The kernel's own buffers hide a slow link at first, so each reader is slow for long.
         slow = stage.size(45, 20)
@@ -70,12 +70,12 @@ def reads_of_old_versions(stage: Stage) -> None:
     """A5: many reads of stored versions, read and abandoned, while the victim writes."""
     versions, reads = stage.size(40, 6), stage.size(300, 40)
     with stage.service(own=False) as target:
-        kind = kind_of(target)
-        _put_map(stage, target, kind, "history", stage.size(100_000, 30_000))
+        template = template_of(target)
+        _put_map(stage, target, template, "history", stage.size(100_000, 30_000))
         client = target.client(ROBOT)
         for number in range(versions):
             ids = np.arange(number * 100, number * 100 + 100, dtype=np.uint32) + 1
-            client.edit_map("history", Delta(kind.made(ROBOT, ids, stage.random), NONE))
+            client.edit_map("history", Delta(template.random_map(ROBOT, ids, stage.random), NONE))
         paths: dict[str, Callable[[int], str]] = {
             "versions": lambda number: f"/maps/history?version={number % versions + 1}",
             "list of versions": lambda _: "/maps/history/versions?limit=10000",
@@ -85,7 +85,7 @@ def reads_of_old_versions(stage: Stage) -> None:
             "list of maps": lambda _: "/maps",
         }
         for name, path in paths.items():
-            requests = [Request("GET", path(number), key=READER) for number in range(reads)]
+            requests = [AttackRequest("GET", path(number), key=READER) for number in range(reads)]
             target.forget_peak()
             with stage.victim(target, reads=True):
                 with ThreadPoolExecutor(64) as pool:
@@ -99,17 +99,22 @@ def trickled_bodies(stage: Stage) -> None:
     seconds = stage.size(15, 1)
     packed, delta, file = ({"Content-Type": each} for each in (MSGPACK, DELTA, MAP))
     doors = {
-        "describe": [Request("POST", "/describe", key=ROBOT, headers=packed)] * 40
-        + [Request("POST", "/localize", key=READER, headers=packed)] * 40,
-        "edit": [Request("POST", "/maps/slow/segments?create=true", key=ROBOT, headers=delta)] * 40,
-        "put": [Request("PUT", "/maps/slow", key=ROBOT, headers=file)] * 20,
-        "merge": [Request("POST", "/maps/slow/merge", key=WRITER, headers={"Content-Type": JSON})]
+        "describe": [AttackRequest("POST", "/describe", key=ROBOT, headers=packed)] * 40
+        + [AttackRequest("POST", "/localize", key=READER, headers=packed)] * 40,
+        "edit": [AttackRequest("POST", "/maps/slow/segments?create=true", key=ROBOT, headers=delta)]
+        * 40,
+        "put": [AttackRequest("PUT", "/maps/slow", key=ROBOT, headers=file)] * 20,
+        "merge": [
+            AttackRequest("POST", "/maps/slow/merge", key=WRITER, headers={"Content-Type": JSON})
+        ]
         * 20,
-        "body nobody asked for": [Request("GET", "/maps", key=READER, headers=packed)] * 40,
+        "body nobody asked for": [AttackRequest("GET", "/maps", key=READER, headers=packed)] * 40,
     }
     with stage.service(own=False) as target:
-        small = encode(kind_of(target).made(VICTIM, np.arange(1, 9, dtype=np.uint32), stage.random))
-        align = Request("POST", f"/maps/{VICTIM_MAP}/align/{VICTIM_MAP}", key=VICTIM)
+        small = encode(
+            template_of(target).random_map(VICTIM, np.arange(1, 9, dtype=np.uint32), stage.random)
+        )
+        align = AttackRequest("POST", f"/maps/{VICTIM_MAP}/align/{VICTIM_MAP}", key=VICTIM)
         with stage.victim(target):
             pass
         stage.ask(target, align)  # the first one compiles
@@ -120,7 +125,7 @@ def trickled_bodies(stage: Stage) -> None:
                     _expect_at_once(
                         stage,
                         target,
-                        Request("PUT", "/maps/small", small, VICTIM, file),
+                        AttackRequest("PUT", "/maps/small", small, VICTIM, file),
                         "An upload of 8 segments beside trickled uploads",
                     )
                 if name == "merge":
@@ -131,15 +136,15 @@ def unread_answers(stage: Stage) -> None:
     """A7: large answers that no client reads."""
     readers = stage.size(40, 30)
     with stage.service(own=False) as target:
-        kind = kind_of(target)
-        _put_map(stage, target, kind, "large", stage.size(290_000, 100_000))
-        codes = stage.random.integers(-127, 128, (1_000, kind.code_bytes)).astype(np.int8)
-        match = msgpack.packb({"model_id": kind.model_id, "codes": codes.tobytes(), "k": 100})
+        template = template_of(target)
+        _put_map(stage, target, template, "large", stage.size(290_000, 100_000))
+        codes = stage.random.integers(-127, 128, (1_000, template.code_bytes)).astype(np.int8)
+        match = msgpack.packb({"model_id": template.model_id, "codes": codes.tobytes(), "k": 100})
         requests = {
-            "map": Request("GET", "/maps/large", key=READER),
-            "version": Request("GET", "/maps/large?version=1", key=READER),
-            "changes": Request("GET", "/maps/large/changes?since=0&limit=100000", key=READER),
-            "match": Request("POST", "/match", match, READER, {"Content-Type": MSGPACK}),
+            "map": AttackRequest("GET", "/maps/large", key=READER),
+            "version": AttackRequest("GET", "/maps/large?version=1", key=READER),
+            "changes": AttackRequest("GET", "/maps/large/changes?since=0&limit=100000", key=READER),
+            "match": AttackRequest("POST", "/match", match, READER, {"Content-Type": MSGPACK}),
         }
         for name, request in requests.items():
             time.sleep(0.2)
@@ -173,13 +178,13 @@ def idle_connections(stage: Stage) -> None:
                     with suppress(OSError):
                         stack.enter_context(connect(target, 5)).sendall(head)
                 for path in ("/livez", "/readyz", "/metrics"):
-                    answer = stage.ask(target, Request("GET", path), 10)
+                    answer = stage.ask(target, AttackRequest("GET", path), 10)
                     stage.expect(
                         answer.status == 200 and answer.seconds <= stage.victim_seconds,
                         f"{name}: beside {count} idle connections {path} was answered "
                         f"{answer.status} after {answer.seconds:.1f} s.",
                     )
-                answer = _from_elsewhere(target, Request("GET", "/info", key=VICTIM))
+                answer = _from_elsewhere(target, AttackRequest("GET", "/info", key=VICTIM))
                 stage.count([answer])
                 stage.expect(
                     answer.status == 200 and answer.seconds <= stage.victim_seconds,
@@ -192,8 +197,8 @@ def idle_connections(stage: Stage) -> None:
 def smuggled_requests(stage: Stage) -> None:
     """A27: requests that state their length twice, with a second request in their body."""
     with stage.service(own=False) as target:
-        kind = kind_of(target)
-        _put_map(stage, target, kind, "precious", 10)
+        template = template_of(target)
+        _put_map(stage, target, template, "precious", 10)
         host = target.address.removeprefix("http://")
         key = "".join(f"{k}: {v}\r\n" for k, v in target.authorization(OWNER).items())
         hidden = f"DELETE /maps/precious HTTP/1.1\r\nHost: {host}\r\n{key}\r\n"
@@ -214,7 +219,7 @@ def smuggled_requests(stage: Stage) -> None:
             head = (
                 f"POST /describe HTTP/1.1\r\nHost: {host}\r\nContent-Type: {JSON}\r\n{headers}\r\n"
             )
-            answer = raw(target, (head + chunked).encode(), 2)
+            answer = exchange_bytes(target, (head + chunked).encode(), 2)
             status = answer[9:12].decode(errors="replace")
             stage.found.statuses[status or "0"] += 1
             stage.expect(
@@ -223,18 +228,22 @@ def smuggled_requests(stage: Stage) -> None:
                 f"{', and the connection stayed open' if answer.endswith(b'open)') else ''}; "
                 "400 and a closed connection were expected.",
             )
-            there = stage.ask(target, Request("GET", "/maps/precious", key=OWNER))
+            there = stage.ask(target, AttackRequest("GET", "/maps/precious", key=OWNER))
             is_there = stage.expect(
                 there.status == 200, f"{name}: the hidden DELETE was carried out."
             )
             if not is_there:
-                _put_map(stage, target, kind, "precious", 10)
+                _put_map(stage, target, template, "precious", 10)
 
 
-def _put_map(stage: Stage, target: Target, kind: Kind, name: str, count: int) -> bytes:
+def _put_map(stage: Stage, target: Target, template: MapTemplate, name: str, count: int) -> bytes:
     """Store a map of `count` segments and return its file."""
-    file = encode(kind.made(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random))
-    answer = stage.ask(target, Request("PUT", f"/maps/{name}", file, ROBOT, {"Content-Type": MAP}))
+    file = encode(
+        template.random_map(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random)
+    )
+    answer = stage.ask(
+        target, AttackRequest("PUT", f"/maps/{name}", file, ROBOT, {"Content-Type": MAP})
+    )
     stage.expect(answer.status == 201, f"A map of {count} segments was answered {answer.status}.")
     return file
 
@@ -245,7 +254,7 @@ def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[i
     Returns:
         Its status, the length that it states (-1: none), and how many bytes of it came.
     """
-    request = Request("GET", path, key=READER, headers={"Connection": "close"})
+    request = AttackRequest("GET", path, key=READER, headers={"Connection": "close"})
     with connect(target, 60, SMALL_WINDOW) as link:
         link.sendall(head_of(target, request))
         begun, received = time.perf_counter(), b""
@@ -267,7 +276,7 @@ def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[i
 
 
 @contextmanager
-def _trickling(target: Target, requests: Sequence[Request]) -> Iterator[None]:
+def _trickling(target: Target, requests: Sequence[AttackRequest]) -> Iterator[None]:
     """Send request heads, then one byte per second of each body until the block ends."""
     ended, links = threading.Event(), list[socket.socket]()
 
@@ -283,7 +292,7 @@ def _trickling(target: Target, requests: Sequence[Request]) -> Iterator[None]:
                     with suppress(OSError):
                         links[number] = begin(request)
 
-    def begin(request: Request) -> socket.socket:
+    def begin(request: AttackRequest) -> socket.socket:
         link = connect(target, 5)
         with suppress(OSError):
             link.sendall(head_of(target, request, 100_000) + b"\x81")
@@ -302,7 +311,7 @@ def _trickling(target: Target, requests: Sequence[Request]) -> Iterator[None]:
             link.close()
 
 
-def _expect_at_once(stage: Stage, target: Target, request: Request, what: str) -> None:
+def _expect_at_once(stage: Stage, target: Target, request: AttackRequest, what: str) -> None:
     """Expect that the service admits another key's request at once."""
     begun = time.perf_counter()
     while (answer := stage.ask(target, request)).status in {0, 429, 503, 504}:
@@ -317,7 +326,7 @@ def _expect_at_once(stage: Stage, target: Target, request: Request, what: str) -
     )
 
 
-def _from_elsewhere(target: Target, request: Request) -> Answer:
+def _from_elsewhere(target: Target, request: AttackRequest) -> AttackResponse:
     """Send a request from the victim's address."""
     host, port = target.place
     begun = time.perf_counter()
@@ -325,12 +334,12 @@ def _from_elsewhere(target: Target, request: Request) -> Answer:
         with socket.create_connection((host, port), timeout=10) as link:
             link.sendall(head_of(target, request))
             line = link.recv(1 << 12).split()
-        return Answer(int(line[1]) if line else 0, time.perf_counter() - begun)
+        return AttackResponse(int(line[1]) if line else 0, time.perf_counter() - begun)
     except OSError:
-        return Answer(0, time.perf_counter() - begun)
+        return AttackResponse(0, time.perf_counter() - begun)
 
 
-def _expect_refusals(stage: Stage, answers: Sequence[Answer], what: str) -> None:
+def _expect_refusals(stage: Stage, answers: Sequence[AttackResponse], what: str) -> None:
     bad = sorted({answer.status for answer in answers} - {200, 304, 410, 429, 503, 504})
     stage.expect(not bad, f"{what}: answers had statuses {bad}.")
     slowest = max(answer.seconds for answer in answers)
@@ -339,19 +348,19 @@ def _expect_refusals(stage: Stage, answers: Sequence[Answer], what: str) -> None
 
 
 CASES = (
-    Case(
+    AttackCase(
         "A3",
         slow_download,
         "A download over a slow link arrives whole.",
         in_short=False,
     ),
-    Case("A5", reads_of_old_versions, "Reads of stored maps delay no client's writes."),
-    Case("A6", trickled_bodies, "A request takes a place only when its body is complete."),
-    Case("A7", unread_answers, "The bytes of answers in progress are bounded."),
-    Case(
+    AttackCase("A5", reads_of_old_versions, "Reads of stored maps delay no client's writes."),
+    AttackCase("A6", trickled_bodies, "A request takes a place only when its body is complete."),
+    AttackCase("A7", unread_answers, "The bytes of answers in progress are bounded."),
+    AttackCase(
         "A11", idle_connections, "Idle connections block neither health checks nor other clients."
     ),
-    Case(
+    AttackCase(
         "A27",
         smuggled_requests,
         "A request that states its length twice gets a 400, and its connection is closed.",

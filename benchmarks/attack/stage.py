@@ -19,8 +19,8 @@ from placecell_client.maps.edit import take
 
 from benchmarks.attack.prober import Probe, ProbePlan
 from benchmarks.attack.target import OWNER, VICTIM, Target
-from benchmarks.attack.wire import DELTA, MSGPACK, Answer, Request, ask, ask_all
-from benchmarks.made_map import Kind
+from benchmarks.attack.wire import DELTA, MSGPACK, AttackRequest, AttackResponse, ask, ask_all
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from placecell.core.types import UInt32
 
 VICTIM_MAP = "victim-map"
@@ -134,25 +134,29 @@ class Stage:
             target.stop()
             self._judge(target)
 
-    def ask(self, target: Target, request: Request, seconds: float = 120.0) -> Answer:
+    def ask(self, target: Target, request: AttackRequest, seconds: float = 120.0) -> AttackResponse:
         """Send a request and count its status."""
         answer = ask(target, request, seconds)
         self.count([answer])
         return answer
 
     def ask_all(
-        self, target: Target, requests: Sequence[Request], at_once: int, seconds: float = 120.0
-    ) -> list[Answer]:
+        self,
+        target: Target,
+        requests: Sequence[AttackRequest],
+        at_once: int,
+        seconds: float = 120.0,
+    ) -> list[AttackResponse]:
         """Send requests concurrently and count their statuses."""
         answers = ask_all(target, requests, at_once, seconds)
         self.count(answers)
         return answers
 
-    def count(self, answers: Iterable[Answer]) -> None:
+    def count(self, answers: Iterable[AttackResponse]) -> None:
         """Count statuses."""
         self.found.statuses.update(str(answer.status) for answer in answers)
 
-    def expect_no_failure(self, answers: Iterable[Answer], what: str) -> None:
+    def expect_no_failure(self, answers: Iterable[AttackResponse], what: str) -> None:
         """Expect answers that are at worst refusals: no 500, no cut connection."""
         bad = Counter(answer.status for answer in answers if answer.status in {0, 500, 502})
         self.expect(not bad, f"{what}: {sum(bad.values())} requests failed (statuses {dict(bad)}).")
@@ -213,7 +217,7 @@ class Stage:
 
     def expect_there(self, target: Target, name: str, written: Iterable[int], when: str) -> None:
         """Expect that a map holds the segments of acknowledged writes; count the lost ones."""
-        answer = ask(target, Request("GET", f"/maps/{name}", key=OWNER))
+        answer = ask(target, AttackRequest("GET", f"/maps/{name}", key=OWNER))
         there = {*decode(answer.body).ids.tolist()} if answer.status == 200 else set[int]()
         lost = {*written} - there
         self._lost |= {(target, name, id_) for id_ in lost}
@@ -273,13 +277,13 @@ class Stage:
 
     def _edit_probe(self, target: Target) -> Probe:
         client = target.client(VICTIM)
-        kind = Kind.of(client.info())
+        template = MapTemplate.from_info(client.info())
         if not len(target.reserved):
-            client.edit_map(VICTIM_MAP, Delta(kind.none(), NONE), create=True)
+            client.edit_map(VICTIM_MAP, Delta(template.empty_map(), NONE), create=True)
             target.reserved = client.reserve_ids(VICTIM_MAP, ALL_EDITS)
         self._written.setdefault(target, set())
         ids = target.reserved[target.edited :][:EDITS]
-        made = kind.made(VICTIM, ids, self.random)
+        made = template.random_map(VICTIM, ids, self.random)
         bodies = tuple(
             encode_delta(Delta(take(made, np.arange(len(ids)) == row), NONE))
             for row in range(len(ids))
@@ -293,7 +297,7 @@ Attack = Callable[[Stage], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class AttackCase:
     """A case of the attack.
 
     Attributes:
@@ -337,9 +341,9 @@ def describe_body(segments: Sequence[np.ndarray[Any, np.dtype[np.float32]]]) -> 
     return packed
 
 
-def kind_of(target: Target) -> Kind:
+def template_of(target: Target) -> MapTemplate:
     """Kind of map that the service's default model describes."""
-    return Kind.of(target.client(OWNER).info())
+    return MapTemplate.from_info(target.client(OWNER).info())
 
 
 def delta_of(changed: CompactMap, removed: UInt32 = NONE) -> bytes:

@@ -13,10 +13,18 @@ from pathlib import Path
 import numpy as np
 from placecell_client import Client, CompactMap, Delta, ServiceError, encode
 
-from benchmarks.attack.stage import NONE, VICTIM_MAP, Case, Stage, delta_of, kind_of, with_columns
+from benchmarks.attack.stage import (
+    NONE,
+    VICTIM_MAP,
+    AttackCase,
+    Stage,
+    delta_of,
+    template_of,
+    with_columns,
+)
 from benchmarks.attack.target import ONCE, OWNER, ROBOT, VICTIM, WRITER, Target
-from benchmarks.attack.wire import MAP, Answer, Request, edit
-from benchmarks.made_map import EPOCH, Kind
+from benchmarks.attack.wire import MAP, AttackRequest, AttackResponse, edit_request
+from benchmarks.synthetic_maps.random_maps import EPOCH, MapTemplate
 from placecell.core.types import Float64, UInt32
 from service.child_process import STOP_SECONDS
 
@@ -38,8 +46,8 @@ def empty_maps(stage: Stage) -> None:
     """A2: as many empty maps as one key may create, then as many over all keys."""
     count = stage.size(10_000, 200)
     with stage.service(own=not stage.short) as target:
-        kind = kind_of(target)
-        body = delta_of(kind.none())
+        template = template_of(target)
+        body = delta_of(template.empty_map())
         target.forget_peak()
         before, made = target.resident_mb(), 0
         with stage.victim(target):
@@ -47,7 +55,8 @@ def empty_maps(stage: Stage) -> None:
                 if made == count:
                     break
                 requests = [
-                    edit(f"{key}-{n}", body, key, "create=true") for n in range(count - made)
+                    edit_request(f"{key}-{n}", body, key, "create=true")
+                    for n in range(count - made)
                 ]
                 answers = stage.ask_all(target, requests, 4)
                 made += sum(answer.status == 201 for answer in answers)
@@ -72,23 +81,23 @@ def empty_maps(stage: Stage) -> None:
 def all_ids(stage: Stage) -> None:
     """A8: the highest id and endless id reservations, also in shared maps."""
     with stage.service(own=not stage.short) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         file = {"Content-Type": MAP}
         for name in ("by-edit", "by-put", "by-reserve", "by-deduplication"):
             if name != "by-put":
-                target.client(VICTIM).edit_map(name, Delta(kind.none(), NONE), create=True)
-        last = _with_ids(stage, kind, ROBOT, [LAST_ID])
-        near = _with_ids(stage, kind, ROBOT, [1, LAST_ID - 10])
+                target.client(VICTIM).edit_map(name, Delta(template.empty_map(), NONE), create=True)
+        last = _with_ids(stage, template, ROBOT, [LAST_ID])
+        near = _with_ids(stage, template, ROBOT, [1, LAST_ID - 10])
         attacks = {
-            "by-edit": [edit("by-edit", delta_of(each), ROBOT) for each in (last, near)],
+            "by-edit": [edit_request("by-edit", delta_of(each), ROBOT) for each in (last, near)],
             "by-deduplication": [
-                edit("by-deduplication", delta_of(last), ROBOT, "deduplicate=true")
+                edit_request("by-deduplication", delta_of(last), ROBOT, "deduplicate=true")
             ],
             "by-put": [
-                Request("PUT", "/maps/by-put", encode(near), ROBOT, file),
-                Request("PUT", "/maps/by-put", encode(last), ROBOT, file | {"If-Match": "*"}),
+                AttackRequest("PUT", "/maps/by-put", encode(near), ROBOT, file),
+                AttackRequest("PUT", "/maps/by-put", encode(last), ROBOT, file | {"If-Match": "*"}),
             ],
-            "by-reserve": [Request("POST", "/maps/by-reserve/ids?count=1000000", key=ROBOT)]
+            "by-reserve": [AttackRequest("POST", "/maps/by-reserve/ids?count=1000000", key=ROBOT)]
             * stage.size(4_400, 300),
         }
         for name, requests in attacks.items():
@@ -106,7 +115,9 @@ def all_ids(stage: Stage) -> None:
                 each.name for each in target.client(OWNER).maps()
             }:
                 continue  # refused, and so there is no map
-            answer = stage.ask(target, Request("POST", f"/maps/{name}/ids?count=1000", key=VICTIM))
+            answer = stage.ask(
+                target, AttackRequest("POST", f"/maps/{name}/ids?count=1000", key=VICTIM)
+            )
             stage.expect(
                 answer.status == 200,
                 f"{name}: after it another key's reservation was answered {answer.status}.",
@@ -115,30 +126,32 @@ def all_ids(stage: Stage) -> None:
             return
         target.stop()
         target.start()
-        answer = stage.ask(target, Request("POST", "/maps/by-edit/ids?count=1000", key=VICTIM))
+        answer = stage.ask(
+            target, AttackRequest("POST", "/maps/by-edit/ids?count=1000", key=VICTIM)
+        )
         stage.expect(answer.status == 200, f"After a start ids were answered {answer.status}.")
 
 
 def moved_database(stage: Stage) -> None:
     """A10: the database is moved away from a running service, read from, and put back."""
     with stage.service() as target:
-        kind = kind_of(target)
+        template = template_of(target)
         with stage.victim(target):
             time.sleep(stage.size(3, 1.5))
         acknowledged = target.client(OWNER).get_map(VICTIM_MAP).ids.tolist()
         database = target.data / DATABASE
         moved = target.folder / "moved.sqlite"
         database.rename(moved)
-        delta = delta_of(_with_ids(stage, kind, VICTIM, [5]))
+        delta = delta_of(_with_ids(stage, template, VICTIM, [5]))
         requests = [
-            Request("GET", f"/maps/{VICTIM_MAP}/versions", key=VICTIM),
-            Request("GET", f"/maps/{VICTIM_MAP}?version=1", key=VICTIM),
-            Request("GET", f"/maps/{VICTIM_MAP}/changes?since=0", key=VICTIM),
-            Request("GET", f"/maps/{VICTIM_MAP}/changes?since=1", key=VICTIM),
-            Request("POST", f"/maps/{VICTIM_MAP}/ids?count=1", key=VICTIM),
-            Request("POST", f"/maps/{VICTIM_MAP}/versions/1/restore", key=VICTIM),
-            edit(VICTIM_MAP, delta, VICTIM),
-            Request("POST", f"/maps/{VICTIM_MAP}/compact", key=OWNER),
+            AttackRequest("GET", f"/maps/{VICTIM_MAP}/versions", key=VICTIM),
+            AttackRequest("GET", f"/maps/{VICTIM_MAP}?version=1", key=VICTIM),
+            AttackRequest("GET", f"/maps/{VICTIM_MAP}/changes?since=0", key=VICTIM),
+            AttackRequest("GET", f"/maps/{VICTIM_MAP}/changes?since=1", key=VICTIM),
+            AttackRequest("POST", f"/maps/{VICTIM_MAP}/ids?count=1", key=VICTIM),
+            AttackRequest("POST", f"/maps/{VICTIM_MAP}/versions/1/restore", key=VICTIM),
+            edit_request(VICTIM_MAP, delta, VICTIM),
+            AttackRequest("POST", f"/maps/{VICTIM_MAP}/compact", key=OWNER),
         ]
         for request in requests:
             answer = stage.ask(target, request)
@@ -152,7 +165,7 @@ def moved_database(stage: Stage) -> None:
             stage.expect(
                 not database.exists(), f"{request.method} {request.path} made an empty database."
             )
-        ready = stage.ask(target, Request("GET", "/readyz"))
+        ready = stage.ask(target, AttackRequest("GET", "/readyz"))
         stage.expect(ready.status == 503, f"Without its database /readyz is {ready.status}.")
         database.unlink(missing_ok=True)
         moved.rename(database)
@@ -165,13 +178,13 @@ def seen_in_the_future(stage: Stage) -> None:
     """A16: a robot claims that it saw another robot's segment in the year 2106."""
     late = (1 << 32) - 1
     with stage.service(own=False) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         for name, column, moment in (
             ("by-seen", late, EPOCH + 100),
             ("by-time", None, 8e9),
             ("both", late, 8e9),
         ):
-            victims = _with_ids(stage, kind, VICTIM, [1])
+            victims = _with_ids(stage, template, VICTIM, [1])
             target.client(VICTIM).edit_map(name, Delta(victims, NONE), create=True)
             again = with_columns(
                 victims,
@@ -180,7 +193,7 @@ def seen_in_the_future(stage: Stage) -> None:
                 frame_times=np.array([moment]),
                 **({} if column is None else {"seen": np.array([column], np.uint32)}),
             )
-            stage.ask(target, edit(name, delta_of(again), ROBOT, "deduplicate=true"))
+            stage.ask(target, edit_request(name, delta_of(again), ROBOT, "deduplicate=true"))
             ids, seen = last_seen(target.client(OWNER).get_map(name))
             latest = float(seen[ids == 1].max(initial=0.0))
             stage.expect(
@@ -210,12 +223,14 @@ def long_history(stage: Stage) -> None:
     environment = {f"PLACECELL_LIMITS__{name.upper()}": str(bytes_) for name in names}
     count = 2_000
     with stage.service(environment) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         ids = np.arange(1, count + 1, dtype=np.uint32)
-        target.client(ROBOT).edit_map("long", Delta(kind.none(), NONE), create=True)
+        target.client(ROBOT).edit_map("long", Delta(template.empty_map(), NONE), create=True)
         statuses = []
         for _ in range(200):
-            request = edit("long", delta_of(kind.made(ROBOT, ids, stage.random)), ROBOT)
+            request = edit_request(
+                "long", delta_of(template.random_map(ROBOT, ids, stage.random)), ROBOT
+            )
             statuses.append(stage.ask(target, request).status)
             if statuses[-1] != 200:
                 break
@@ -229,23 +244,23 @@ def long_history(stage: Stage) -> None:
             "the limit.",
         )
         victims = target.client(VICTIM).edit_map(
-            "victims", Delta(_with_ids(stage, kind, VICTIM, [1]), NONE), create=True
+            "victims", Delta(_with_ids(stage, template, VICTIM, [1]), NONE), create=True
         )
         stage.expect(victims.changed == 1, "Another key could not write.")
         if statuses[-1] in REFUSALS:
-            freed = stage.ask(target, Request("DELETE", "/maps/long", key=ROBOT))
+            freed = stage.ask(target, AttackRequest("DELETE", "/maps/long", key=ROBOT))
             stage.expect(freed.status == 204, f"At the limit DELETE was answered {freed.status}.")
-            delta = delta_of(kind.made(ROBOT, ids, stage.random))
-            again = stage.ask(target, edit("long", delta, ROBOT, "create=true"))
+            delta = delta_of(template.random_map(ROBOT, ids, stage.random))
+            again = stage.ask(target, edit_request("long", delta, ROBOT, "create=true"))
             stage.expect(again.status == 201, f"After DELETE a write was answered {again.status}.")
 
 
 def full_disk(stage: Stage) -> None:
     """A18: a robot and other programs fill a disk; then maps are deleted to free it."""
     freeing = {
-        "DELETE": Request("DELETE", "/maps/hoard", key=OWNER),
-        "age": Request("POST", "/maps/hoard/age?unseen_since=4000000000", key=OWNER),
-        "compact": Request("POST", "/maps/hoard/compact?keep=1", key=OWNER),
+        "DELETE": AttackRequest("DELETE", "/maps/hoard", key=OWNER),
+        "age": AttackRequest("POST", "/maps/hoard/age?unseen_since=4000000000", key=OWNER),
+        "compact": AttackRequest("POST", "/maps/hoard/compact?keep=1", key=OWNER),
     }
     for name, request in freeing.items():
         if stage.short and name != "DELETE":
@@ -260,14 +275,14 @@ def full_disk(stage: Stage) -> None:
 def removed_lock(stage: Stage) -> None:
     """A22: the lock file is removed and a second service starts on the directory."""
     with stage.service() as target:
-        kind = kind_of(target)
-        target.client(VICTIM).edit_map(VICTIM_MAP, Delta(kind.none(), NONE), create=True)
+        template = template_of(target)
+        target.client(VICTIM).edit_map(VICTIM_MAP, Delta(template.empty_map(), NONE), create=True)
         (target.data / "lock").unlink()
         acknowledged = set[int]()
         with _second(target) as address:
             stage.note("second service started", address is not None)
             for number in range(40):
-                delta = Delta(_with_ids(stage, kind, VICTIM, [number + 1]), NONE)
+                delta = Delta(_with_ids(stage, template, VICTIM, [number + 1]), NONE)
                 uses_second = address is not None and number % 2
                 where = address if uses_second and address is not None else target.address
                 with Client(where, 20, key=target.keys[VICTIM], retries=ONCE) as client:
@@ -282,7 +297,7 @@ def removed_lock(stage: Stage) -> None:
                             f"A write beside the second service was answered {error.status}; "
                             "503 was expected.",
                         )
-        ready = stage.ask(target, Request("GET", "/readyz"))
+        ready = stage.ask(target, AttackRequest("GET", "/readyz"))
         stage.note("readyz", ready.status)
         target.kill()
         target.start()
@@ -292,8 +307,8 @@ def removed_lock(stage: Stage) -> None:
 def restored_backup(stage: Stage) -> None:
     """A23: ids are reserved, an earlier backup is restored, and ids are reserved again."""
     with stage.service() as target:
-        kind = kind_of(target)
-        first = _with_ids(stage, kind, VICTIM, [1, 2, 3])
+        template = template_of(target)
+        first = _with_ids(stage, template, VICTIM, [1, 2, 3])
         target.client(VICTIM).edit_map(VICTIM_MAP, Delta(first, NONE), create=True)
         backup = target.folder / "backup.sqlite"
         with (
@@ -312,7 +327,7 @@ def restored_backup(stage: Stage) -> None:
             shutil.copyfile(backup, target.data / DATABASE)
             target.start()
             answer = stage.ask(
-                target, Request("POST", f"/maps/{VICTIM_MAP}/ids?count=100", key=VICTIM)
+                target, AttackRequest("POST", f"/maps/{VICTIM_MAP}/ids?count=100", key=VICTIM)
             )
             if not stage.expect(answer.status == 200, f"Ids were answered {answer.status}."):
                 continue
@@ -325,27 +340,27 @@ def restored_backup(stage: Stage) -> None:
 def delete_of_shared_map(stage: Stage) -> None:
     """A24: a robot's key deletes a map that holds other robots' history."""
     with stage.service(own=False) as target:
-        kind = kind_of(target)
-        victims = _with_ids(stage, kind, VICTIM, [1, 2])
+        template = template_of(target)
+        victims = _with_ids(stage, template, VICTIM, [1, 2])
         target.client(VICTIM).edit_map("shared", Delta(victims, NONE), create=True)
-        target.client(ROBOT).edit_map("shared", Delta(_with_ids(stage, kind, ROBOT, [7]), NONE))
+        target.client(ROBOT).edit_map("shared", Delta(_with_ids(stage, template, ROBOT, [7]), NONE))
         gone = np.array([1, 2], np.uint32)
-        target.client(VICTIM).edit_map("shared", Delta(kind.none(), gone), robot=VICTIM)
+        target.client(VICTIM).edit_map("shared", Delta(template.empty_map(), gone), robot=VICTIM)
         for name, request in {
-            "DELETE": Request("DELETE", "/maps/shared", key=ROBOT),
-            "compact": Request("POST", "/maps/shared/compact", key=ROBOT),
+            "DELETE": AttackRequest("DELETE", "/maps/shared", key=ROBOT),
+            "compact": AttackRequest("POST", "/maps/shared/compact", key=ROBOT),
         }.items():
             answer = stage.ask(target, request)
             stage.expect(
                 answer.status == 403, f"{name} of others' history was answered {answer.status}."
             )
-        answer = stage.ask(target, Request("GET", "/maps/shared?version=1", key=VICTIM))
+        answer = stage.ask(target, AttackRequest("GET", "/maps/shared?version=1", key=VICTIM))
         stage.found.lost += answer.status != 200
         stage.expect(answer.status == 200, "The victim's version is gone.")
         target.client(ROBOT).edit_map(
-            "own", Delta(_with_ids(stage, kind, ROBOT, [1]), NONE), create=True
+            "own", Delta(_with_ids(stage, template, ROBOT, [1]), NONE), create=True
         )
-        own = stage.ask(target, Request("DELETE", "/maps/own", key=ROBOT))
+        own = stage.ask(target, AttackRequest("DELETE", "/maps/own", key=ROBOT))
         stage.expect(own.status == 204, f"A robot's own map: DELETE was answered {own.status}.")
 
 
@@ -359,9 +374,9 @@ def flipped_bits(stage: Stage) -> None:
         "first author": "UPDATE commits SET author = 'mallory' WHERE sequence = 1",
     }
     with stage.service() as target:
-        kind = kind_of(target)
+        template = template_of(target)
         for number in range(3):
-            made = _with_ids(stage, kind, VICTIM, [number + 1])
+            made = _with_ids(stage, template, VICTIM, [number + 1])
             target.client(VICTIM).edit_map(VICTIM_MAP, Delta(made, NONE), create=True)
         target.stop()
         database = target.data / DATABASE
@@ -381,8 +396,10 @@ def flipped_bits(stage: Stage) -> None:
                 target.kill()
                 target.died = ""
                 continue
-            listed = stage.ask(target, Request("GET", "/maps", key=OWNER))
-            versions = stage.ask(target, Request("GET", f"/maps/{VICTIM_MAP}/versions", key=OWNER))
+            listed = stage.ask(target, AttackRequest("GET", "/maps", key=OWNER))
+            versions = stage.ask(
+                target, AttackRequest("GET", f"/maps/{VICTIM_MAP}/versions", key=OWNER)
+            )
             is_told = (
                 versions.status != 200
                 or VICTIM_MAP in listed.json().get("damaged", [])
@@ -394,7 +411,9 @@ def flipped_bits(stage: Stage) -> None:
             (target.data / (DATABASE + tail)).unlink(missing_ok=True)
         database.write_bytes(whole)
         target.start()
-        versions = stage.ask(target, Request("GET", f"/maps/{VICTIM_MAP}/versions", key=OWNER))
+        versions = stage.ask(
+            target, AttackRequest("GET", f"/maps/{VICTIM_MAP}/versions", key=OWNER)
+        )
         stage.expect(versions.status == 200, "The unchanged database is refused.")
 
 
@@ -424,11 +443,11 @@ def _expect_limit_of_maps(stage: Stage) -> None:
         return
     for name in names:
         with stage.service({f"PLACECELL_LIMITS__{name.upper()}": "5"}) as target:
-            body = delta_of(kind_of(target).none())
+            body = delta_of(template_of(target).empty_map())
             statuses = [
                 stage.ask(
                     target,
-                    edit(f"m-{number}", body, ROBOT, "create=true"),
+                    edit_request(f"m-{number}", body, ROBOT, "create=true"),
                 ).status
                 for number in range(7)
             ]
@@ -436,39 +455,39 @@ def _expect_limit_of_maps(stage: Stage) -> None:
                 statuses[:5] == [201] * 5 and {*statuses[5:]} <= REFUSALS,
                 f"{name} of 5: seven new maps were answered {statuses}.",
             )
-            gone = stage.ask(target, Request("DELETE", "/maps/m-0", key=ROBOT))
+            gone = stage.ask(target, AttackRequest("DELETE", "/maps/m-0", key=ROBOT))
             stage.expect(gone.status == 204, f"At the limit DELETE was answered {gone.status}.")
 
 
-def _fill_and_free(stage: Stage, name: str, request: Request) -> None:
+def _fill_and_free(stage: Stage, name: str, request: AttackRequest) -> None:
     with stage.service() as target:
-        kind = kind_of(target)
-        stage.ask(target, Request("GET", "/readyz"))
-        first = _with_ids(stage, kind, VICTIM, [1])
+        template = template_of(target)
+        stage.ask(target, AttackRequest("GET", "/readyz"))
+        first = _with_ids(stage, template, VICTIM, [1])
         target.client(VICTIM).edit_map(VICTIM_MAP, Delta(first, NONE), create=True)
-        target.client(ROBOT).edit_map("hoard", Delta(kind.none(), NONE), create=True)
+        target.client(ROBOT).edit_map("hoard", Delta(template.empty_map(), NONE), create=True)
         acknowledged, number = {1}, 0
         statuses = list[int]()
         while number < 400 and statuses[-1:] != [507]:
             number += 1
             ids = np.arange(1, 8_001, dtype=np.uint32)
-            body = delta_of(kind.made(ROBOT, ids, stage.random))
-            statuses.append(stage.ask(target, edit("hoard", body, ROBOT)).status)
+            body = delta_of(template.random_map(ROBOT, ids, stage.random))
+            statuses.append(stage.ask(target, edit_request("hoard", body, ROBOT)).status)
         stage.expect(
             statuses[-1] == 507, f"On a full disk an edit was answered {statuses[-1]}; not 507."
         )
         # Others fill what is left: the room that is kept must be the service's own.
         ballast = _fill(target.data)
         for id_ in range(2, 40):
-            delta = delta_of(_with_ids(stage, kind, VICTIM, [id_]))
-            answer = stage.ask(target, edit(VICTIM_MAP, delta, VICTIM))
+            delta = delta_of(_with_ids(stage, template, VICTIM, [id_]))
+            answer = stage.ask(target, edit_request(VICTIM_MAP, delta, VICTIM))
             if answer.status != 200:
                 break
             acknowledged.add(id_)
         stage.expect(
             answer.status == 507, f"On a full disk an edit was answered {answer.status}; not 507."
         )
-        ready = stage.ask(target, Request("GET", "/readyz"))
+        ready = stage.ask(target, AttackRequest("GET", "/readyz"))
         stage.expect(ready.status == 503, f"On a full disk /readyz is {ready.status}.")
         target.kill()
         target.start()
@@ -479,16 +498,16 @@ def _fill_and_free(stage: Stage, name: str, request: Request) -> None:
         )
         if ballast.exists():
             ballast.unlink()
-        body = delta_of(_with_ids(stage, kind, VICTIM, [100]))
-        answer = _soon(stage, target, edit(VICTIM_MAP, body, VICTIM))
+        body = delta_of(_with_ids(stage, template, VICTIM, [100]))
+        answer = _soon(stage, target, edit_request(VICTIM_MAP, body, VICTIM))
         stage.expect(
             answer.status == 200, f"After {name} freed the disk a write was {answer.status}."
         )
-        ready = _soon(stage, target, Request("GET", "/readyz"))
+        ready = _soon(stage, target, AttackRequest("GET", "/readyz"))
         stage.expect(ready.status == 200, f"After {name} /readyz is {ready.status}.")
 
 
-def _soon(stage: Stage, target: Target, request: Request) -> Answer:
+def _soon(stage: Stage, target: Target, request: AttackRequest) -> AttackResponse:
     """Repeat a request until it succeeds, for some seconds."""
     for _ in range(20):
         answer = stage.ask(target, request)
@@ -547,29 +566,35 @@ def _second(target: Target) -> Iterator[str | None]:
                 process.kill()
 
 
-def _with_ids(stage: Stage, kind: Kind, robot: str, ids: list[int]) -> CompactMap:
+def _with_ids(stage: Stage, template: MapTemplate, robot: str, ids: list[int]) -> CompactMap:
     chosen: UInt32 = np.array(ids, np.uint32)
-    return kind.made(robot, chosen, stage.random)
+    return template.random_map(robot, chosen, stage.random)
 
 
 CASES = (
-    Case("A2", empty_maps, "The number of maps is limited, and empty maps take little memory."),
-    Case("A8", all_ids, "No key can take all ids of a map."),
-    Case(
+    AttackCase(
+        "A2", empty_maps, "The number of maps is limited, and empty maps take little memory."
+    ),
+    AttackCase("A8", all_ids, "No key can take all ids of a map."),
+    AttackCase(
         "A10",
         moved_database,
         "With its database moved away, the service answers 503 and loses nothing.",
     ),
-    Case("A16", seen_in_the_future, "No segment is last seen in the future."),
-    Case("A17", long_history, "The bytes that a key stores are limited, history included."),
-    Case("A18", full_disk, "Deletions free a full disk, and /readyz reports that it is full."),
-    Case("A22", removed_lock, "A service whose lock was removed refuses writes.", in_short=False),
-    Case(
+    AttackCase("A16", seen_in_the_future, "No segment is last seen in the future."),
+    AttackCase("A17", long_history, "The bytes that a key stores are limited, history included."),
+    AttackCase(
+        "A18", full_disk, "Deletions free a full disk, and /readyz reports that it is full."
+    ),
+    AttackCase(
+        "A22", removed_lock, "A service whose lock was removed refuses writes.", in_short=False
+    ),
+    AttackCase(
         "A23",
         restored_backup,
         "Ids are given out once, also after a backup is restored.",
         in_short=False,
     ),
-    Case("A24", delete_of_shared_map, "A robot's key cannot delete others' history."),
-    Case("A28", flipped_bits, "The service reports changed commit notes.", in_short=False),
+    AttackCase("A24", delete_of_shared_map, "A robot's key cannot delete others' history."),
+    AttackCase("A28", flipped_bits, "The service reports changed commit notes.", in_short=False),
 )

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.attack.cases import CASES
-from benchmarks.attack.stage import Case, Stage
+from benchmarks.attack.stage import AttackCase, Stage
 from benchmarks.attack.target import CORES, Target
 from evaluation.machine import machine
 
@@ -40,7 +40,7 @@ class AttackPlan:
     seed: int = 0
 
 
-def chosen(plan: AttackPlan) -> list[Case]:
+def select_cases(plan: AttackPlan) -> list[AttackCase]:
     """Return the cases that a plan names.
 
     Raises:
@@ -55,7 +55,7 @@ def chosen(plan: AttackPlan) -> list[Case]:
     return [case for case in CASES if case.in_short or not plan.short]
 
 
-def attack(
+def run_attacks(
     plan: AttackPlan,
     progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,
     told: Callable[[str, dict[str, Any]], None] = lambda *_: None,
@@ -70,7 +70,7 @@ def attack(
     Raises:
         ValueError: the plan names a case that does not exist.
     """
-    cases = chosen(plan)
+    cases = select_cases(plan)
     _allow_descriptors()
     begun = time.perf_counter()
     results: dict[str, dict[str, Any]] = {}
@@ -107,7 +107,7 @@ def _shared(plan: AttackPlan) -> Iterator[Target | None]:
                 shared.stop()
 
 
-def run_case(case: Case, plan: AttackPlan, shared: Target | None = None) -> dict[str, Any]:
+def run_case(case: AttackCase, plan: AttackPlan, shared: Target | None = None) -> dict[str, Any]:
     """Run one case and return its part of the report.
 
     Args:

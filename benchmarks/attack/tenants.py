@@ -14,10 +14,19 @@ import numpy as np
 from placecell_client import Delta, encode
 from placecell_client.maps.edit import take, with_optional
 
-from benchmarks.attack.stage import NONE, Case, Stage, delta_of, kind_of, with_columns
+from benchmarks.attack.stage import NONE, AttackCase, Stage, delta_of, template_of, with_columns
 from benchmarks.attack.target import HALL, OWNER, READER, RIGHTS, ROBOT, VICTIM, Target
-from benchmarks.attack.wire import ATTACKER, JSON, MAP, MSGPACK, Answer, Request, edit, raw
-from benchmarks.made_map import Kind
+from benchmarks.attack.wire import (
+    ATTACKER,
+    JSON,
+    MAP,
+    MSGPACK,
+    AttackRequest,
+    AttackResponse,
+    edit_request,
+    exchange_bytes,
+)
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from placecell.core.types import UInt32
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -30,7 +39,7 @@ SECRET = "secret-lab"
 def foreign_pages(stage: Stage) -> None:
     """A9: a foreign site's page and a rebound name, against a service without keys."""
     with stage.service(with_keys=False) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         here = target.address.removeprefix("http://")
         port = here.rpartition(":")[2]
         evil = {"Host": here, "Origin": "http://evil.example"}
@@ -59,7 +68,7 @@ def foreign_pages(stage: Stage) -> None:
             ("POST", "/models/reload"),
         ]
         for name, headers in pages.items():
-            _put_precious(stage, target, kind)
+            _put_precious(stage, target, template)
             rebound = "Host" in headers and headers["Host"] != here
             reads = [("GET", "/maps"), ("GET", "/maps/precious")] if rebound else []
             for method, path in (*reads, *writes):
@@ -78,7 +87,7 @@ def foreign_pages(stage: Stage) -> None:
             },
             "typed by a user": {"Host": here, "Sec-Fetch-Site": "none"},
         }  # fmt: skip
-        _put_precious(stage, target, kind)
+        _put_precious(stage, target, template)
         for name, headers in good.items():
             for method, path in (("GET", "/maps"), ("POST", "/maps/precious/ids?count=1")):
                 status = _status(target, method, path, headers)
@@ -104,8 +113,8 @@ def broken_key_file(stage: Stage) -> None:
             else:
                 target.keys_file.write_text(content)
             time.sleep(0.05)
-            used = stage.ask(target, Request("GET", "/maps", key=ROBOT))
-            ready = stage.ask(target, Request("GET", "/readyz"))
+            used = stage.ask(target, AttackRequest("GET", "/maps", key=ROBOT))
+            ready = stage.ask(target, AttackRequest("GET", "/readyz"))
             broken = _key_metrics(stage, target)
             stage.note(f"{name}: the withdrawn key", used.status)
             if name == "no content":  # a good file, of no keys
@@ -121,40 +130,42 @@ def broken_key_file(stage: Stage) -> None:
             )
         target.keys_file.write_text(withdrawn)
         time.sleep(0.05)
-        used = stage.ask(target, Request("GET", "/maps", key=ROBOT))
+        used = stage.ask(target, AttackRequest("GET", "/maps", key=ROBOT))
         stage.expect(used.status == 401, f"A withdrawn key is answered {used.status}.")
-        ready = stage.ask(target, Request("GET", "/readyz"))
+        ready = stage.ask(target, AttackRequest("GET", "/readyz"))
         stage.expect(ready.status == 200, f"With a good file again /readyz is {ready.status}.")
 
 
 def foreign_names(stage: Stage) -> None:
     """A19: names of other maps and keys that a key of `hall-*` sees."""
     with stage.service({"PLACECELL_LIMITS__ROBOT_SEGMENTS": "50"}) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         client = target.client(OWNER)
-        owned = kind.made("shared-robot", _ids(1, 37), stage.random)
+        owned = template.random_map("shared-robot", _ids(1, 37), stage.random)
         client.put_map(SECRET, owned)
         merged = with_columns(
-            with_optional(kind.made("hall-robot", _ids(1, 4), stage.random), ()),
+            with_optional(template.random_map("hall-robot", _ids(1, 4), stage.random), ()),
             source=np.array([0, 1, 1, 2], np.uint16),
             source_ids=np.array([1, 7, 8, 3], np.uint32),
             sources=(SECRET, "hall-b"),
         )
         client.put_map("hall-a", merged)
-        client.edit_map("hall-a", Delta(kind.made("hall-robot", _ids(9, 1), stage.random), NONE))
+        client.edit_map(
+            "hall-a", Delta(template.random_map("hall-robot", _ids(9, 1), stage.random), NONE)
+        )
         codes = merged.codes[:2].tobytes()
-        match = {"model_id": kind.model_id, "codes": codes, "k": 5}
+        match = {"model_id": template.model_id, "codes": codes, "k": 5}
         packed = {"Content-Type": MSGPACK}
         requests = [
-            Request("GET", "/maps", key=HALL),
-            Request("GET", "/maps/hall-a/versions", key=HALL),
-            Request("GET", "/maps/hall-a", key=HALL),
-            Request("GET", "/maps/hall-a/changes?since=0", key=HALL),
-            Request("POST", "/match", msgpack.packb(match), HALL, packed),
-            Request("GET", "/info", key=HALL),
-            Request("GET", f"/maps/{SECRET}", key=HALL),
-            Request("GET", "/maps/no-such-map", key=HALL),
-            Request(
+            AttackRequest("GET", "/maps", key=HALL),
+            AttackRequest("GET", "/maps/hall-a/versions", key=HALL),
+            AttackRequest("GET", "/maps/hall-a", key=HALL),
+            AttackRequest("GET", "/maps/hall-a/changes?since=0", key=HALL),
+            AttackRequest("POST", "/match", msgpack.packb(match), HALL, packed),
+            AttackRequest("GET", "/info", key=HALL),
+            AttackRequest("GET", f"/maps/{SECRET}", key=HALL),
+            AttackRequest("GET", "/maps/no-such-map", key=HALL),
+            AttackRequest(
                 "POST",
                 "/maps/hall-new/merge",
                 f'{{"maps": ["hall-a", "{SECRET}"]}}'.encode(),
@@ -179,8 +190,8 @@ def foreign_names(stage: Stage) -> None:
             if request.path.endswith("versions"):
                 others = [name for name in RIGHTS if name != HALL and f'"{name}"' in told]
                 stage.expect(not others, f"{request.path} tells keys' names: {others}.")
-        delta = delta_of(kind.made("shared-robot", _ids(100, 30), stage.random))
-        over = stage.ask(target, edit("hall-c", delta, HALL, "create=true"))
+        delta = delta_of(template.random_map("shared-robot", _ids(100, 30), stage.random))
+        over = stage.ask(target, edit_request("hall-c", delta, HALL, "create=true"))
         stage.expect(over.status == 507, f"Beyond a quota an edit was answered {over.status}.")
         told = re.sub(r'"request_id": *"[^"]*"', "", over.text)
         stage.expect(
@@ -193,7 +204,7 @@ def docs_pages(stage: Stage) -> None:
     """A20: the documentation pages, and the key requirements in the OpenAPI."""
     with stage.service(own=False) as target:
         for path in ("/docs", "/redoc"):
-            page = stage.ask(target, Request("GET", path))
+            page = stage.ask(target, AttackRequest("GET", path))
             if page.status in {401, 404}:
                 continue
             links = re.findall(r"""(?:src|href)\s*=\s*["']([^"']+)["']""", page.text)
@@ -201,13 +212,13 @@ def docs_pages(stage: Stage) -> None:
             stage.expect(not foreign, f"{path} loads {', '.join(foreign)}.")
             for link in links:
                 if link not in foreign and not link.startswith(("data:", "#")):
-                    part = stage.ask(target, Request("GET", urljoin(path, link)))
+                    part = stage.ask(target, AttackRequest("GET", urljoin(path, link)))
                     stage.expect(part.status == 200, f"{path} needs {link}: {part.status}.")
                     beyond = re.findall(r"@import\s+url\(\s*https?:[^)]*\)", part.text)
                     stage.expect(not beyond, f"{link} loads {beyond[:1]}.")
-        told = stage.ask(target, Request("GET", "/openapi.json"))
+        told = stage.ask(target, AttackRequest("GET", "/openapi.json"))
         if told.status == 401:
-            told = stage.ask(target, Request("GET", "/openapi.json", key=READER))
+            told = stage.ask(target, AttackRequest("GET", "/openapi.json", key=READER))
         schemes = told.json().get("components", {}).get("securitySchemes", {})
         stage.expect(
             any(
@@ -232,7 +243,7 @@ def unknown_keys(stage: Stage) -> None:
         }
         for name, each in headers.items():
             before = len(target.service.log())
-            answer = stage.ask(target, Request("GET", "/maps", headers=each))
+            answer = stage.ask(target, AttackRequest("GET", "/maps", headers=each))
             stage.expect(answer.status == 401, f"{name}: it was answered {answer.status}.")
             time.sleep(0.1)
             log = target.service.log()[before:]
@@ -240,7 +251,7 @@ def unknown_keys(stage: Stage) -> None:
             stage.expect("placecell_wrong" not in log, f"{name}: the log tells the key.")
         before = len(target.service.log())
         stage.ask_all(
-            target, [Request("GET", "/maps") for _ in range(stage.size(20_000, 2_000))], 8
+            target, [AttackRequest("GET", "/maps") for _ in range(stage.size(20_000, 2_000))], 8
         )
         stage.note("log bytes of a flood", len(target.service.log()) - before)
 
@@ -248,11 +259,11 @@ def unknown_keys(stage: Stage) -> None:
 def many_sessions(stage: Stage) -> None:
     """A25: one key opens sessions until another key's session would be dropped."""
     with stage.service({"PLACECELL_LIMITS__SESSIONS": "40"}) as target:
-        kind = kind_of(target)
-        codes = stage.random.integers(-127, 128, (60, kind.code_bytes)).astype(np.int8)
+        template = template_of(target)
+        codes = stage.random.integers(-127, 128, (60, template.code_bytes)).astype(np.int8)
         places = stage.random.uniform(-40, 40, (60, 3)) * [1, 1, 0.05]
         made = with_columns(
-            kind.made("mapper", _ids(1, 60), stage.random),
+            template.random_map("mapper", _ids(1, 60), stage.random),
             codes=codes,
             centroids=places,
             frame_positions=np.zeros((2, 3)),
@@ -263,9 +274,9 @@ def many_sessions(stage: Stage) -> None:
         target.client(OWNER).edit_map("hall", Delta(made, NONE), create=True)
         target.client(OWNER).edit_map("hall", Delta(take(shifted, np.arange(60) < 40), NONE))
 
-        def localize(rows: slice, session: str | None, shift: float) -> Answer:
+        def localize(rows: slice, session: str | None, shift: float) -> AttackResponse:
             body = {
-                "model_id": kind.model_id,
+                "model_id": template.model_id,
                 "codes": codes[rows].tobytes(),
                 "centroids": (places[rows] + [shift, 0, 0]).astype("<f8").tobytes(),
                 "maps": ["hall"],
@@ -273,7 +284,7 @@ def many_sessions(stage: Stage) -> None:
             }
             return stage.ask(
                 target,
-                Request(
+                AttackRequest(
                     "POST", "/localize", msgpack.packb(body), VICTIM, {"Content-Type": MSGPACK}
                 ),
             )
@@ -289,13 +300,13 @@ def many_sessions(stage: Stage) -> None:
             return
         localize(slice(20, 60), "second-session", 0)
         body = {
-            "model_id": kind.model_id,
+            "model_id": template.model_id,
             "codes": codes[:40].tobytes(),
             "centroids": places[:40].astype("<f8").tobytes(),
             "maps": ["hall"],
         }
         flood = [
-            Request(
+            AttackRequest(
                 "POST",
                 "/localize",
                 msgpack.packb(body | {"session": f"s-{number}"}),
@@ -378,25 +389,25 @@ def score_of(answer: dict[str, object]) -> float:
     return round(float(told[0]["probability"]), 6) if told else -1.0
 
 
-def _put_precious(stage: Stage, target: Target, kind: Kind) -> None:
-    file = encode(kind.made(VICTIM, _ids(1, 5), np.random.default_rng(0)))
+def _put_precious(stage: Stage, target: Target, template: MapTemplate) -> None:
+    file = encode(template.random_map(VICTIM, _ids(1, 5), np.random.default_rng(0)))
     headers = {"Content-Type": MAP, "If-Match": "*"}
-    if stage.ask(target, Request("GET", "/maps/precious")).status == 404:
+    if stage.ask(target, AttackRequest("GET", "/maps/precious")).status == 404:
         headers = {"Content-Type": MAP}
-    stage.ask(target, Request("PUT", "/maps/precious", file, headers=headers))
+    stage.ask(target, AttackRequest("PUT", "/maps/precious", file, headers=headers))
 
 
 def _status(target: Target, method: str, path: str, headers: dict[str, str]) -> int:
     """Return the status of a request with exactly these headers."""
     lines = [f"{method} {path} HTTP/1.1", *(f"{name}: {value}" for name, value in headers.items())]
     head = "\r\n".join([*lines, "Content-Length: 0", "Connection: close", "", ""])
-    line = raw(target, head.encode()).split(b"\r\n")[0].split()
+    line = exchange_bytes(target, head.encode()).split(b"\r\n")[0].split()
     return int(line[1]) if len(line) > 1 else 0
 
 
 def _key_metrics(stage: Stage, target: Target) -> dict[str, str]:
     """Return the metrics about the key file."""
-    lines = stage.ask(target, Request("GET", "/metrics")).text.splitlines()
+    lines = stage.ask(target, AttackRequest("GET", "/metrics")).text.splitlines()
     found = [line.rpartition(" ") for line in lines if re.match(r"[a-z_]*keys?[a-z_]*[ {]", line)]
     return {name: value for name, _, value in found}
 
@@ -406,11 +417,11 @@ def _ids(first: int, count: int) -> UInt32:
 
 
 CASES = (
-    Case("A9", foreign_pages, "Without keys, no foreign page reads or changes maps."),
-    Case("A12", broken_key_file, "/readyz and a metric report an unreadable key file."),
-    Case("A19", foreign_names, "A key learns nothing of maps and keys that are not its own."),
-    Case("A20", docs_pages, "The documentation pages load nothing from other hosts."),
-    Case("A21", unknown_keys, "The log records refused requests with the client's address."),
-    Case("A25", many_sessions, "One key's sessions displace no other key's."),
-    Case("A26", pinned_builds, "Builds install pinned versions only, by hash."),
+    AttackCase("A9", foreign_pages, "Without keys, no foreign page reads or changes maps."),
+    AttackCase("A12", broken_key_file, "/readyz and a metric report an unreadable key file."),
+    AttackCase("A19", foreign_names, "A key learns nothing of maps and keys that are not its own."),
+    AttackCase("A20", docs_pages, "The documentation pages load nothing from other hosts."),
+    AttackCase("A21", unknown_keys, "The log records refused requests with the client's address."),
+    AttackCase("A25", many_sessions, "One key's sessions displace no other key's."),
+    AttackCase("A26", pinned_builds, "Builds install pinned versions only, by hash."),
 )

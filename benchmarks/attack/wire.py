@@ -22,7 +22,7 @@ DELTA = "application/vnd.placecell.delta"
 
 
 @dataclass(frozen=True, slots=True)
-class Request:
+class AttackRequest:
     """One request of an attacker."""
 
     method: str
@@ -32,14 +32,14 @@ class Request:
     headers: Mapping[str, str] = field(default_factory=dict)
 
 
-def edit(name: str, delta: bytes, key: str | None, query: str = "") -> Request:
+def edit_request(name: str, delta: bytes, key: str | None, query: str = "") -> AttackRequest:
     """Return the request that edits a map, with a query such as `create=true`."""
     path = f"/maps/{name}/segments" + (f"?{query}" if query else "")
-    return Request("POST", path, delta, key, {"Content-Type": DELTA})
+    return AttackRequest("POST", path, delta, key, {"Content-Type": DELTA})
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class AttackResponse:
     """Answer of the service; status 0 if the connection failed before one arrived."""
 
     status: int
@@ -57,7 +57,7 @@ class Answer:
         return self.body.decode(errors="replace")
 
 
-def ask(target: Target, request: Request, seconds: float = 120.0) -> Answer:
+def ask(target: Target, request: AttackRequest, seconds: float = 120.0) -> AttackResponse:
     """Send a request on its own connection and return the answer."""
     host, port = target.place
     connection = http.client.HTTPConnection(
@@ -70,22 +70,22 @@ def ask(target: Target, request: Request, seconds: float = 120.0) -> Answer:
         response = connection.getresponse()
         body = response.read()
         told = {name.lower(): value for name, value in response.getheaders()}
-        return Answer(response.status, time.perf_counter() - begun, body, told)
+        return AttackResponse(response.status, time.perf_counter() - begun, body, told)
     except (OSError, http.client.HTTPException):
-        return Answer(0, time.perf_counter() - begun)
+        return AttackResponse(0, time.perf_counter() - begun)
     finally:
         connection.close()
 
 
 def ask_all(
-    target: Target, requests: Sequence[Request], at_once: int, seconds: float = 120.0
-) -> list[Answer]:
+    target: Target, requests: Sequence[AttackRequest], at_once: int, seconds: float = 120.0
+) -> list[AttackResponse]:
     """Send requests concurrently and return their answers."""
     with ThreadPoolExecutor(at_once) as pool:
         return list(pool.map(lambda request: ask(target, request, seconds), requests))
 
 
-def head_of(target: Target, request: Request, length: int | None = None) -> bytes:
+def head_of(target: Target, request: AttackRequest, length: int | None = None) -> bytes:
     """Return a request's head; `length` overrides the body's length."""
     length = len(request.body) if length is None else length
     headers = {"Host": target.address.removeprefix("http://")}
@@ -122,13 +122,13 @@ def connect(
     return connection
 
 
-def abandon(target: Target, request: Request) -> None:
+def abandon(target: Target, request: AttackRequest) -> None:
     """Send a whole request and disconnect before its answer."""
     with suppress(OSError), connect(target) as connection:
         connection.sendall(head_of(target, request) + request.body)
 
 
-def raw(target: Target, data: bytes, seconds: float = 10.0) -> bytes:
+def exchange_bytes(target: Target, data: bytes, seconds: float = 10.0) -> bytes:
     """Send raw bytes and return what arrives until the service closes the connection.
 
     A service that keeps the connection open ends the answer with the text `(left open)`.

@@ -12,18 +12,18 @@ import zstandard
 from placecell_client import encode
 
 from benchmarks.attack.stage import (
-    Case,
+    AttackCase,
     Stage,
     clouds,
     delta_of,
     describe_body,
     described,
-    kind_of,
+    template_of,
     with_columns,
 )
 from benchmarks.attack.target import OWNER, READER, ROBOT, Target
-from benchmarks.attack.wire import DELTA, JSON, MAP, MSGPACK, Request, abandon, edit
-from benchmarks.made_map import EPOCH, Kind
+from benchmarks.attack.wire import DELTA, JSON, MAP, MSGPACK, AttackRequest, abandon, edit_request
+from benchmarks.synthetic_maps.random_maps import EPOCH, MapTemplate
 from placecell.core.types import UInt32
 
 Cloud = np.ndarray[Any, np.dtype[np.float32]]
@@ -40,13 +40,15 @@ def coincident(stage: Stage) -> None:
     """A1: coincident segments with `deduplicate=true`."""
     count = stage.size(100_000, 8_000)
     with stage.service(own=False) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         bodies = {
-            "same place": _parked(stage, kind, 1, count, noise=0.0),
-            "parked robot": _parked(stage, kind, 40, stage.size(40_000, 4_000), noise=0.05),
+            "same place": _parked(stage, template, 1, count, noise=0.0),
+            "parked robot": _parked(stage, template, 40, stage.size(40_000, 4_000), noise=0.05),
         }
         for name, body in bodies.items():
-            repeated = edit(name.replace(" ", "-"), body, ROBOT, "create=true&deduplicate=true")
+            repeated = edit_request(
+                name.replace(" ", "-"), body, ROBOT, "create=true&deduplicate=true"
+            )
             before = _begin(target)
             with stage.victim(target):
                 for _ in range(2):  # a client repeats the call
@@ -75,12 +77,14 @@ def crafted_points(stage: Stage) -> None:
     ]
     packed = {"Content-Type": MSGPACK}
     requests = {
-        "crafted": [Request("POST", "/describe", crafted, READER, packed)],
+        "crafted": [AttackRequest("POST", "/describe", crafted, READER, packed)],
         "crafted, JSON": [
-            Request("POST", "/describe", _as_json([segment] * 2), READER, {"Content-Type": JSON})
+            AttackRequest(
+                "POST", "/describe", _as_json([segment] * 2), READER, {"Content-Type": JSON}
+            )
         ],
         "spread": [
-            Request("POST", path, describe_body(spread), READER, packed)
+            AttackRequest("POST", path, describe_body(spread), READER, packed)
             for path in ("/describe", "/localize", "/match", "/describe")
         ],
     }
@@ -106,15 +110,21 @@ def long_line(stage: Stage) -> None:
     count, limit = stage.size(160_000, 20_000), float(stage.size(5, 2))
     environment = {"PLACECELL_LIMITS__ALIGNMENT_SECONDS": str(limit)}
     with stage.service(environment) as target:
-        kind = kind_of(target)
+        template = template_of(target)
         for name in ("line-a", "line-b"):
-            body = encode(_line(stage, kind, count))
-            stage.ask(target, Request("PUT", f"/maps/{name}", body, OWNER, {"Content-Type": MAP}))
+            body = encode(_line(stage, template, count))
+            stage.ask(
+                target, AttackRequest("PUT", f"/maps/{name}", body, OWNER, {"Content-Type": MAP})
+            )
         merge = json.dumps({"maps": ["line-a", "line-b"], "dry_run": True}).encode()
         calls = {
-            "align": Request("POST", "/maps/line-a/align/line-b", key=ROBOT),
-            "align with se3": Request("POST", "/maps/line-a/align/line-b?motion=se3", key=ROBOT),
-            "merge": Request("POST", "/maps/merged/merge", merge, OWNER, {"Content-Type": JSON}),
+            "align": AttackRequest("POST", "/maps/line-a/align/line-b", key=ROBOT),
+            "align with se3": AttackRequest(
+                "POST", "/maps/line-a/align/line-b?motion=se3", key=ROBOT
+            ),
+            "merge": AttackRequest(
+                "POST", "/maps/merged/merge", merge, OWNER, {"Content-Type": JSON}
+            ),
         }
         with stage.victim(target):
             for name, request in calls.items():
@@ -162,11 +172,11 @@ def bombs(stage: Stage) -> None:
     with stage.service(own=False) as target:
         for name, (body, headers) in many.items():
             paths = ("/match", "/localize", "/match", "/localize")
-            requests = [Request("POST", path, body, READER, headers) for path in paths]
+            requests = [AttackRequest("POST", path, body, READER, headers) for path in paths]
             if "Content-Encoding" in headers:
                 as_edit = headers | {"Content-Type": DELTA}
                 path = "/maps/bomb/segments?create=true"
-                requests.append(Request("POST", path, body, ROBOT, as_edit))
+                requests.append(AttackRequest("POST", path, body, ROBOT, as_edit))
             before = _begin(target)
             with stage.victim(target):
                 answers = stage.ask_all(target, requests, len(requests), 60)
@@ -202,8 +212,11 @@ def far_origin(stage: Stage) -> None:
             plain = packed | {"segments": [{"points": points.tolist(), "sensor": sensor}]}
             for path in ("/describe", "/match", "/localize"):
                 answers = [
-                    stage.ask(target, Request("POST", path, body, READER, {"Content-Type": kind}))
-                    for kind, body in (
+                    stage.ask(
+                        target,
+                        AttackRequest("POST", path, body, READER, {"Content-Type": media_type}),
+                    )
+                    for media_type, body in (
                         (MSGPACK, msgpack.packb(packed)),
                         (JSON, json.dumps(plain).encode()),
                     )
@@ -217,13 +230,13 @@ def far_origin(stage: Stage) -> None:
                     )
 
 
-def _parked(stage: Stage, kind: Kind, objects: int, count: int, noise: float) -> bytes:
+def _parked(stage: Stage, template: MapTemplate, objects: int, count: int, noise: float) -> bytes:
     """Return the edit of a robot that stands before `objects` and sees them repeatedly."""
-    made = kind.made(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random)
+    made = template.random_map(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random)
     frames = count // objects
     owners = np.arange(count) % objects
     places = stage.random.uniform(-20, 20, (objects, 3))
-    codes = stage.random.integers(-127, 128, (objects, kind.code_bytes)).astype(np.int8)
+    codes = stage.random.integers(-127, 128, (objects, template.code_bytes)).astype(np.int8)
     parked = with_columns(
         made,
         codes=codes[owners],
@@ -236,13 +249,13 @@ def _parked(stage: Stage, kind: Kind, objects: int, count: int, noise: float) ->
     return delta_of(parked)
 
 
-def _line(stage: Stage, kind: Kind, count: int) -> Any:
+def _line(stage: Stage, template: MapTemplate, count: int) -> Any:
     """Return a map along y with one segment per frame."""
     positions = np.zeros((count, 3))
     positions[:, 1] = 0.02 * np.arange(count)
     ids: UInt32 = np.arange(1, count + 1, dtype=np.uint32)
     return with_columns(
-        kind.made("line", ids, stage.random),
+        template.random_map("line", ids, stage.random),
         centroids=positions + stage.random.uniform(-20, 20, (count, 3)),
         frame_index=np.arange(count, dtype=np.uint32),
         frame_times=EPOCH + np.arange(count),
@@ -292,9 +305,9 @@ def _expect_growth(stage: Stage, target: Target, before: float, most: float, wha
 
 
 CASES = (
-    Case("A1", coincident, "Memory and time are linear in the segments of an edit."),
-    Case("A4", crafted_points, "No points let recognition delay another robot's request."),
-    Case("A13", long_line, "Alignment and merge end at their time limit."),
-    Case("A14", bombs, "A body without content is refused at once."),
-    Case("A15", far_origin, "Coordinates whose sum exceeds the limit get a 422."),
+    AttackCase("A1", coincident, "Memory and time are linear in the segments of an edit."),
+    AttackCase("A4", crafted_points, "No points let recognition delay another robot's request."),
+    AttackCase("A13", long_line, "Alignment and merge end at their time limit."),
+    AttackCase("A14", bombs, "A body without content is refused at once."),
+    AttackCase("A15", far_origin, "Coordinates whose sum exceeds the limit get a 422."),
 )

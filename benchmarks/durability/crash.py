@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.durability.crasher import MOMENTS, Crasher, Plan
+from benchmarks.durability.crasher import MOMENTS, Crasher, CrashPlan
 from evaluation.machine import machine
 
 
-def crash(
-    plan: Plan,
+def run_crashes(
+    plan: CrashPlan,
     seed: int = 0,
     options: tuple[str, ...] = (),
     progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,

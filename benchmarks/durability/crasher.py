@@ -17,10 +17,10 @@ import numpy as np
 from placecell_client import Client, Retries, ServiceError
 
 from benchmarks.durability.journal import Journal
-from benchmarks.durability.past import past_of
-from benchmarks.durability.reader import Reader
-from benchmarks.durability.writer import Writer
-from benchmarks.made_map import Kind
+from benchmarks.durability.map_versions import history_of
+from benchmarks.durability.reading_robot import ReadingRobot
+from benchmarks.durability.writing_robot import WritingRobot
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from service.child_process import Service
 
 ONCE = Retries(attempts=1)
@@ -48,7 +48,7 @@ PATIENCE = 5.0
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class CrashPlan:
     """What is done.
 
     Attributes:
@@ -65,7 +65,7 @@ class Plan:
 
 
 @dataclass(slots=True)
-class Tally:
+class CrashFindings:
     """What came of it, so far.
 
     Attributes:
@@ -90,25 +90,25 @@ class Crasher:
     """Writers, a reader, and a service that they outlive."""
 
     def __init__(
-        self, data_dir: Path, options: tuple[str, ...], plan: Plan, draw: random.Random
+        self, data_dir: Path, options: tuple[str, ...], plan: CrashPlan, draw: random.Random
     ) -> None:
-        self.tally = Tally()
+        self.tally = CrashFindings()
         self._plan = plan
         self._options = options
         self._data_dir = data_dir
         self._draw = draw
         self._left = set[tuple[int, int]]()
         with self._started() as (_, address), Client(address) as client:
-            kind = Kind.of(client.info())
+            template = MapTemplate.from_info(client.info())
         self.writers = [
-            Writer(
-                *(f"robot-{number}", kind, Journal(f"map-{number}"), plan.large),
+            WritingRobot(
+                *(f"robot-{number}", template, Journal(f"map-{number}"), plan.large),
                 draw=random.Random(self._draw.getrandbits(64)),
             )
             for number in range(plan.writers)
         ]
         has_been = {writer.journal.name: writer.journal.has_been for writer in self.writers}
-        self.reader = Reader(kind, has_been, random.Random(self._draw.getrandbits(64)))
+        self.reader = ReadingRobot(template, has_been, random.Random(self._draw.getrandbits(64)))
 
     def crash(self, moment: str) -> None:
         """Start the service, check everything, write, and kill it at such a moment."""
@@ -142,7 +142,7 @@ class Crasher:
         """Hold every version of every map against the journals."""
         with Client(address) as client:
             for writer in self.writers:
-                found = past_of(client, writer.journal.name)
+                found = history_of(client, writer.journal.name)
                 verdict = writer.journal.settle(found)
                 self.tally.versions += len(found.versions) if found is not None else 0
                 self.tally.lost += verdict.lost
@@ -155,7 +155,7 @@ class Crasher:
         service.kill()
         self.tally.killed["start"] += 1
 
-    def _write(self, writer: Writer, address: str, moment: str) -> None:
+    def _write(self, writer: WritingRobot, address: str, moment: str) -> None:
         with Client(address, retries=ONCE) as client:
             while True:
                 operation = writer.choose(WANTED.get(moment))

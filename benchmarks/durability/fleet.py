@@ -19,8 +19,8 @@ from placecell_client import Client, encode
 from placecell_client.maps.union import union
 
 from benchmarks.durability.cutting_proxy import CuttingProxy
-from benchmarks.durability.sharer import Sharer
-from benchmarks.made_map import Kind
+from benchmarks.durability.sharing_robot import SharingRobot
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from evaluation.machine import machine
 from service.child_process import Service
 
@@ -28,7 +28,7 @@ SITE = "site"
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class FleetPlan:
     """What is done.
 
     Attributes:
@@ -86,7 +86,7 @@ class Restarter:
         self._proxy.service = self._service.address()
 
 
-def fleet(plan: Plan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str, Any]:
+def run_fleet(plan: FleetPlan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str, Any]:
     """Run it; the report as `placecell bench fleet` writes it.
 
     Args:
@@ -100,11 +100,11 @@ def fleet(plan: Plan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str,
         restarter = Restarter(Path(folder), options, proxy)
         try:
             with Client(proxy.address) as client:
-                kind = Kind.of(client.info())
-                client.put_map(SITE, kind.none(), create_only=True)
+                template = MapTemplate.from_info(client.info())
+                client.put_map(SITE, template.empty_map(), create_only=True)
             robots = [
-                Sharer(
-                    *(f"robot-{number}", SITE, kind, random.Random(draw.getrandbits(64))),
+                SharingRobot(
+                    *(f"robot-{number}", SITE, template, random.Random(draw.getrandbits(64))),
                     compacts=number == 0,
                 )
                 for number in range(plan.clients)
@@ -128,7 +128,9 @@ def fleet(plan: Plan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str,
     }
 
 
-def _report(plan: Plan, seed: int, robots: Sequence[Sharer], file: bytes) -> dict[str, Any]:
+def _report(
+    plan: FleetPlan, seed: int, robots: Sequence[SharingRobot], file: bytes
+) -> dict[str, Any]:
     reserved = np.concatenate([ids for robot in robots for ids in robot.reserved])
     same = sum(_has(robot, file) for robot in robots)
     is_union = file == encode(union([robot.own for robot in robots]))
@@ -153,7 +155,7 @@ def _report(plan: Plan, seed: int, robots: Sequence[Sharer], file: bytes) -> dic
     }
 
 
-def _share(robots: Sequence[Sharer], address: str, seconds: float) -> None:
+def _share(robots: Sequence[SharingRobot], address: str, seconds: float) -> None:
     ended = Event()
     with ThreadPoolExecutor(len(robots)) as pool:
         runs = [pool.submit(robot.run, address, ended) for robot in robots]
@@ -163,5 +165,5 @@ def _share(robots: Sequence[Sharer], address: str, seconds: float) -> None:
             run.result()
 
 
-def _has(robot: Sharer, file: bytes) -> bool:
+def _has(robot: SharingRobot, file: bytes) -> bool:
     return robot.copy.content is not None and encode(robot.copy.content) == file

@@ -4,11 +4,11 @@ import hashlib
 from collections import Counter
 from dataclasses import dataclass, field
 
-from benchmarks.durability.past import Past, Version
+from benchmarks.durability.map_versions import MapVersion, VersionHistory
 
 
 @dataclass(frozen=True, slots=True)
-class Write:
+class PendingWrite:
     """A write whose answer has not come.
 
     Attributes:
@@ -17,11 +17,11 @@ class Write:
     """
 
     operation: str
-    outcome: Past | None
+    outcome: VersionHistory | None
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Discrepancy:
     """How a map that was found is other than it must be.
 
     Attributes:
@@ -48,17 +48,17 @@ class Journal:
     """
 
     name: str
-    known: Past | None = None
-    in_flight: Write | None = None
+    known: VersionHistory | None = None
+    in_flight: PendingWrite | None = None
     acknowledged: Counter[str] = field(default_factory=Counter)
     landed: int = 0
     _sent: set[bytes] = field(default_factory=set)
 
-    def begin(self, operation: str, outcome: Past | None) -> None:
+    def begin(self, operation: str, outcome: VersionHistory | None) -> None:
         """A write is about to be sent."""
         if outcome is not None:
             self._sent.add(hashlib.sha256(outcome.newest.file).digest())
-        self.in_flight = Write(operation, outcome)
+        self.in_flight = PendingWrite(operation, outcome)
 
     def has_been(self, file: bytes) -> bool:
         """Whether the map ever was, or might have become, this file."""
@@ -72,7 +72,7 @@ class Journal:
         self.acknowledged[self.in_flight.operation] += 1
         self.in_flight = None
 
-    def settle(self, found: Past | None) -> Verdict:
+    def settle(self, found: VersionHistory | None) -> Discrepancy:
         """Hold what is there after a crash against what was acknowledged, and go on from there.
 
         The map must be as after the last write that was acknowledged, or as after the one in
@@ -81,10 +81,10 @@ class Journal:
         write, known = self.in_flight, self.known
         self.in_flight, self.known = None, found
         if _is_same(known, found):
-            return Verdict()
+            return Discrepancy()
         if write is not None and _is_same(write.outcome, found):
             self.landed += 1
-            return Verdict()
+            return Discrepancy()
         before, there = _versions(known), _versions(found)
         after = _versions(write.outcome) if write is not None else before
         lost = [each.sequence for each in before if each in after and not _is_in(each, there)]
@@ -94,7 +94,7 @@ class Journal:
             if not any(version.is_version(each) for version in (*before, *after))
         ]
         operation = write.operation if write is not None else "nothing"
-        return Verdict(
+        return Discrepancy(
             len(lost),
             # If all versions are real, they are not all of one moment.
             len(made_up) or int(not lost),
@@ -103,13 +103,13 @@ class Journal:
         )
 
 
-def _is_same(expected: Past | None, found: Past | None) -> bool:
+def _is_same(expected: VersionHistory | None, found: VersionHistory | None) -> bool:
     return found is None if expected is None else expected.is_past(found)
 
 
-def _versions(past: Past | None) -> tuple[Version, ...]:
+def _versions(past: VersionHistory | None) -> tuple[MapVersion, ...]:
     return past.versions if past is not None else ()
 
 
-def _is_in(version: Version, there: tuple[Version, ...]) -> bool:
+def _is_in(version: MapVersion, there: tuple[MapVersion, ...]) -> bool:
     return any(version.is_version(each) for each in there)

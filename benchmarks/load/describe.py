@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import onnxruntime
 
-from benchmarks.load.networks import PAPER, files, paper_network
-from benchmarks.load.rates import Work, each, measure
+from benchmarks.load.networks import PAPER, networks_of_model, paper_network
+from benchmarks.load.rates import Work, measure_rates, work_of
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
 from evaluation.machine import machine
@@ -33,7 +33,7 @@ PAIRS = 1_250
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class DescribePlan:
     """What is measured, and how long.
 
     Attributes:
@@ -53,10 +53,10 @@ class Plan:
     latencies: int = 500
 
 
-def bench(
+def measure_inference(
     scans: Sequence[Segments],
     folder: Path,
-    plan: Plan,
+    plan: DescribePlan,
     seed: int = 0,
     *,
     models: Path = MODELS_FOLDER,
@@ -76,7 +76,9 @@ def bench(
     drawn = Segments.concatenate(scans)
     extractor = load_extractor(models / default, max(plan.threads))
     parameters = extractor.manifest.parameters
-    networks = [network for name in shipped_models(models) for network in files(models / name)]
+    networks = [
+        network for name in shipped_models(models) for network in networks_of_model(models / name)
+    ]
     if not any(network.model == PAPER for network in networks):
         networks += paper_network(folder, parameters, extractor.manifest.dimension, seed)
 
@@ -90,13 +92,13 @@ def bench(
         sessions = [one_thread_session(network.file) for _ in range(max(plan.threads))]
         for batch in plan.batches:
             for threads in plan.threads:
-                work = inference(sessions[:threads], inputs, batch)
+                work = inference_work(sessions[:threads], inputs, batch)
                 works[network, batch, threads] = (work, threads)
     for threads in plan.threads:
-        works["preprocessing", threads] = (preprocessing(drawn, parameters), threads)
-        works["surroundings", threads] = (each(scans, describe_surroundings), threads)
-    works["points in"] = (each(scans, extractor.describe), max(plan.threads))
-    rates = measure(works, plan.repeats, plan.seconds, progress)
+        works["preprocessing", threads] = (preprocessing_work(drawn, parameters), threads)
+        works["surroundings", threads] = (work_of(scans, describe_surroundings), threads)
+    works["points in"] = (work_of(scans, extractor.describe), max(plan.threads))
+    rates = measure_rates(works, plan.repeats, plan.seconds, progress)
 
     rows = [
         {
@@ -115,16 +117,16 @@ def bench(
     return {
         "rows": rows,
         "points_in_descriptors_out_segments_per_second": rates["points in"],
-        "default_over_paper": ratio(rows, default, max(plan.batches), max(plan.threads)),
+        "default_over_paper": rate_ratio(rows, default, max(plan.batches), max(plan.threads)),
         "preprocessing_segments_per_second": {
             str(threads): rates["preprocessing", threads] for threads in plan.threads
         },
         "surroundings_segments_per_second": {
             str(threads): rates["surroundings", threads] for threads in plan.threads
         },
-        "single_segment_ms": latency(extractor, drawn, plan.latencies),
+        "single_segment_ms": measure_latency(extractor, drawn, plan.latencies),
         "pairs": [
-            pair_latency(models / name, seed)
+            measure_pair_latency(models / name, seed)
             for name in shipped_models(models)
             if (models / name / PAIR_FILE).exists()
         ],
@@ -142,7 +144,7 @@ def bench(
     }
 
 
-def inference(
+def inference_work(
     sessions: Sequence[onnxruntime.InferenceSession],
     inputs: dict[str, np.ndarray[Any, Any]],
     batch: int,
@@ -164,16 +166,16 @@ def inference(
     return work
 
 
-def preprocessing(segments: Segments, parameters: Parameters, batch: int = 64) -> Work:
+def preprocessing_work(segments: Segments, parameters: Parameters, batch: int = 64) -> Work:
     """Alignment and voxelisation of a batch, another each time."""
     parts = [
         segments.take(np.arange(first, min(first + batch, len(segments))))
         for first in range(0, len(segments), batch)
     ]
-    return each(parts, lambda part: voxelise(part, parameters))
+    return work_of(parts, lambda part: voxelise(part, parameters))
 
 
-def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:
+def measure_latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:
     """Milliseconds from the points of a single segment to its descriptor: p50 and p99."""
     times = []
     for number in range(count):
@@ -185,7 +187,7 @@ def latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, f
     return {"p50": round(float(p50), 3), "p99": round(float(p99), 3)}
 
 
-def pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
+def measure_pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
     """What it costs to state a probability: the p50 of a call for 1,250 pairs, on one thread."""
     manifest = Manifest.load(folder)
     classifier = PairClassifier(folder, manifest)
@@ -205,7 +207,9 @@ def pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
     }
 
 
-def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int) -> float | None:
+def rate_ratio(
+    rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int
+) -> float | None:
     """How many times the paper's rate the default model reaches; None if either is not there."""
     found = {
         row["model"]: row["segments_per_second"]
@@ -217,7 +221,7 @@ def ratio(rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int
     return round(float(found[default] / found[PAPER]), 2)
 
 
-def draw(report: dict[str, Any], file: Path) -> None:
+def draw_accuracy_speed(report: dict[str, Any], file: Path) -> None:
     """Accuracy against speed of every network, at the largest batch on all threads, as a PNG."""
     most = (max(report["plan"]["batches"]), max(report["plan"]["threads"]))
     with figure(file, size=6) as (axes,):

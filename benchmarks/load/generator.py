@@ -38,7 +38,7 @@ class Load:
 
 
 @dataclass(slots=True)
-class Outcome:
+class LoadResult:
     """What became of the requests that were due, in the order of their answers.
 
     Attributes:
@@ -59,9 +59,9 @@ class Outcome:
 Connection = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 
-async def run(load: Load) -> Outcome:
+async def send_load(load: Load) -> LoadResult:
     """Send all that is due."""
-    outcome, free = Outcome(), list[Connection]()
+    outcome, free = LoadResult(), list[Connection]()
     places = asyncio.Semaphore(load.most)
     started, computed = time.perf_counter(), time.process_time()
 
@@ -129,7 +129,7 @@ async def _ask_on(
         return 0, {}
 
 
-def request_of(path: str, media_type: str, body: bytes) -> bytes:
+def encode_request(path: str, media_type: str, body: bytes) -> bytes:
     """A whole request, head and body."""
     head = (
         f"POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: {media_type}\r\n"
@@ -138,7 +138,7 @@ def request_of(path: str, media_type: str, body: bytes) -> bytes:
     return head.encode() + body
 
 
-async def sent_by_process(load: Load, folder: Path) -> Outcome:
+async def send_from_process(load: Load, folder: Path) -> LoadResult:
     """The same from a process of its own."""
     file = folder / "load.pickle"
     file.write_bytes(pickle.dumps(load))
@@ -150,10 +150,10 @@ async def sent_by_process(load: Load, folder: Path) -> Outcome:
     if process.returncode:
         raise RuntimeError(f"the load generator ended with status {process.returncode}")
     content: dict[str, Any] = json.loads(said)
-    return Outcome(**content)
+    return LoadResult(**content)
 
 
 if __name__ == "__main__":
     # Written by `sent_by_process` a moment ago, for this process alone.
     plan = pickle.loads(Path(sys.argv[1]).read_bytes())
-    json.dump(asdict(asyncio.run(run(plan))), sys.stdout)
+    json.dump(asdict(asyncio.run(send_load(plan))), sys.stdout)

@@ -21,7 +21,7 @@ BASELINE = "pydantic's parser, an object for each number (until this version)"
 Read = Callable[[bytes], Scan]
 
 
-def bench(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
+def measure_json_requests(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
     """Measure the present reader and the former one in the same run.
 
     Args:
@@ -32,8 +32,8 @@ def bench(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
     readers: dict[str, Read] = {"baseline": _plain, "compiled": _compiled}
     rows = {
         name: {
-            "requests_per_second": round(saturation(read, small, seconds), 2),
-            "longest_pause_ms": round(longest_pause(read, large), 2),
+            "requests_per_second": round(measure_saturation(read, small, seconds), 2),
+            "longest_pause_ms": round(measure_longest_pause(read, large), 2),
         }
         for name, read in readers.items()
     }
@@ -57,7 +57,7 @@ def body_of(segments: int, points: int, seed: int) -> bytes:
     return json.dumps({"segments": content}).encode()
 
 
-def saturation(read: Read, body: bytes, seconds: float) -> float:
+def measure_saturation(read: Read, body: bytes, seconds: float) -> float:
     """Return the requests per second that all cores read together."""
     threads = os.cpu_count() or 1
     read(body)
@@ -75,7 +75,7 @@ def saturation(read: Read, body: bytes, seconds: float) -> float:
     return sum(counts) / (time.perf_counter() - began)
 
 
-def longest_pause(read: Read, body: bytes, repeats: int = 5) -> float:
+def measure_longest_pause(read: Read, body: bytes, repeats: int = 5) -> float:
     """Return the median of the longest wait of an otherwise idle thread, milliseconds."""
     worst = []
     for _ in range(repeats):

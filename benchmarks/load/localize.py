@@ -17,10 +17,10 @@ import numpy as np
 from placecell_client import Client, CompactMap, Description, Localisation, encode
 from placecell_client.maps.edit import take
 
-from benchmarks.load.generator import Load, request_of, sent_by_process
+from benchmarks.load.generator import Load, encode_request, send_from_process
 from benchmarks.load.serve import percentiles
-from benchmarks.map_content import VIEWS, Views, map_of
-from evaluation.machine import machine
+from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
+from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.poses.queries import random_frame
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
@@ -34,7 +34,7 @@ SCATTER = 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class LocalizePlan:
     """Sizes and rates of the measurement.
 
     Attributes:
@@ -58,8 +58,8 @@ class Plan:
     map_segments: int = 300
 
 
-def bench(
-    views: Views, plan: Plan, seed: int = 0, *, progress: Progress = silent
+def measure_localize(
+    views: DescriptorSampler, plan: LocalizePlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
     """Measure all; the report as `placecell bench localize` writes it."""
     rows: list[dict[str, Any]] = []
@@ -80,15 +80,17 @@ def bench(
     }
 
 
-def _row(views: Views, size: int, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
+def _row(
+    views: DescriptorSampler, size: int, plan: LocalizePlan, data: Path, seed: int
+) -> dict[str, Any]:
     frame = random_frame(seed)
     road, asked = road_with_queries(views, size, plan, frame, seed)
     with running_service(data) as address, Client(address, timeout=120) as client:
         client.put_map(MAP, encode(road))
         right = sum(_is_right(client, each, plan.k, frame) for each in asked)
-        sent = tuple(request_of("/localize", MSGPACK, _body(each, plan.k)) for each in asked)
+        sent = tuple(encode_request("/localize", MSGPACK, _body(each, plan.k)) for each in asked)
         load = Load(*address_of(address), sent, plan.rate, plan.seconds)
-        outcome = asyncio.run(sent_by_process(load, data))
+        outcome = asyncio.run(send_from_process(load, data))
     if set(outcome.statuses) != {200}:
         raise RuntimeError(f"/localize was answered {set(outcome.statuses)}")
     return {
@@ -100,7 +102,9 @@ def _row(views: Views, size: int, plan: Plan, data: Path, seed: int) -> dict[str
     }
 
 
-def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
+def _together(
+    views: DescriptorSampler, plan: LocalizePlan, data: Path, seed: int
+) -> dict[str, Any]:
     """Measure requests without `maps` among many maps."""
     frame = random_frame(seed)
     # One road, cut into maps, no two of which hold the same things; each robot is within one.
@@ -114,9 +118,9 @@ def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]
         told = [client.localize(each, k=plan.k).best for each in asked]
         right = sum(_is_right_pose(each, one, frame) for each, one in zip(asked, told, strict=True))
         bodies = (_body(each, plan.k, named=False) for each in asked)
-        sent = tuple(request_of("/localize", MSGPACK, body) for body in bodies)
+        sent = tuple(encode_request("/localize", MSGPACK, body) for body in bodies)
         load = Load(*address_of(address), sent, plan.rate / 4, plan.seconds)
-        outcome = asyncio.run(sent_by_process(load, data))
+        outcome = asyncio.run(send_from_process(load, data))
     if set(outcome.statuses) != {200}:
         raise RuntimeError(f"/localize was answered {set(outcome.statuses)}")
     return {
@@ -130,7 +134,12 @@ def _together(views: Views, plan: Plan, data: Path, seed: int) -> dict[str, Any]
 
 
 def road_with_queries(
-    views: Views, size: int, plan: Plan, frame: Pose, seed: int, step: int | None = None
+    views: DescriptorSampler,
+    size: int,
+    plan: LocalizePlan,
+    frame: Pose,
+    seed: int,
+    step: int | None = None,
 ) -> tuple[CompactMap, Sequence[Description]]:
     """Return a map of `count` segments and what a robot sees of it.
 
@@ -140,13 +149,13 @@ def road_with_queries(
             unless given.
     """
     random = np.random.default_rng(seed)
-    content = views.draw(size, size // VIEWS, seed)
-    road = map_of(content.codes, views.manifest, "ann", seed=seed)
+    content = views.sample_map(size, size // VIEWS, seed)
+    road = road_map(content.codes, views.manifest, "ann", seed=seed)
     things = road.centroids[::VIEWS]
     scatter = random.normal(scale=SCATTER, size=(size, 3))
-    road = replace(road, centroids=things[content.things] + scatter)
+    road = replace(road, centroids=things[content.objects] + scatter)
     # Each thing is asked about once: in their order, as they stand along the road.
-    asked = content.asked[np.argsort(content.asked_things)]
+    asked = content.query_codes[np.argsort(content.query_objects)]
     step = step or plan.queries
     stretches = len(asked) // step
     descriptions = []

@@ -14,7 +14,7 @@ PAPER = "paper"
 
 
 @dataclass(frozen=True, slots=True)
-class Network:
+class MeasuredNetwork:
     """An ONNX file that is measured.
 
     Attributes:
@@ -32,7 +32,7 @@ class Network:
     top1: float | None
 
 
-def files(folder: Path) -> Iterator[Network]:
+def networks_of_model(folder: Path) -> Iterator[MeasuredNetwork]:
     """The extractor's networks in a model's folder: `model.onnx` and others, such as in int8."""
     manifest = Manifest.load(folder)
     for name in sorted(manifest.files):
@@ -40,15 +40,19 @@ def files(folder: Path) -> Iterator[Network]:
             served = name == MODEL_FILE
             # The manifest's figures are those of the file that is served.
             top1 = manifest.figures.get("validation", {}).get("top1") if served else None
-            yield Network(manifest.name, precision(folder / name), folder / name, served, top1)
+            yield MeasuredNetwork(
+                manifest.name, precision_of(folder / name), folder / name, served, top1
+            )
 
 
-def precision(file: Path) -> str:
+def precision_of(file: Path) -> str:
     """`int8` for a network with quantised layers, told by its nodes' names, otherwise `fp32`."""
     return "int8" if b"QuantizeLinear" in file.read_bytes() else "fp32"
 
 
-def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: int) -> list[Network]:
+def paper_network(
+    folder: Path, parameters: Parameters, dimension: int, seed: int
+) -> list[MeasuredNetwork]:
     """The paper's network with random weights: as fast as a trained one. Empty without torch."""
     file = folder / f"paper-{dimension}.onnx"
     if not file.exists():
@@ -68,4 +72,4 @@ def paper_network(folder: Path, parameters: Parameters, dimension: int, seed: in
         exported = Exported(network, np.zeros(DIMENSION, np.float32), axes)
         export_onnx(exported, parameters.grid, unfinished)
         unfinished.replace(file)
-    return [Network(PAPER, "fp32", file, served=True, top1=None)]
+    return [MeasuredNetwork(PAPER, "fp32", file, served=True, top1=None)]

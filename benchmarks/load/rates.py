@@ -14,7 +14,7 @@ Work = Callable[[int], int]
 """Do the piece of work of this number; returns how many segments it had."""
 
 
-def each(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
+def work_of(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
     """Do this with one part, another each time."""
 
     def work(number: int) -> int:
@@ -25,7 +25,7 @@ def each(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
     return work
 
 
-def measure(
+def measure_rates(
     works: dict[Any, tuple[Work, int]], repeats: int, seconds: float, progress: Progress
 ) -> dict[Any, float]:
     """Segments a second of each work, by so many threads: the median of the repeats.
@@ -39,14 +39,14 @@ def measure(
     rates: dict[Any, list[float]] = {key: [] for key in works}
     with ThreadPoolExecutor(max(threads for _, threads in works.values())) as pool:
         for work, threads in works.values():
-            rate(pool, work, threads, 0)  # the first runs allocate and compile
+            measure_rate(pool, work, threads, 0)  # the first runs allocate and compile
         for _ in progress(range(repeats), repeats, "measuring"):
             for key, (work, threads) in works.items():
-                rates[key].append(rate(pool, work, threads, seconds))
+                rates[key].append(measure_rate(pool, work, threads, seconds))
     return {key: round(float(np.median(each)), 1) for key, each in rates.items()}
 
 
-def rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: float) -> float:
+def measure_rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: float) -> float:
     """Segments a second of threads that do the work for so long, and once at least."""
 
     def one(first: int) -> float:

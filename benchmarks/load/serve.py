@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.load.generator import Load, Outcome, sent_by_process
-from benchmarks.load.rates import each, rate
-from benchmarks.load.workload import Case, fill, requests
+from benchmarks.load.generator import Load, LoadResult, send_from_process
+from benchmarks.load.rates import measure_rate, work_of
+from benchmarks.load.workload import LoadCase, match_requests, store_map
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
 from evaluation.machine import machine
@@ -27,7 +27,7 @@ from service.child_process import address_of, running_service
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class LoadPlan:
     """What is measured.
 
     Attributes:
@@ -49,8 +49,8 @@ class Plan:
     bodies: int = 20
 
 
-def bench(
-    scans: Sequence[Segments], plan: Plan, seed: int = 0, *, progress: Progress = silent
+def measure_load(
+    scans: Sequence[Segments], plan: LoadPlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
     """Measure all; the report as `placecell bench serve` writes it.
 
@@ -59,13 +59,13 @@ def bench(
     """
     drawn = Segments.concatenate(draw_scans(scans, plan.segments * plan.bodies, seed))
     cases = [
-        Case(MSGPACK, plan.segments, batching=True),
-        Case(JSON, plan.segments, batching=True),
-        Case(MSGPACK, plan.small, batching=True),
-        Case(MSGPACK, plan.small, batching=False),
+        LoadCase(MSGPACK, plan.segments, batching=True),
+        LoadCase(JSON, plan.segments, batching=True),
+        LoadCase(MSGPACK, plan.small, batching=True),
+        LoadCase(MSGPACK, plan.small, batching=False),
     ]
-    library = alone(scans)
-    sent = {case.name: requests(case, drawn, plan.bodies, plan.k) for case in cases}
+    library = measure_library(scans)
+    sent = {case.name: match_requests(case, drawn, plan.bodies, plan.k) for case in cases}
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(cases)), len(cases), "loading the service"):
@@ -95,27 +95,32 @@ def bench(
     }
 
 
-def alone(scans: Sequence[Segments]) -> float:
+def measure_library(scans: Sequence[Segments]) -> float:
     """Segments a second of the default model without the service, points in, descriptors out."""
     extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
-    work = each([scan for scan in scans if len(scan)], extractor.describe)
+    work = work_of([scan for scan in scans if len(scan)], extractor.describe)
     with ThreadPoolExecutor(1) as pool:
-        rate(pool, work, 1, 0.5)
-        return round(float(np.median([rate(pool, work, 1, 1.0) for _ in range(5)])), 1)
+        measure_rate(pool, work, 1, 0.5)
+        return round(float(np.median([measure_rate(pool, work, 1, 1.0) for _ in range(5)])), 1)
 
 
 async def _case(
-    case: Case, sent: tuple[bytes, ...], drawn: Segments, plan: Plan, data_dir: Path, seed: int
+    case: LoadCase,
+    sent: tuple[bytes, ...],
+    drawn: Segments,
+    plan: LoadPlan,
+    data_dir: Path,
+    seed: int,
 ) -> list[dict[str, Any]]:
     environment = {} if case.batching else {"PLACECELL_LIMITS__BATCH": "1"}
     with running_service(data_dir, environment=environment) as address:
-        fill(address, drawn, plan.map_segments, seed)
+        store_map(address, drawn, plan.map_segments, seed)
         host, port = address_of(address)
 
-        async def load(rate: float, seconds: float) -> tuple[Outcome, float]:
-            before = batches(address)
-            outcome = await sent_by_process(Load(host, port, sent, rate, seconds), data_dir)
-            after = batches(address)
+        async def load(rate: float, seconds: float) -> tuple[LoadResult, float]:
+            before = read_batch_counters(address)
+            outcome = await send_from_process(Load(host, port, sent, rate, seconds), data_dir)
+            after = read_batch_counters(address)
             count = after[1] - before[1]
             return outcome, (after[0] - before[0]) / count if count else 0.0
 
@@ -135,7 +140,7 @@ async def _case(
         return rows
 
 
-def _row(case: Case, level: float, offered: float, outcome: Outcome) -> dict[str, Any]:
+def _row(case: LoadCase, level: float, offered: float, outcome: LoadResult) -> dict[str, Any]:
     statuses, times = np.array(outcome.statuses), np.array(outcome.milliseconds)
     good, full = statuses == 200, statuses == 429
     return {
@@ -165,7 +170,7 @@ def percentiles(times: np.ndarray[Any, Any]) -> dict[str, float | None]:
     return dict(zip(("p50", "p95", "p99", "max"), found, strict=True))
 
 
-def batches(address: str) -> tuple[float, float]:
+def read_batch_counters(address: str) -> tuple[float, float]:
     """Requests that went through the model so far, and in how many batches."""
     with urllib.request.urlopen(f"{address}/metrics", timeout=30) as answer:
         text = answer.read().decode()
@@ -177,7 +182,7 @@ def batches(address: str) -> tuple[float, float]:
     return total, count
 
 
-def draw(report: dict[str, Any], file: Path) -> None:
+def draw_load(report: dict[str, Any], file: Path) -> None:
     """Latency and what was answered against what was offered, each case a line, as a PNG."""
     with figure(file, 2, size=5) as (left, right):
         for name in dict.fromkeys(row["case"] for row in report["rows"]):

@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.load.generator import Load, Outcome, sent_by_process
-from benchmarks.load.serve import Plan, percentiles
-from benchmarks.load.workload import Case, fill, requests
+from benchmarks.load.generator import Load, LoadResult, send_from_process
+from benchmarks.load.serve import LoadPlan, percentiles
+from benchmarks.load.workload import LoadCase, match_requests, store_map
 from benchmarks.scans import draw_scans
 from evaluation.figure import figure
 from evaluation.machine import machine
@@ -34,7 +34,7 @@ EXPECTED = {200, 429}
 
 
 @dataclass(frozen=True, slots=True)
-class Soak:
+class SoakPlan:
     """What is done to the service.
 
     Attributes:
@@ -52,16 +52,18 @@ class Soak:
     full: float = 10.0
 
 
-def soak(scans: Sequence[Segments], plan: Soak, seed: int = 0) -> dict[str, Any]:
+def run_soak(scans: Sequence[Segments], plan: SoakPlan, seed: int = 0) -> dict[str, Any]:
     """Run it; the report as `placecell bench soak` writes it."""
-    shape = Plan()
+    shape = LoadPlan()
     drawn = Segments.concatenate(draw_scans(scans, shape.segments * shape.bodies, seed))
-    sent = requests(Case(MSGPACK, shape.segments, batching=True), drawn, shape.bodies, shape.k)
+    sent = match_requests(
+        LoadCase(MSGPACK, shape.segments, batching=True), drawn, shape.bodies, shape.k
+    )
     with (
         tempfile.TemporaryDirectory(prefix="placecell-soak-") as folder,
         running_service(Path(folder)) as address,
     ):
-        fill(address, drawn, shape.map_segments, seed)
+        store_map(address, drawn, shape.map_segments, seed)
         outcome, watched, bad = asyncio.run(_run(address, sent, plan, Path(folder), seed))
     statuses = Counter(outcome.statuses)
     memory = [each["resident_mb"] for each in watched]
@@ -87,10 +89,10 @@ def soak(scans: Sequence[Segments], plan: Soak, seed: int = 0) -> dict[str, Any]
 
 
 async def _run(
-    address: str, sent: tuple[bytes, ...], plan: Soak, folder: Path, seed: int
-) -> tuple[Outcome, list[dict[str, float]], dict[str, Counter[str]]]:
+    address: str, sent: tuple[bytes, ...], plan: SoakPlan, folder: Path, seed: int
+) -> tuple[LoadResult, list[dict[str, float]], dict[str, Counter[str]]]:
     host, port = address_of(address)
-    full = await sent_by_process(Load(host, port, sent, 0, plan.full), folder)
+    full = await send_from_process(Load(host, port, sent, 0, plan.full), folder)
     rate = plan.share * full.statuses.count(200) / full.elapsed
     bad: dict[str, Counter[str]] = {kind: Counter() for kind in BAD}
     watched: list[dict[str, float]] = []
@@ -98,7 +100,9 @@ async def _run(
     async def watch() -> None:
         passed = 0.0
         while True:
-            watched.append({"seconds": passed} | await asyncio.to_thread(look, address))
+            watched.append(
+                {"seconds": passed} | await asyncio.to_thread(read_process_metrics, address)
+            )
             await asyncio.sleep(plan.every)
             passed += plan.every
 
@@ -119,16 +123,18 @@ async def _run(
     for number in range(plan.bad_clients):
         draw = random.Random(seed + number)
         others += [asyncio.create_task(misbehave(kind, draw)) for kind in BAD]
-    outcome = await sent_by_process(Load(host, port, sent, rate, plan.seconds), folder)
+    outcome = await send_from_process(Load(host, port, sent, rate, plan.seconds), folder)
     for other in others:
         other.cancel()
     await asyncio.gather(*others, return_exceptions=True)
     await asyncio.sleep(2 * plan.every)
-    last = {"seconds": plan.seconds + 2 * plan.every} | await asyncio.to_thread(look, address)
+    last = {"seconds": plan.seconds + 2 * plan.every} | await asyncio.to_thread(
+        read_process_metrics, address
+    )
     return outcome, [*watched, last], bad
 
 
-async def dies(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
+async def abort_request(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
     """Leaves in the midst of a request, or of the answer to it."""
     del reader
     writer.write(request[: draw.randrange(1, len(request) + 1)])
@@ -137,7 +143,7 @@ async def dies(reader: Reader, writer: Writer, request: bytes, draw: random.Rand
     return "gone"
 
 
-async def dawdles(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
+async def send_slowly(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
     """Sends a request in ten pieces with pauses."""
     step = -(-len(request) // 10)
     for start in range(0, len(request), step):
@@ -147,7 +153,7 @@ async def dawdles(reader: Reader, writer: Writer, request: bytes, draw: random.R
     return await _status(reader)
 
 
-async def babbles(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
+async def send_garbage(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
     """Sends garbage: no HTTP at all, or a request with some bytes of its body altered."""
     if draw.random() < 0.5:
         writer.write(draw.randbytes(draw.randrange(1, 5000)) + b"\r\n\r\n")
@@ -172,10 +178,10 @@ async def _status(reader: Reader) -> str:
 
 Bad = Callable[[Reader, Writer, bytes, random.Random], Awaitable[str]]
 
-BAD: dict[str, Bad] = {"dies": dies, "dawdles": dawdles, "babbles": babbles}
+BAD: dict[str, Bad] = {"dies": abort_request, "dawdles": send_slowly, "babbles": send_garbage}
 
 
-def look(address: str) -> dict[str, float]:
+def read_process_metrics(address: str) -> dict[str, float]:
     """The service's memory and open file descriptors, by its own account."""
     with urllib.request.urlopen(f"{address}/metrics", timeout=30) as answer:
         lines = answer.read().decode().splitlines()

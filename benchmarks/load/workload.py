@@ -7,8 +7,8 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Client
 
-from benchmarks.load.generator import request_of
-from benchmarks.map_content import map_of
+from benchmarks.load.generator import encode_request
+from benchmarks.synthetic_maps.road_map import road_map
 from placecell.core.segments import Segments
 from placecell.core.types import Int8
 from placecell.descriptors.manifest import Manifest
@@ -17,7 +17,7 @@ from service.api.body.body import MSGPACK
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class LoadCase:
     """A way to ask: encoding, segments a request, and whether requests share batches."""
 
     media_type: str
@@ -31,7 +31,7 @@ class Case:
         return f"{form}, {self.segments} segments" + ("" if self.batching else ", no batching")
 
 
-def requests(case: Case, drawn: Segments, count: int, k: int) -> tuple[bytes, ...]:
+def match_requests(case: LoadCase, drawn: Segments, count: int, k: int) -> tuple[bytes, ...]:
     """So many whole requests to `/match`, each of other segments."""
     bodies = []
     for number in range(count):
@@ -47,18 +47,18 @@ def requests(case: Case, drawn: Segments, count: int, k: int) -> tuple[bytes, ..
         ]
         content = {"segments": segments, "k": k}
         body = msgpack.packb(content) if packed else json.dumps(content).encode()
-        bodies.append(request_of("/match", case.media_type, body))
+        bodies.append(encode_request("/match", case.media_type, body))
     return tuple(bodies)
 
 
-def fill(address: str, drawn: Segments, count: int, seed: int) -> None:
+def store_map(address: str, drawn: Segments, count: int, seed: int) -> None:
     """Store a map: real descriptors, each again and again with some levels changed."""
     with Client(address) as client:
         some = drawn.take(np.arange(min(200, len(drawn))))
         described = client.describe([some.cloud(row) for row in range(len(some))], some.sensors)
         codes = perturbed(described.codes, count, seed)
         manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
-        client.put_map("bench", map_of(codes, manifest, "bench", seed=seed))
+        client.put_map("bench", road_map(codes, manifest, "bench", seed=seed))
 
 
 def perturbed(codes: Int8, count: int, seed: int) -> Int8:

@@ -77,7 +77,7 @@ class Drives:
         return moved(part, pose.rotation, pose.translation, f"stretch {which}")
 
 
-def bench(
+def measure_alignment(
     folder: Path,
     model: Path,
     prepared: Sequence[Path | None] = (None, None),
@@ -118,7 +118,7 @@ def bench(
         "model_id": model_id,
         "machine": machine(),
         "right_within": {"metres": RIGHT[0], "degrees": RIGHT[1]},
-        **summary(rows),
+        **summarize(rows),
         "rows": rows,
     }
 
@@ -153,7 +153,7 @@ def row_of(
     }
 
 
-def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def summarize(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Shares, with 95% bounds."""
     overlapping = [row for row in rows if row["kind"] == "overlapping"]
     groups = {
@@ -185,7 +185,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-def draw(report: dict[str, Any], file: Path) -> None:
+def draw_alignment(report: dict[str, Any], file: Path) -> None:
     """How much agrees, against how much the maps overlap, as a PNG."""
     with figure(file, 1) as (axes,):
         for label, colour, aligned, right in (

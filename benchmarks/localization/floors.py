@@ -16,8 +16,8 @@ import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.edit import take
 
-from benchmarks.map_content import Views, map_of
-from evaluation.machine import machine
+from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
+from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.poses.queries import random_frame
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalisationParameters, Pose
@@ -48,7 +48,7 @@ K = 25
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class FloorCase:
     """A kind of trial.
 
     Attributes:
@@ -78,18 +78,18 @@ class Case:
 
 
 CASES = (
-    Case("two floors"),
-    Case("two floors, eight segments", seen=8),
-    Case("unchanged part only", unchanged=True),
-    Case("unchanged part only, eight segments", unchanged=True, seen=8),
-    Case("five floors", floors=4),
-    Case("five things differ", differing=5),
-    Case("large other map", larger=20.0),
-    Case("large true map", larger=1 / 20),
-    Case("deduplicated maps", views=1),
-    Case("two models", other_model=True),
-    Case("twenty floors", floors=19, things=80),
-    Case("among other buildings", others=30),
+    FloorCase("two floors"),
+    FloorCase("two floors, eight segments", seen=8),
+    FloorCase("unchanged part only", unchanged=True),
+    FloorCase("unchanged part only, eight segments", unchanged=True, seen=8),
+    FloorCase("five floors", floors=4),
+    FloorCase("five things differ", differing=5),
+    FloorCase("large other map", larger=20.0),
+    FloorCase("large true map", larger=1 / 20),
+    FloorCase("deduplicated maps", views=1),
+    FloorCase("two models", other_model=True),
+    FloorCase("twenty floors", floors=19, things=80),
+    FloorCase("among other buildings", others=30),
 )
 
 
@@ -118,12 +118,12 @@ class Trial:
     names_both: bool
 
 
-def bench(
-    views: Sequence[Views],
+def measure_floors(
+    views: Sequence[DescriptorSampler],
     models: Sequence[Model],
     trials: int,
     seed: int = 0,
-    cases: Sequence[Case] = CASES,
+    cases: Sequence[FloorCase] = CASES,
     *,
     progress: Progress = silent,
 ) -> dict[str, Any]:
@@ -134,25 +134,26 @@ def bench(
         models: the same models, loaded.
     """
     done = [
-        run(views, models, cases[number % len(cases)], seed + number)
+        run_trial(views, models, cases[number % len(cases)], seed + number)
         for number in progress(range(trials), trials, "trials")
     ]
-    decided = [each for each in done if decides(each)]
+    decided = [each for each in done if difference_decides(each)]
     return {
         "trials": len(done),
         "wrong_but_sure": sum(each.wrong_but_sure for each in done),
         "wrong": sum(each.wrong for each in done),
         "right": sum(each.right for each in done),
         "ambiguous": sum(each.ambiguous for each in done),
-        "where_the_difference_decides": summary(decided),
+        "where_the_difference_decides": summarize(decided),
         "by_share": {
-            f"{low:.1f} to {low + 0.1:.1f}": summary(
+            f"{low:.1f} to {low + 0.1:.1f}": summarize(
                 [each for each in done if low <= each.share < low + 0.1 + 1e-9 * (low > 0.45)]
             )
             for low in np.arange(0, 0.6, 0.1).round(1).tolist()
         },
         "by_case": {
-            case.name: summary([each for each in done if each.case == case.name]) for case in cases
+            case.name: summarize([each for each in done if each.case == case.name])
+            for case in cases
         },
         "models": [each.id for each in models],
         "machine": machine(),
@@ -165,14 +166,14 @@ DECIDES, LEAST = 0.3, 10
 difference to decide."""
 
 
-def decides(trial: Trial) -> bool:
+def difference_decides(trial: Trial) -> bool:
     """Return whether the robot sees enough of the difference, and scores of one model show it."""
     seen = {case.name: case.seen for case in CASES}.get(trial.case, 0)
     is_enough = trial.differs >= DECIDES and trial.differs * seen >= LEAST
     return is_enough and trial.case != "two models"
 
 
-def summary(trials: Sequence[Trial]) -> dict[str, Any]:
+def summarize(trials: Sequence[Trial]) -> dict[str, Any]:
     """Summarize the trials of each case."""
     count = len(trials)
     return {
@@ -194,7 +195,9 @@ class Floor:
     places: Float64
 
 
-def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) -> Trial:
+def run_trial(
+    views: Sequence[DescriptorSampler], models: Sequence[Model], case: FloorCase, seed: int
+) -> Trial:
     """Draw floors, map them, and localize a robot of the first floor."""
     random = np.random.default_rng(seed)
     share = float(random.uniform(0, 0.6)) if case.differing is None else 0.0
@@ -224,7 +227,7 @@ def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) 
     ]
     fresh += extra * len(floors)
     of_model = [0] + [int(case.other_model)] * (len(floors) - 1)
-    looks = [each.things(fresh, random) for each in views]
+    looks = [each.sample_objects(fresh, random) for each in views]
     # Both orders of the names.
     names = [f"floor-{number:02}" for number in random.permutation(len(floors))]
     maps = [
@@ -251,7 +254,7 @@ def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) 
             if of == number
         )
         if own:
-            codes = each.codes(looks[number], true.things[seen], random)
+            codes = each.sample_views(looks[number], true.things[seen], random)
             groups.append(Group(model, own, codes, here))
     shared = _Shared()
     answers = localise_among(
@@ -262,7 +265,7 @@ def run(views: Sequence[Views], models: Sequence[Model], case: Case, seed: int) 
 
 def _outcome(
     answers: Sequence[InMap],
-    case: Case,
+    case: FloorCase,
     share: float,
     differs: float,
     name: str,
@@ -306,12 +309,17 @@ def _extended(floor: Floor, count: int, first: int, random: np.random.Generator)
 
 
 def _mapped(
-    floor: Floor, views: Views, looks: Float32, times: int, name: str, random: np.random.Generator
+    floor: Floor,
+    views: DescriptorSampler,
+    looks: Float32,
+    times: int,
+    name: str,
+    random: np.random.Generator,
 ) -> CompactMap:
     """Return a map of a floor, with each thing seen `views` times."""
     things = np.repeat(floor.things, times)
-    codes: Int8 = views.codes(looks, things, random)
-    content = map_of(codes, views.manifest, f"robot of {name}", int(random.integers(2**31)))
+    codes: Int8 = views.sample_views(looks, things, random)
+    content = road_map(codes, views.manifest, f"robot of {name}", int(random.integers(2**31)))
     places = np.repeat(floor.places, times, axis=0)
     places = places + random.normal(scale=SCATTER, size=places.shape)
     return replace(content, centroids=places, frame=name)
@@ -335,7 +343,7 @@ class _Shared:
         return self.shared.parts(group.searched, group.searched, group.model.id, quantiser, ())
 
 
-def loaded(folder: Path, names: Sequence[str]) -> list[Model]:
+def load_models(folder: Path, names: Sequence[str]) -> list[Model]:
     """Load the models of a folder as the service loads them."""
     settings = Settings(models_dir=folder, model=names[0], also=tuple(names[1:]))
     models = Models(settings, Metrics())

@@ -8,7 +8,7 @@ from typing import Any
 OWN = ("queries", "right", "wrong but sure", "not localised", "median error", "until localised")
 
 
-def read(folder: Path) -> dict[str, dict[str, Any]]:
+def read_reports(folder: Path) -> dict[str, dict[str, Any]]:
     """By system, its figures: `NAME.json` is a report of ours, `peers*.json` one of many rows."""
     found: dict[str, dict[str, Any]] = {}
     for file in sorted(folder.glob("*.json")):
@@ -18,7 +18,7 @@ def read(folder: Path) -> dict[str, dict[str, Any]]:
     return found
 
 
-def comparison(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Iterator[str]:
+def comparison_table(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Iterator[str]:
     """Markdown: a row a system, a column a case; right and wrong but sure, percent.
 
     Args:
@@ -30,7 +30,7 @@ def comparison(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Iterator[st
         yield line([name, *("" if cell is None else both(cell) for cell in cells)])
 
 
-def in_full(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
+def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
     """Markdown: a row a case, with 95% bounds; what one system reached.
 
     Args:

@@ -8,19 +8,18 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.peers.comparison_folder import ANSWERS, has_answered, prepare_folder
 from benchmarks.peers.exchange import read_answers
 from benchmarks.peers.frames import Stretch, map_poses, near_map, query_poses
-from benchmarks.peers.layout import ANSWERS, answered, lay_out
 from benchmarks.peers.runner import REFINED
-from benchmarks.peers.score import score
-from evaluation.machine import machine
+from benchmarks.peers.score import score_peer
 from evaluation.poses.queries import MAPPED_METRES
 from placecell.segmentation.pipeline import Progress, silent
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def compare(
+def compare_peers(
     mapped: Sequence[Stretch],
     asking: Sequence[Stretch],
     peers: Sequence[str],
@@ -49,18 +48,18 @@ def compare(
     """
     if not python.is_file():
         raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
-    lay_out(folder, mapped, asking, most=most, seed=seed, resume=resume, progress=progress)
+    prepare_folder(folder, mapped, asking, most=most, seed=seed, resume=resume, progress=progress)
     poses, truth = map_poses(mapped), query_poses(asking, most, seed)
     blocks = mapped[0].drive is asking[0].drive
     within = np.full(len(truth), fill_value=True) if blocks else near_map(poses, truth)
     rows = []
     for name in peers:
         systems = [name, name + REFINED] if refine else [name]
-        if not (resume and answered(folder, name, systems, len(truth))):
-            ask(name, folder, python, refine=refine)
+        if not (resume and has_answered(folder, name, systems, len(truth))):
+            run_peer(name, folder, python, refine=refine)
         for system in systems:
             peer, answers = read_answers(folder / ANSWERS / f"{system}.jsonl", len(truth))
-            rows.append(score(peer, answers, truth, within))
+            rows.append(score_peer(peer, answers, truth, within))
     parameters = mapped[0].parameters
     return {
         "rows": rows,
@@ -78,7 +77,7 @@ def compare(
     }
 
 
-def ask(name: str, folder: Path, python: Path, *, refine: bool) -> None:
+def run_peer(name: str, folder: Path, python: Path, *, refine: bool) -> None:
     """Run a peer in its environment.
 
     Raises:

@@ -39,7 +39,7 @@ NOTHING = Estimate(None, float("-inf"), sure=False)
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class PeerAnswer:
     """An estimate, with the time that it took from the local map's points on."""
 
     estimate: Estimate
@@ -94,7 +94,7 @@ def query_files(folder: Path) -> list[Path]:
     return sorted((folder / QUERIES).glob("*.npy"))
 
 
-def write_answers(file: Path, peer: Peer, answers: Iterable[Answer]) -> None:
+def write_answers(file: Path, peer: Peer, answers: Iterable[PeerAnswer]) -> None:
     """A line for the peer, then one a query."""
     with file.open("w") as lines:
         lines.write(json.dumps(asdict(peer)) + "\n")
@@ -110,7 +110,7 @@ def write_answers(file: Path, peer: Peer, answers: Iterable[Answer]) -> None:
             lines.write(json.dumps(row) + "\n")
 
 
-def read_answers(file: Path, queries: int) -> tuple[Peer, list[Answer]]:
+def read_answers(file: Path, queries: int) -> tuple[Peer, list[PeerAnswer]]:
     """What a peer wrote.
 
     Raises:
@@ -126,7 +126,7 @@ def read_answers(file: Path, queries: int) -> tuple[Peer, list[Answer]]:
     return peer, answers
 
 
-def answer_of(row: dict[str, Any]) -> Answer:
+def answer_of(row: dict[str, Any]) -> PeerAnswer:
     """A line's answer.
 
     Raises:
@@ -134,11 +134,11 @@ def answer_of(row: dict[str, Any]) -> Answer:
     """
     milliseconds = float(row["milliseconds"])
     if row["pose"] is None:
-        return Answer(NOTHING, milliseconds)
+        return PeerAnswer(NOTHING, milliseconds)
     pose = np.array(row["pose"], dtype=np.float64)
     if pose.shape != (4, 4) or not np.isfinite(pose).all():
         raise ValueError("a pose is four rows of four finite numbers")
-    return Answer(Estimate(pose, float(row["score"]), bool(row["sure"])), milliseconds)
+    return PeerAnswer(Estimate(pose, float(row["score"]), bool(row["sure"])), milliseconds)
 
 
 def nearest_frame(frames: Sequence[MapFrame], pose: Pose) -> MapFrame:

@@ -57,7 +57,7 @@ def stretches_of_one(
     odd, even = alternate_blocks(drive)
     if not even:
         raise ValueError(f"{drive.folder}: stands still; there is no second block to ask from")
-    parameters = parameters_of(odd + even, within(radius).for_drive(len(drive)))
+    parameters = parameters_of(odd + even, protocol_with_radius(radius).for_drive(len(drive)))
 
     def stretches(blocks: Iterable[range]) -> list[Stretch]:
         return [Stretch(drive, block, parameters, np.eye(4)) for block in blocks]
@@ -76,12 +76,16 @@ def stretches_of_two(
     """
 
     def whole(drive: Drive, to_map: Float64) -> list[Stretch]:
-        return [Stretch(drive, range(len(drive)), within(radius).for_drive(len(drive)), to_map)]
+        return [
+            Stretch(
+                drive, range(len(drive)), protocol_with_radius(radius).for_drive(len(drive)), to_map
+            )
+        ]
 
     return whole(mapped, np.eye(4)), whole(asking, to_map)
 
 
-def within(radius: float | None) -> Parameters:
+def protocol_with_radius(radius: float | None) -> Parameters:
     """Protocol v1, but for the radius of the local maps, if one is given."""
     if radius is None:
         return PROTOCOL_V1
@@ -150,7 +154,7 @@ def frames_of(
     for index in spread(len(frames), most):
         stretch, scan = frames[index]
         turn = turning.uniform(-np.pi, np.pi) if turning else 0.0
-        found.append((stretch, scan, upright(stretch.drive.poses[scan], turn)))
+        found.append((stretch, scan, leveled(stretch.drive.poses[scan], turn)))
     return found
 
 
@@ -168,7 +172,7 @@ def write_frames(folder: Path, frames: Sequence[Frame], progress: Progress) -> N
         np.save(cloud_file(folder, index), transform(to_frame, accumulator.local_map(scan)))
 
 
-def upright(pose: Float64, turn: float = 0.0) -> Float64:
+def leveled(pose: Float64, turn: float = 0.0) -> Float64:
     """A pose (4, 4) with its place and its heading, turned on by an angle in radians; level."""
     heading = np.arctan2(pose[1, 0], pose[0, 0]) + turn
     level = np.eye(4)

@@ -43,7 +43,7 @@ class KissMatcherPeer:
 
     def learn(self, frames: Sequence[MapFrame]) -> None:
         """Take in the map."""
-        self.frames = frames if self.parameters.candidates else [whole(frames)]
+        self.frames = frames if self.parameters.candidates else [merged_frames(frames)]
         self.contexts = ScanContexts([frame.cloud for frame in self.frames])
 
     def locate(self, cloud: Cloud) -> Estimate:
@@ -73,7 +73,7 @@ def transform_of(solution: kiss_matcher.RegistrationSolution) -> Pose:
     return transform
 
 
-def whole(frames: Sequence[MapFrame]) -> MapFrame:
+def merged_frames(frames: Sequence[MapFrame]) -> MapFrame:
     """All frames of the map as one, in the map's frame."""
     clouds = [frame.cloud @ frame.pose[:3, :3].T + frame.pose[:3, 3] for frame in frames]
     return MapFrame(np.eye(4), np.concatenate(clouds).astype(np.float32))

@@ -18,11 +18,11 @@ from rich.console import Console
 from rich.progress import track
 
 from benchmarks.peers.exchange import (
-    Answer,
     Cloud,
     Estimate,
     MapFrame,
     Peer,
+    PeerAnswer,
     query_files,
     read_map,
     write_answers,
@@ -72,7 +72,7 @@ def open_peer(name: str) -> Locator:
     return ScanContextPeer(ScanContextParameters(**settings))
 
 
-def run(
+def run_locator(
     name: Annotated[str, typer.Argument(help=f"One of {', '.join(PEERS)}.")],
     folder: Annotated[Path, typer.Argument(help="With the map and the queries.")],
     answers: Annotated[Path, typer.Argument(help="Folder for PEER.jsonl.")],
@@ -94,11 +94,11 @@ def run(
         started = time.perf_counter()
         estimate = locator.locate(cloud)
         spent = 1000 * (time.perf_counter() - started)
-        plain.append(Answer(estimate, spent))
+        plain.append(PeerAnswer(estimate, spent))
         if refine:
             started = time.perf_counter()
-            estimate = fine(estimate, cloud, frames)
-            refined.append(Answer(estimate, spent + 1000 * (time.perf_counter() - started)))
+            estimate = refine_estimate(estimate, cloud, frames)
+            refined.append(PeerAnswer(estimate, spent + 1000 * (time.perf_counter() - started)))
     peer = Peer(name, asdict(locator.parameters), versions(), learning)
     answers.mkdir(parents=True, exist_ok=True)
     write_answers(answers / f"{name}.jsonl", peer, plain)
@@ -107,7 +107,7 @@ def run(
         write_answers(answers / f"{peer.name}.jsonl", peer, refined)
 
 
-def fine(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
+def refine_estimate(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
     """The estimate with its pose refined."""
     from benchmarks.peers.refinement import refine
 
@@ -126,4 +126,4 @@ def versions() -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    typer.run(run)
+    typer.run(run_locator)

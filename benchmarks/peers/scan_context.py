@@ -63,7 +63,7 @@ def distances(query: Context, candidate: Context) -> Context:
     between columns, averaged (equations 5 and 6); columns that are empty in either say nothing and
     are left out, as in the authors' program.
     """
-    query, candidate = columns(query), columns(candidate)
+    query, candidate = unit_columns(query), unit_columns(candidate)
     cosines = query.T @ candidate
     both = np.outer(query.any(axis=0), candidate.any(axis=0))
     sectors = np.arange(query.shape[1])
@@ -74,14 +74,14 @@ def distances(query: Context, candidate: Context) -> Context:
     return np.asarray(1 - similarity / np.maximum(compared, 1))
 
 
-def columns(context: Context) -> Context:
+def unit_columns(context: Context) -> Context:
     """Columns at length 1; empty ones stay empty."""
     lengths = np.linalg.norm(context, axis=0)
     return np.asarray(context / np.where(lengths > 0, lengths, 1))
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FrameMatch:
     """A frame of the map that looks like the query.
 
     Attributes:
@@ -105,7 +105,7 @@ class ScanContexts:
         self.contexts = [scan_context(cloud, parameters) for cloud in clouds]
         self.keys = cKDTree(np.stack([ring_key(context) for context in self.contexts]))
 
-    def find(self, cloud: Cloud) -> list[Found]:
+    def find(self, cloud: Cloud) -> list[FrameMatch]:
         """Frames that look like a local map, the most alike first (section III-D)."""
         query = scan_context(cloud, self.parameters)
         count = min(self.parameters.candidates, len(self.contexts))
@@ -113,11 +113,11 @@ class ScanContexts:
         found = [self.compare(query, int(frame)) for frame in nearest]
         return sorted(found, key=lambda one: one.distance)
 
-    def compare(self, query: Context, frame: int) -> Found:
+    def compare(self, query: Context, frame: int) -> FrameMatch:
         """A frame at its best angle."""
         apart = distances(query, self.contexts[frame])
         best = int(apart.argmin())
-        return Found(frame, float(apart[best]), 2 * np.pi * best / self.parameters.sectors)
+        return FrameMatch(frame, float(apart[best]), 2 * np.pi * best / self.parameters.sectors)
 
 
 class ScanContextPeer:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers.exchange import Answer, Peer
+from benchmarks.peers.exchange import Peer, PeerAnswer
 from evaluation.poses.report import OFF, Outcome, median, shares
 from placecell.core.types import Bool, Float64
 from placecell.localization import Pose
@@ -29,7 +29,9 @@ class Scored:
         return off and bool(np.isfinite(self.outcome.metres))
 
 
-def score(peer: Peer, answers: Sequence[Answer], truth: Float64, mapped: Bool) -> dict[str, Any]:
+def score_peer(
+    peer: Peer, answers: Sequence[PeerAnswer], truth: Float64, mapped: Bool
+) -> dict[str, Any]:
     """A peer's figures; and, so that they do not hang on its rule alone, what other rules give.
 
     Args:
@@ -60,7 +62,7 @@ def score(peer: Peer, answers: Sequence[Answer], truth: Float64, mapped: Bool) -
     }
 
 
-def outcome_of(answer: Answer, true: Float64, *, mapped: bool) -> Outcome:
+def outcome_of(answer: PeerAnswer, true: Float64, *, mapped: bool) -> Outcome:
     """An answer as if it were ours.
 
     What a peer's own rule accepts is as good as certain, all else not localised.

@@ -18,7 +18,9 @@ from placecell.segmentation.recording import Recording
 PRODUCT_BYTES = (8, 16, 32, 64)
 
 
-def ladder(extractor: Extractor, recording: Recording, scans: tuple[int, int]) -> dict[str, Any]:
+def measure_compression(
+    extractor: Extractor, recording: Recording, scans: tuple[int, int]
+) -> dict[str, Any]:
     """Measure every way to store a model's descriptors.
 
     Args:
@@ -43,7 +45,7 @@ def ladder(extractor: Extractor, recording: Recording, scans: tuple[int, int]) -
     rows = [
         {"storage": name, "bytes": size, "shipped": name == "as shipped"}
         | retrieval(stored, segments, groups)
-        for name, size, stored in stored_as(found, tested, fitted, shipped)
+        for name, size, stored in storage_formats(found, tested, fitted, shipped)
     ]
     return {
         "rows": rows,
@@ -57,7 +59,7 @@ def ladder(extractor: Extractor, recording: Recording, scans: tuple[int, int]) -
     }
 
 
-def stored_as(
+def storage_formats(
     found: Float32, tested: Bool, fitted: Bool, shipped: Quantiser
 ) -> Iterator[tuple[str, float, Float32]]:
     """Each way's name, its bytes a segment, and the tested descriptors as it gives them back."""
@@ -83,7 +85,7 @@ def stored_as(
             yield f"product, {size} parts", size, np.asarray(back)
 
 
-def draw(report: dict[str, Any], file: Path) -> None:
+def draw_compression(report: dict[str, Any], file: Path) -> None:
     """Recognition against bytes, as a PNG."""
     with figure(file, 2, size=4) as axes:
         for axis, key in zip(axes, ("top1", "recall_at_25"), strict=True):

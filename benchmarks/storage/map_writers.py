@@ -13,14 +13,15 @@ import numpy as np
 from placecell_client import Client, Delta, encode
 
 from benchmarks.load.serve import percentiles
-from benchmarks.map_content import Views, map_of
+from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
+from benchmarks.synthetic_maps.road_map import road_map
 
 MAP = "site"
 OTHER = "other"
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class MapsPlan:
     """What is measured.
 
     Attributes:
@@ -49,21 +50,21 @@ class Plan:
 
 
 @contextmanager
-def writing(
-    client: Client, views: Views, plan: Plan, count: int, seed: int
+def writing_robots(
+    client: Client, views: DescriptorSampler, plan: MapsPlan, count: int, seed: int
 ) -> Iterator[dict[str, Any]]:
     """Upsert and upload until the block ends; then the figures are filled in."""
     done, written = threading.Event(), dict[str, Any]()
     random = np.random.default_rng(seed)
-    fresh = views.draw(plan.upload, 1, seed + 1).codes
-    others = [encode(map_of(np.roll(fresh, shift, 0), views.manifest, "bob")) for shift in (0, 1)]
+    fresh = views.sample_map(plan.upload, 1, seed + 1).codes
+    others = [encode(road_map(np.roll(fresh, shift, 0), views.manifest, "bob")) for shift in (0, 1)]
     fewer = plan.upserts // 10
 
     def upsert(number: int) -> None:
         # Half of them are there already, half are new.
         ids = np.unique(random.integers(count, size=fewer // 2))
         ids = np.append(ids, count + number * fewer + np.arange(fewer - len(ids)))
-        drawn = map_of(fresh[random.integers(len(fresh), size=fewer)], views.manifest, "ann")
+        drawn = road_map(fresh[random.integers(len(fresh), size=fewer)], views.manifest, "ann")
         changed = replace(drawn, ids=ids.astype(np.uint32))
         client.edit_map(MAP, Delta(changed, np.zeros(0, np.uint32)))
 
@@ -97,19 +98,19 @@ def writing(
 
 
 @contextmanager
-def rebuilding(
-    client: Client, views: Views, data: Path, count: int, seed: int
+def index_rebuilds(
+    client: Client, views: DescriptorSampler, data: Path, count: int, seed: int
 ) -> Iterator[set[int]]:
     """Replace so much of the map, again and again, that its index is made anew; when it was."""
     done, rebuilt = threading.Event(), set[int]()
     random = np.random.default_rng(seed)
     many = max(6_000, count // 16)
-    fresh = views.draw(many, 1, seed + 2).codes
+    fresh = views.sample_map(many, 1, seed + 2).codes
 
     def replace_many() -> None:
         while not done.wait(1.0):
             ids = np.unique(random.integers(count, size=many)).astype(np.uint32)
-            drawn = map_of(fresh[: len(ids)], views.manifest, "ann")
+            drawn = road_map(fresh[: len(ids)], views.manifest, "ann")
             client.edit_map(MAP, Delta(replace(drawn, ids=ids), np.zeros(0, np.uint32)))
             # The service keeps each map's base on disk whenever it has made a new one.
             rebuilt.update(file.stat().st_mtime_ns for file in (data / "cache").glob("*.cache"))

@@ -16,11 +16,12 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from placecell_client import Client, Description, encode
 
-from benchmarks.load.generator import Load, request_of, sent_by_process
+from benchmarks.load.generator import Load, encode_request, send_from_process
 from benchmarks.load.serve import percentiles
-from benchmarks.load.soak import look
-from benchmarks.map_content import Content, Views, map_of
-from benchmarks.storage.map_writers import MAP, Plan, rebuilding, writing
+from benchmarks.load.soak import read_process_metrics
+from benchmarks.storage.map_writers import MAP, MapsPlan, index_rebuilds, writing_robots
+from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler, SampledMap
+from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.figure import figure
 from evaluation.machine import machine
 from placecell.core.types import Int64
@@ -31,19 +32,20 @@ from service.api.body.body import MSGPACK
 from service.child_process import Service, address_of, running_service
 
 
-def bench(
-    views: Views, plan: Plan, seed: int = 0, *, progress: Progress = silent
+def measure_maps(
+    views: DescriptorSampler, plan: MapsPlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
     """Measure all; the report as `placecell bench maps` writes it."""
-    ten_thousand = views.draw(10_000, 1, seed).codes
+    ten_thousand = views.sample_map(10_000, 1, seed).codes
     rows = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
-            content = views.draw(plan.sizes[number], plan.asked, seed)
+            content = views.sample_map(plan.sizes[number], plan.asked, seed)
             rows.append(_row(views, content, plan, Path(folder) / str(number), seed))
     return {
         "rows": rows,
-        "file_bytes_per_segment": len(encode(map_of(ten_thousand, views.manifest, "ann"))) / 10_000,
+        "file_bytes_per_segment": len(encode(road_map(ten_thousand, views.manifest, "ann")))
+        / 10_000,
         "model_id": views.manifest.model_id,
         "default": DEFAULT_MODEL,
         "machine": machine(),
@@ -52,12 +54,14 @@ def bench(
     }
 
 
-def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> dict[str, Any]:
-    file = encode(map_of(content.codes, views.manifest, "ann", seed=seed))
+def _row(
+    views: DescriptorSampler, content: SampledMap, plan: MapsPlan, data: Path, seed: int
+) -> dict[str, Any]:
+    file = encode(road_map(content.codes, views.manifest, "ann", seed=seed))
     row: dict[str, Any] = {"segments": len(content.codes)}
     row["start_empty_s"] = round(_start(data, plan.starts), 3)
     with running_service(data) as address, Client(address, timeout=120) as client:
-        empty = look(address)["resident_mb"]
+        empty = read_process_metrics(address)["resident_mb"]
         started = time.perf_counter()
         client.put_map(MAP, file)
         spent = time.perf_counter() - started
@@ -65,8 +69,8 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
         row |= _recognised(client, content)
         idle = asyncio.run(_asked(address, content, plan, data))
         row |= {f"idle_match_50_{key}_ms": idle[key] for key in ("p50", "p99")}
-        row["memory_mb"] = round(look(address)["resident_mb"] - empty, 1)
-        row["process_mb"] = look(address)["resident_mb"]
+        row["memory_mb"] = round(read_process_metrics(address)["resident_mb"] - empty, 1)
+        row["process_mb"] = read_process_metrics(address)["resident_mb"]
     row["disk_bytes_per_segment"] = round(_bytes(data) / len(content.codes), 1)
     row["start_cache_s"] = round(_start(data, plan.starts) - row["start_empty_s"], 3)
     for cached in (data / "cache").glob("*"):
@@ -75,40 +79,47 @@ def _row(views: Views, content: Content, plan: Plan, data: Path, seed: int) -> d
     with Service(data) as service:
         address = service.address()
         row |= _written_to(address, views, content, plan, data, seed)
-        row["memory_mb_after_writes"] = round(look(address)["resident_mb"] - empty, 1)
+        row["memory_mb_after_writes"] = round(
+            read_process_metrics(address)["resident_mb"] - empty, 1
+        )
         row["peak_mb"] = service.peak_mb()
     return row
 
 
 def _written_to(
-    address: str, views: Views, content: Content, plan: Plan, data: Path, seed: int
+    address: str,
+    views: DescriptorSampler,
+    content: SampledMap,
+    plan: MapsPlan,
+    data: Path,
+    seed: int,
 ) -> dict[str, Any]:
     """What is answered while robots write, and while the index is made anew."""
     row: dict[str, Any] = {}
     with Client(address, timeout=120) as client:
-        with writing(client, views, plan, len(content.codes), seed) as written:
+        with writing_robots(client, views, plan, len(content.codes), seed) as written:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
         row |= written
-        with rebuilding(client, views, data, len(content.codes), seed) as rebuilt:
+        with index_rebuilds(client, views, data, len(content.codes), seed) as rebuilt:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"rebuilding_match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
         row["rebuilds"] = len(rebuilt)
     return row
 
 
-def _recognised(client: Client, content: Content) -> dict[str, float]:
+def _recognised(client: Client, content: SampledMap) -> dict[str, float]:
     """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
     model = client.info().model
     exact = _by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
     found = []
-    for start in range(0, len(content.asked), 500):
-        codes = content.asked[start : start + 500]
+    for start in range(0, len(content.query_codes), 500):
+        codes = content.query_codes[start : start + 500]
         nothing = np.zeros((len(codes), 0), np.float32)
         asked = Description(model["model_id"], codes, nothing, np.zeros((len(codes), 3)), {})
         for candidates in client.match(asked, maps=[MAP], k=25).queries:
             assert isinstance(candidates, tuple)
-            found.append(content.things[[candidate.id for candidate in candidates]])
+            found.append(content.objects[[candidate.id for candidate in candidates]])
     ours = np.array(found)
     recall, best = _shares(ours, content), _shares(exact, content)
     return {
@@ -119,37 +130,39 @@ def _recognised(client: Client, content: Content) -> dict[str, float]:
     }
 
 
-def _by_comparing_all(content: Content, quantiser: Quantiser) -> Int64:
+def _by_comparing_all(content: SampledMap, quantiser: Quantiser) -> Int64:
     """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
-    nearest = faiss.ResultHeap(len(content.asked), 25)
-    asked = quantiser.levels(content.asked).astype(np.float32)
+    nearest = faiss.ResultHeap(len(content.query_codes), 25)
+    asked = quantiser.levels(content.query_codes).astype(np.float32)
     for start in range(0, len(content.codes), 100_000):
         some = quantiser.levels(content.codes[start : start + 100_000]).astype(np.float32)
         distances, rows = faiss.knn(asked, some, 25)
         nearest.add_result(distances, rows + start)
     nearest.finalize()
-    return np.asarray(content.things[nearest.I])
+    return np.asarray(content.objects[nearest.I])
 
 
-def _shares(things: Int64, content: Content) -> float:
-    return float((things == content.asked_things[:, None]).any(axis=1).mean())
+def _shares(things: Int64, content: SampledMap) -> float:
+    return float((things == content.query_objects[:, None]).any(axis=1).mean())
 
 
-async def _asked(address: str, content: Content, plan: Plan, folder: Path) -> dict[str, float]:
+async def _asked(
+    address: str, content: SampledMap, plan: MapsPlan, folder: Path
+) -> dict[str, float]:
     """Milliseconds of `/match` from descriptors, asked on schedule by another process."""
     bodies = [
         msgpack.packb(
             {
                 "model_id": content.model_id,
-                "codes": content.asked[start : start + plan.queries].tobytes(),
+                "codes": content.query_codes[start : start + plan.queries].tobytes(),
                 "maps": [MAP],
                 "k": plan.k,
             }
         )
-        for start in range(0, len(content.asked) - plan.queries + 1, plan.queries)
+        for start in range(0, len(content.query_codes) - plan.queries + 1, plan.queries)
     ]
-    sent = tuple(request_of("/match", MSGPACK, body) for body in bodies)
-    outcome = await sent_by_process(
+    sent = tuple(encode_request("/match", MSGPACK, body) for body in bodies)
+    outcome = await send_from_process(
         Load(*address_of(address), sent, plan.rate, plan.seconds), folder
     )
     good = np.array(outcome.statuses) == 200
@@ -173,7 +186,7 @@ def _bytes(folder: Path) -> int:
     return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
 
 
-def draw(report: dict[str, Any], file: Path) -> None:
+def draw_maps(report: dict[str, Any], file: Path) -> None:
     """What maps cost against their size, as a PNG."""
     rows = report["rows"]
     sizes = [row["segments"] for row in rows]

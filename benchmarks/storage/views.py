@@ -18,7 +18,7 @@ KEPT = (1, 2, 3, 4, 6, 8, 12)
 """Views of a thing, at most."""
 
 
-def views(
+def measure_views(
     extractor: Extractor, recording: Recording, scans: tuple[int, int], seed: int
 ) -> dict[str, Any]:
     """Store a drive's segments with so many views of each thing, and look for all of them.

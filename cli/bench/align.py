@@ -32,16 +32,15 @@ def align(
     Through the service's own code, in this process. Right is within 0.5 m and 1 degree, in the
     middle of what both maps have.
     """
-    from benchmarks.localization.align import bench as run
-    from benchmarks.localization.align import draw
+    from benchmarks.localization.align import draw_alignment, measure_alignment
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         folder = model_folder(model or DEFAULT_MODEL)
-        report = run(town, folder, (recording_a, recording_b), show)
+        report = measure_alignment(town, folder, (recording_a, recording_b), show)
         write_json(report, json_file)
         if plot:
-            draw(report, plot)
+            draw_alignment(report, plot)
     print_report(report)
 
 

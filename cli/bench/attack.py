@@ -39,8 +39,7 @@ def attack(
     write is gone, or if the service answers other than it must. Ends with status 1 if a case
     failed.
     """
-    from benchmarks.attack.suite import AttackPlan, failures
-    from benchmarks.attack.suite import attack as run
+    from benchmarks.attack.suite import AttackPlan, failures, run_attacks
 
     def tell(name: str, result: dict[str, Any]) -> None:
         outcome = "held" if result["held"] else "FAILED"
@@ -52,7 +51,7 @@ def attack(
 
     with clear_errors():
         plan = AttackPlan(tuple(case or ()), short, memory_limit_mb, victim_seconds, seed)
-        report = run(plan, progress=show, told=tell)
+        report = run_attacks(plan, progress=show, told=tell)
         write_json(report, json_file)
     typer.echo(f"{report['held']} cases held, {report['failed']} failed, {report['seconds']:.0f} s")
     for line in failures(report):

@@ -21,11 +21,11 @@ def crash(
     every version of every map is held against what was acknowledged. Ends with status 1 if one is
     not there, or a map was ever seen that never was.
     """
-    from benchmarks.durability.crash import crash as run
-    from benchmarks.durability.crasher import Plan
+    from benchmarks.durability.crash import run_crashes
+    from benchmarks.durability.crasher import CrashPlan
 
     with clear_errors():
-        report = run(Plan(kills=kills, writers=writers), seed, progress=show)
+        report = run_crashes(CrashPlan(kills=kills, writers=writers), seed, progress=show)
         write_json(report, json_file)
     starts = report["restart_seconds"]
     typer.echo(

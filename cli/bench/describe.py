@@ -37,17 +37,16 @@ def describe(
 
         placecell bench describe --json figures.json --plot speed.png
     """
-    from benchmarks.load.describe import Plan, draw
-    from benchmarks.load.describe import bench as run
+    from benchmarks.load.describe import DescribePlan, draw_accuracy_speed, measure_inference
 
     with clear_errors():
         some, name = scans_from(segments, output, seed)
-        plan = Plan(repeats=repeats, seconds=seconds)
-        report = run(some, output, plan, seed, progress=show)
+        plan = DescribePlan(repeats=repeats, seconds=seconds)
+        report = measure_inference(some, output, plan, seed, progress=show)
         report["source"] = name
         write_json(report, json_file)
         if plot:
-            draw(report, plot)
+            draw_accuracy_speed(report, plot)
     print_report(report)
 
 

@@ -19,11 +19,10 @@ def fleet(
     Each edits segments of its own and pulls what the others changed. Ends with status 1 unless all
     end with the same map, byte for byte, that holds what was acknowledged and nothing else.
     """
-    from benchmarks.durability.fleet import Plan
-    from benchmarks.durability.fleet import fleet as run
+    from benchmarks.durability.fleet import FleetPlan, run_fleet
 
     with clear_errors():
-        report = run(Plan(clients=clients, seconds=60 * minutes), seed)
+        report = run_fleet(FleetPlan(clients=clients, seconds=60 * minutes), seed)
         write_json(report, json_file)
     typer.echo(
         f"{report['clients']} robots, {report['edits_acknowledged']:,} edits, "

@@ -26,18 +26,22 @@ def floors(
     by 0.3 m along each axis. Cases: eight segments, only what all floors have, up to twenty floors,
     five things that differ, unequal sizes, deduplicated maps, two models, other buildings.
     """
-    from benchmarks.localization.floors import bench as run
-    from benchmarks.localization.floors import loaded
-    from benchmarks.map_content import Views
+    from benchmarks.localization.floors import load_models, measure_floors
+    from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     names = (DEFAULT_MODEL, OTHER_MODEL)
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)
-        views = [Views.of(load_extractor(MODELS_FOLDER / each), recording, seed) for each in names]
-        models = loaded(MODELS_FOLDER, names)
-        report = run(views, models, trials, seed, progress=show) | {"source": recording.name}
+        views = [
+            DescriptorSampler.from_recording(load_extractor(MODELS_FOLDER / each), recording, seed)
+            for each in names
+        ]
+        models = load_models(MODELS_FOLDER, names)
+        report = measure_floors(views, models, trials, seed, progress=show) | {
+            "source": recording.name
+        }
         write_json(report, json_file)
     print_rows(report)
 

@@ -19,10 +19,10 @@ def json_requests(
 
     The parser of earlier versions is measured in the same run.
     """
-    from benchmarks.load.json_requests import bench as run
+    from benchmarks.load.json_requests import measure_json_requests
 
     with clear_errors():
-        report = run(seconds, seed)
+        report = measure_json_requests(seconds, seed)
         write_json(report, json_file)
     typer.echo(
         f"{report['saturation_ratio']:g} times the requests of {report['baseline']}; "

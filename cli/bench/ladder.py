@@ -29,17 +29,16 @@ def ladder(
     ] = None,
 ) -> None:
     """Measure what each way to store descriptors costs, in bytes and in recognition."""
-    from benchmarks.storage.ladder import draw
-    from benchmarks.storage.ladder import ladder as run
+    from benchmarks.storage.ladder import draw_compression, measure_compression
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         extractor = load_extractor(model_folder(model or DEFAULT_MODEL))
-        report = run(extractor, load(drive), parse_scans(scans))
+        report = measure_compression(extractor, load(drive), parse_scans(scans))
         write_json(report, json_file)
         if plot:
-            draw(report, plot)
+            draw_compression(report, plot)
     print_rows(report)
 
 

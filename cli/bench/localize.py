@@ -34,22 +34,23 @@ def localize(
     Descriptors are those of real segments, each view of a thing with the difference that two real
     segments of one group have.
     """
-    from benchmarks.load.localize import Plan
-    from benchmarks.load.localize import bench as run
-    from benchmarks.map_content import Views
+    from benchmarks.load.localize import LocalizePlan, measure_localize
+    from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)
-        views = Views.of(load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recording, seed)
+        views = DescriptorSampler.from_recording(
+            load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recording, seed
+        )
         sizes: tuple[int, ...] = () if maps else (10_000,)
         if size is not None:
             sizes = tuple(size)
-        plan = Plan(sizes, seconds=seconds)
+        plan = LocalizePlan(sizes, seconds=seconds)
         if maps:
             plan = replace(plan, maps=maps, map_segments=map_size)
-        report = run(views, plan, seed, progress=show) | {"source": recording.name}
+        report = measure_localize(views, plan, seed, progress=show) | {"source": recording.name}
         write_json(report, json_file)
     print_rows(report)
 

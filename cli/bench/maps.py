@@ -32,21 +32,22 @@ def maps(
     The real server over loopback. Descriptors are those of real segments, each view of a thing
     with the difference that two real segments of one group have.
     """
-    from benchmarks.map_content import Views
-    from benchmarks.storage.map_writers import Plan
-    from benchmarks.storage.maps import bench as run
-    from benchmarks.storage.maps import draw
+    from benchmarks.storage.map_writers import MapsPlan
+    from benchmarks.storage.maps import draw_maps, measure_maps
+    from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)
-        views = Views.of(load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recording, seed)
-        plan = Plan(seconds=seconds) if size is None else Plan(tuple(size), seconds=seconds)
-        report = run(views, plan, seed, progress=show) | {"source": recording.name}
+        views = DescriptorSampler.from_recording(
+            load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recording, seed
+        )
+        plan = MapsPlan(seconds=seconds) if size is None else MapsPlan(tuple(size), seconds=seconds)
+        report = measure_maps(views, plan, seed, progress=show) | {"source": recording.name}
         write_json(report, json_file)
         if plot:
-            draw(report, plot)
+            draw_maps(report, plot)
     print_rows(report)
 
 

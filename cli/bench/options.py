@@ -44,7 +44,7 @@ def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 
 
 def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Segments], str]":
     """The segments of each scan, and where they are from."""
-    from benchmarks.scans import scans_of
+    from benchmarks.scans import scans_in
 
     recording = recording_from(segments, output, seed)
-    return scans_of(recording), "synthetic town" if segments is None else segments.stem
+    return scans_in(recording), "synthetic town" if segments is None else segments.stem

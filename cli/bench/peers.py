@@ -59,7 +59,7 @@ def peers(
     and answer in an environment of their own. Times are from a local map's points to the pose, on
     this machine as busy as it is: believe their ratios. A kilometre takes 0.9 GB for local maps.
     """
-    from benchmarks.peers.compare import compare
+    from benchmarks.peers.compare import compare_peers
     from benchmarks.peers.runner import PEERS
 
     with clear_errors():
@@ -67,7 +67,7 @@ def peers(
         if unknown := [name for name in names if name not in PEERS]:
             raise ValueError(f"no peer {unknown[0]!r}; there are {', '.join(PEERS)}")
         mapped, asking = stretches(map_drive, query_drive, radius)
-        report = compare(
+        report = compare_peers(
             mapped,
             asking,
             names,

@@ -24,20 +24,20 @@ def pose_tables(
     json_file: JsonFile = None,
 ) -> None:
     """Write figures of localisation, measured before, as a table in Markdown."""
-    from benchmarks.localization.pose_tables import comparison, in_full, read
+    from benchmarks.localization.pose_tables import comparison_table, full_table, read_reports
 
     with clear_errors():
-        cases = {folder.name: read(folder) for folder in folders}
+        cases = {folder.name: read_reports(folder) for folder in folders}
         if empty := [name for name, figures in cases.items() if not figures]:
             raise ValueError(f"{empty[0]}: holds no figures (*.json)")
         if system is None:
-            lines = list(comparison(cases))
+            lines = list(comparison_table(cases))
         else:
             there = dict.fromkeys(name for figures in cases.values() for name in figures)
             if system not in there:
                 raise ValueError(f"no system {system!r}; there are {', '.join(there)}")
             lines = list(
-                in_full({name: each[system] for name, each in cases.items() if system in each})
+                full_table({name: each[system] for name, each in cases.items() if system in each})
             )
         write_json({"cases": cases}, json_file)
     typer.echo("\n".join(lines))

@@ -23,11 +23,10 @@ def powerloss(
     what chance will, down to single sectors. What is left is opened with the store. Ends with
     status 1 if an acknowledged write is not there, or the maps are of no one moment.
     """
-    from benchmarks.durability.power_loss.power_loss import Plan
-    from benchmarks.durability.power_loss.power_loss import powerloss as run
+    from benchmarks.durability.power_loss.power_cuts import PowerLossPlan, run_power_cuts
 
     with clear_errors():
-        report = run(Plan(writes=writes, cuts=cuts), seed, progress=show)
+        report = run_power_cuts(PowerLossPlan(writes=writes, cuts=cuts), seed, progress=show)
         write_json(report, json_file)
     typer.echo(
         f"{report['power_cuts']:,} power cuts, {report['distinct_disks']:,} different disks: "

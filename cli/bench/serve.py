@@ -26,16 +26,15 @@ def serve(
     to the real server over loopback: 50 segments a request in msgpack and in JSON, and 5 with and
     without batching across requests; from a quarter of what the service bears to twice that.
     """
-    from benchmarks.load.serve import Plan, draw
-    from benchmarks.load.serve import bench as run
+    from benchmarks.load.serve import LoadPlan, draw_load, measure_load
 
     with clear_errors():
         some, name = scans_from(segments, output, seed)
-        report = run(some, Plan(seconds=seconds), seed, progress=show)
+        report = measure_load(some, LoadPlan(seconds=seconds), seed, progress=show)
         report["source"] = name
         write_json(report, json_file)
         if plot:
-            draw(report, plot)
+            draw_load(report, plot)
     print_load(report)
 
 

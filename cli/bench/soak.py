@@ -24,12 +24,11 @@ def soak(
     Some die in the midst of a request, some send slowly, some send garbage. Ends with status 1 if
     any client that behaved got an answer that is not expected.
     """
-    from benchmarks.load.soak import Soak, draw_memory
-    from benchmarks.load.soak import soak as run
+    from benchmarks.load.soak import SoakPlan, draw_memory, run_soak
 
     with clear_errors():
         some, name = scans_from(segments, output, seed)
-        report = run(some, Soak(seconds=60 * minutes), seed)
+        report = run_soak(some, SoakPlan(seconds=60 * minutes), seed)
         report["source"] = name
         write_json(report, json_file)
         if plot:

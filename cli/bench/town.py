@@ -22,9 +22,9 @@ def town(
 
     Processor time of one thread, and what all of the town's streets come to at that rate.
     """
-    from benchmarks.town import bench as run
+    from benchmarks.town import measure_town
 
     with clear_errors():
-        report = run(output / "streets", metres, scans, spacing, seed, show)
+        report = measure_town(output / "streets", metres, scans, spacing, seed, show)
         write_json(report, json_file)
     typer.echo(json.dumps(report, indent=2))

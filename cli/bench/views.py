@@ -23,13 +23,13 @@ def views(
     seed: Seed = 7,
 ) -> None:
     """Measure how many segments a map needs if things are stored once, or from several sides."""
-    from benchmarks.storage.views import views as run
+    from benchmarks.storage.views import measure_views
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 
     with clear_errors():
         extractor = load_extractor(model_folder(model or DEFAULT_MODEL))
-        report = run(extractor, load(drive), parse_scans(scans), seed)
+        report = measure_views(extractor, load(drive), parse_scans(scans), seed)
         write_json(report, json_file)
     print_rows(report)
 

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from benchmarks.attack import suite
 from benchmarks.attack.cases import CASES
-from benchmarks.attack.stage import VICTIM_MAP, Case, Stage
+from benchmarks.attack.stage import VICTIM_MAP, AttackCase, Stage
 from benchmarks.attack.suite import AttackPlan, run_case
 from benchmarks.attack.target import OWNER
 from cli import app
@@ -20,7 +20,7 @@ PLAN = AttackPlan(short=True)
 
 def run_attack(attack: Any, plan: AttackPlan = PLAN) -> dict[str, Any]:
     """Run a case with this attack and return its part of the report."""
-    return run_case(Case("A0", attack, "It holds."), plan)
+    return run_case(AttackCase("A0", attack, "It holds."), plan)
 
 
 def test_every_row_has_a_case() -> None:
@@ -124,7 +124,7 @@ def test_the_command_writes_a_report_and_ends_with_status_1(
         stage.expect(False, "It fails.")
         stage.expect(False, "It fails.")
 
-    cases = (Case("A1", hold, "Held."), Case("A2", fail, "Failed.", in_short=False))
+    cases = (AttackCase("A1", hold, "Held."), AttackCase("A2", fail, "Failed.", in_short=False))
     monkeypatch.setattr(suite, "CASES", cases)
     file = tmp_path / "attack.json"
     command = ["bench", "attack", "--json", str(file)]

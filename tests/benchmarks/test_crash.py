@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.durability.power_loss import power_loss
-from benchmarks.durability.power_loss.power_loss import Plan, replay
-from benchmarks.durability.power_loss.recorded_run import RecordedRun, record
+from benchmarks.durability.power_loss import power_cuts
+from benchmarks.durability.power_loss.power_cuts import PowerLossPlan, replay_power_cuts
+from benchmarks.durability.power_loss.recorded_run import RecordedRun, record_run
 from cli import app
 
 
@@ -58,14 +58,14 @@ def recorded(tiny: None, tmp_path_factory: pytest.TempPathFactory) -> RecordedRu
     tried = subprocess.run(["strace", "-D", "true"], capture_output=True, text=True, check=False)
     if tried.returncode:
         pytest.skip(f"strace cannot watch a process here: {tried.stderr.strip()}")
-    return record(tmp_path_factory.mktemp("run"), writes=16, large=300, seed=1)
+    return record_run(tmp_path_factory.mktemp("run"), writes=16, large=300, seed=1)
 
 
-PLAN = Plan(cuts=30)
+PLAN = PowerLossPlan(cuts=30)
 
 
 def test_nothing_is_lost_when_the_power_fails(recorded: RecordedRun, tmp_path: Path) -> None:
-    tally = replay(recorded, PLAN, random.Random(0), tmp_path / "left")
+    tally = replay_power_cuts(recorded, PLAN, random.Random(0), tmp_path / "left")
     assert tally.told == []
     assert {*tally.results} <= {"good", "landed"}
     assert len(tally.found) > 15
@@ -77,7 +77,7 @@ def test_what_is_not_synced_is_seen_to_be_lost(recorded: RecordedRun, tmp_path: 
         step for step in recorded.steps if not (step.kind == "sync" and step.path.endswith("-wal"))
     ]
     careless = replace(recorded, steps=steps)
-    tally = replay(careless, PLAN, random.Random(0), tmp_path / "left")
+    tally = replay_power_cuts(careless, PLAN, random.Random(0), tmp_path / "left")
     assert tally.results["lost"] > 0
     assert any("were acknowledged" in told for told in tally.told)
 
@@ -85,7 +85,7 @@ def test_what_is_not_synced_is_seen_to_be_lost(recorded: RecordedRun, tmp_path: 
 def test_power_cuts_are_reported(
     tmp_path: Path, recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(power_loss, "record", lambda *_: recorded)
+    monkeypatch.setattr(power_cuts, "record_run", lambda *_: recorded)
     report = report_of(tmp_path / "powerloss.json", "powerloss", "--writes", 16, "--cuts", 3)
     assert report["writes"] == 16
     assert report["power_cuts"] > 0

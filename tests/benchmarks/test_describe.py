@@ -8,8 +8,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.load.describe import Plan, bench, draw, ratio
-from benchmarks.load.networks import files, paper_network, precision
+from benchmarks.load.describe import (
+    DescribePlan,
+    draw_accuracy_speed,
+    measure_inference,
+    rate_ratio,
+)
+from benchmarks.load.networks import networks_of_model, paper_network, precision_of
 from benchmarks.scans import draw_scans
 from cli import app
 from placecell.core.parameters import PROTOCOL_V1
@@ -18,7 +23,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from tests.placecell.segment_builders import many_segments
 
-TINY = Plan(batches=(1, 2), threads=(1, 2), repeats=1, seconds=0.0, segments=6, latencies=3)
+TINY = DescribePlan(batches=(1, 2), threads=(1, 2), repeats=1, seconds=0.0, segments=6, latencies=3)
 SOME = [many_segments([20, 300, 80]), many_segments([50])]
 
 
@@ -29,7 +34,7 @@ def workbench(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def report(workbench: Path) -> dict[str, Any]:
-    return bench(SOME, workbench, TINY, seed=3)
+    return measure_inference(SOME, workbench, TINY, seed=3)
 
 
 def test_report_holds_the_contract(report: dict[str, Any]) -> None:
@@ -93,7 +98,7 @@ def test_without_torch_there_is_no_ratio(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setitem(sys.modules, "torch", None)
     assert paper_network(tmp_path, PROTOCOL_V1, 32, seed=0) == []
     row = {"model": "group", "served": True, "batch": 1, "threads": 1, "segments_per_second": 9.0}
-    assert ratio([row], "group", 1, 1) is None
+    assert rate_ratio([row], "group", 1, 1) is None
 
 
 def test_papers_network_once_exported_needs_no_torch(
@@ -113,9 +118,9 @@ def test_a_quantised_network_beside_the_served_one(tmp_path: Path) -> None:
     manifest = Manifest.load(MODELS_FOLDER / "group")
     manifest.with_files(tmp_path, ["model.onnx", "model-int8.onnx"]).save(tmp_path)
 
-    found = {network.file.name: network for network in files(tmp_path)}
+    found = {network.file.name: network for network in networks_of_model(tmp_path)}
 
-    assert precision(tmp_path / "model.onnx") == "fp32"
+    assert precision_of(tmp_path / "model.onnx") == "fp32"
     assert found["model.onnx"].served
     assert found["model-int8.onnx"].precision == "int8"
     assert not found["model-int8.onnx"].served
@@ -123,13 +128,13 @@ def test_a_quantised_network_beside_the_served_one(tmp_path: Path) -> None:
 
 
 def test_picture(report: dict[str, Any], tmp_path: Path) -> None:
-    draw(report, tmp_path / "new" / "speed.png")
+    draw_accuracy_speed(report, tmp_path / "new" / "speed.png")
     assert (tmp_path / "new" / "speed.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_no_segments_is_said(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="no segment"):
-        bench([Segments.of([], np.zeros((0, 3)))], tmp_path, TINY)
+        measure_inference([Segments.of([], np.zeros((0, 3)))], tmp_path, TINY)
 
 
 def test_scans_are_drawn_whole_and_again_where_they_are_few() -> None:
@@ -148,7 +153,7 @@ def test_command_takes_segments_from_the_town(
     monkeypatch.setattr(
         scans, "town_recording", lambda folder, seed, show, _: shorter(folder, seed, show, 3)
     )
-    monkeypatch.setattr(describe, "Plan", lambda repeats, seconds: TINY)
+    monkeypatch.setattr(describe, "DescribePlan", lambda repeats, seconds: TINY)
     file = workbench / "figures.json"
     words = ["bench", "describe", "--json", file, "--output", workbench, "--seconds", 0]
     result = CliRunner().invoke(app, [str(word) for word in words])

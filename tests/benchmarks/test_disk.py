@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.durability.power_loss.disk import SECTOR, Disk, Keep, write
+from benchmarks.durability.power_loss.disk import SECTOR, Disk, Keep, write_files
 from benchmarks.durability.power_loss.disk_log import Step, steps_of
 
 DRAW = random.Random(0)
@@ -115,7 +115,7 @@ def test_sectors_of_one_write_are_kept_apart() -> None:
 
 
 def test_files_are_put_into_another_folder(tmp_path: Path) -> None:
-    write({"/data/a": b"1", "/data/sub/b": b"2"}, Path("/data"), tmp_path)
+    write_files({"/data/a": b"1", "/data/sub/b": b"2"}, Path("/data"), tmp_path)
     assert (tmp_path / "a").read_bytes() == b"1"
     assert (tmp_path / "sub" / "b").read_bytes() == b"2"
 

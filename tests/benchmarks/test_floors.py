@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.localization.floors import CASES, Case, bench, loaded, run
-from benchmarks.map_content import Views
+from benchmarks.localization.floors import CASES, FloorCase, load_models, measure_floors, run_trial
+from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
 from cli import app
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.inference.model_registry import Model
@@ -19,11 +19,11 @@ NAMES = (DEFAULT_MODEL, "group")
 
 @pytest.fixture(scope="module")
 def models() -> list[Model]:
-    return loaded(MODELS_FOLDER, NAMES)
+    return load_models(MODELS_FOLDER, NAMES)
 
 
 @pytest.fixture(scope="module")
-def views(models: list[Model]) -> list[Views]:
+def views(models: list[Model]) -> list[DescriptorSampler]:
     """Descriptors drawn at random, and views that differ by a third of their spread."""
     random = np.random.default_rng(0)
     drawn = []
@@ -32,14 +32,16 @@ def views(models: list[Model]) -> list[Views]:
         reach = manifest.quantiser.step * manifest.quantiser.highest
         found = random.normal(scale=0.5 * reach, size=(600, manifest.dimension))
         apart = random.normal(scale=0.15 * reach, size=(600, manifest.dimension))
-        drawn.append(Views(manifest, found.astype(np.float32), apart.astype(np.float32)))
+        drawn.append(
+            DescriptorSampler(manifest, found.astype(np.float32), apart.astype(np.float32))
+        )
     return drawn
 
 
 def test_B1_never_sure_of_the_wrong_floor_and_right_where_the_difference_decides(
-    views: list[Views], models: list[Model]
+    views: list[DescriptorSampler], models: list[Model]
 ) -> None:
-    report = bench(views, models, 4 * len(CASES), seed=100)
+    report = measure_floors(views, models, 4 * len(CASES), seed=100)
     assert report["trials"] == 4 * len(CASES)
     assert report["wrong_but_sure"] == 0
     assert sum(row["trials"] for row in report["by_case"].values()) == report["trials"]
@@ -52,9 +54,9 @@ def test_B1_never_sure_of_the_wrong_floor_and_right_where_the_difference_decides
     assert report["by_case"]["unchanged part only"]["names_both"] == 4
 
 
-def test_a_trial_is_the_same_each_time(views: list[Views], models: list[Model]) -> None:
-    case = Case("two floors", things=60, seen=20)
-    assert run(views, models, case, 3) == run(views, models, case, 3)
+def test_a_trial_is_the_same_each_time(views: list[DescriptorSampler], models: list[Model]) -> None:
+    case = FloorCase("two floors", things=60, seen=20)
+    assert run_trial(views, models, case, 3) == run_trial(views, models, case, 3)
 
 
 def test_the_command_writes_its_report(tmp_path: Path) -> None:

@@ -1,8 +1,8 @@
-from benchmarks.load.json_requests import bench
+from benchmarks.load.json_requests import measure_json_requests
 
 
 def test_the_report_names_its_baseline_and_has_both_readers() -> None:
-    report = bench(seconds=0.1)
+    report = measure_json_requests(seconds=0.1)
     assert set(report["rows"]) == {"baseline", "compiled"}
     assert report["saturation_ratio"] > 0
     assert report["longest_pause_ms"] > 0

@@ -9,9 +9,10 @@ import pytest
 from placecell_client import decode, encode
 from typer.testing import CliRunner
 
-from benchmarks.map_content import VIEWS, Views, map_of
 from benchmarks.storage import ladder as ladders
-from benchmarks.storage.ladder import draw, ladder, stored_as
+from benchmarks.storage.ladder import draw_compression, measure_compression, storage_formats
+from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
+from benchmarks.synthetic_maps.road_map import road_map
 from cli import app
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float32
@@ -56,7 +57,8 @@ def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
     found = clouds(600)
     asked = np.arange(600) < 100
     steps = {
-        name: (size, back) for name, size, back in stored_as(found, asked, ~asked, Quantiser(0.05))
+        name: (size, back)
+        for name, size, back in storage_formats(found, asked, ~asked, Quantiser(0.05))
     }
     assert {name: size for name, (size, _) in steps.items()} == {
         "float32": 32, "float16": 16, "255 levels": 8, "15 levels": 4, "4 levels": 2,
@@ -69,19 +71,19 @@ def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
 
 def test_the_report_has_a_row_for_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladders, "PRODUCT_BYTES", (7,))
-    report = ladder(EIGENVALUE, recorded(300), (150, 299))
+    report = measure_compression(EIGENVALUE, recorded(300), (150, 299))
     assert report["segments"] == 8 * 150
     assert report["fitted_to"] == 8 * 150
     rows = {row["storage"]: row for row in report["rows"]}
     assert rows["as shipped"]["bytes"] == 7
     assert rows["product, 7 parts"]["top1"] == pytest.approx(rows["float32"]["top1"], abs=0.3)
-    draw(report, tmp_path / "ladder.png")
+    draw_compression(report, tmp_path / "ladder.png")
     assert (tmp_path / "ladder.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_too_few_segments_are_refused() -> None:
     with pytest.raises(ValueError, match="1,000 are needed"):
-        ladder(EIGENVALUE, recorded(20), (10, 19))
+        measure_compression(EIGENVALUE, recorded(20), (10, 19))
 
 
 def test_the_command_tells_and_writes(tmp_path: Path) -> None:
@@ -94,22 +96,22 @@ def test_the_command_tells_and_writes(tmp_path: Path) -> None:
 
 
 def test_views_of_a_thing_differ_as_those_of_one_group_do() -> None:
-    views = Views.of(EIGENVALUE, recorded_from_two_places(), seed=0)
+    views = DescriptorSampler.from_recording(EIGENVALUE, recorded_from_two_places(), seed=0)
     assert len(views.found) == 16
     assert 700 < len(views.apart) < 900  # half of the pairs
-    content = views.draw(1000, 50, seed=1)
-    assert np.bincount(content.things).tolist() == [VIEWS] * 250
-    assert len(np.unique(content.asked_things)) == 50
+    content = views.sample_map(1000, 50, seed=1)
+    assert np.bincount(content.objects).tolist() == [VIEWS] * 250
+    assert len(np.unique(content.query_objects)) == 50
     # More things than there are groups, and none of their views alike.
     assert len(np.unique(content.codes, axis=0)) > 900
-    np.testing.assert_array_equal(content.codes, views.draw(1000, 50, seed=1).codes)
+    np.testing.assert_array_equal(content.codes, views.sample_map(1000, 50, seed=1).codes)
     with pytest.raises(ValueError, match="5 m apart"):
-        Views.of(EIGENVALUE, recorded(), seed=0)
+        DescriptorSampler.from_recording(EIGENVALUE, recorded(), seed=0)
 
 
 def test_a_made_map_is_small_and_valid() -> None:
     manifest = load_extractor(MODELS_FOLDER / DEFAULT_MODEL).manifest
     codes = np.zeros((10_000, manifest.code_bytes), np.int8)
-    file = encode(map_of(codes, manifest, "ann"))
+    file = encode(road_map(codes, manifest, "ann"))
     assert len(file) / 10_000 < 48
     assert len(decode(file)) == 10_000

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from benchmarks.load import serve, soak, workload
-from benchmarks.load.generator import Load, Outcome, request_of, run
-from benchmarks.load.rates import rate
+from benchmarks.load.generator import Load, LoadResult, encode_request, send_load
+from benchmarks.load.rates import measure_rate
 from placecell.core.segments import Segments
 
 
@@ -29,7 +29,7 @@ def scans(count: int) -> list[Segments]:
     return made
 
 
-async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> Outcome:
+async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> LoadResult:
     """What the generator finds of a server that answers so."""
 
     async def serve_one(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
@@ -40,7 +40,7 @@ async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> Outco
 
     server = await asyncio.start_server(serve_one, "127.0.0.1", 0)
     host, port = server.sockets[0].getsockname()
-    outcome = await run(Load(host, port, (request_of("/x", "a/b", b"end"),), **load))
+    outcome = await send_load(Load(host, port, (encode_request("/x", "a/b", b"end"),), **load))
     server.close()
     await asyncio.sleep(0.05)
     return outcome
@@ -81,7 +81,7 @@ def test_without_a_rate_clients_wait_for_their_answers() -> None:
 
 
 def test_a_connection_that_fails_is_told() -> None:
-    outcome = asyncio.run(run(Load("127.0.0.1", 1, (b"x",), 20, 0.1)))
+    outcome = asyncio.run(send_load(Load("127.0.0.1", 1, (b"x",), 20, 0.1)))
     assert outcome.statuses == [0, 0]
 
 
@@ -89,12 +89,12 @@ def test_a_short_run_against_the_real_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        serve, "rate", lambda pool, work, threads, _: rate(pool, work, threads, 0.1)
+        serve, "rate", lambda pool, work, threads, _: measure_rate(pool, work, threads, 0.1)
     )
-    plan = serve.Plan(
+    plan = serve.LoadPlan(
         segments=10, small=2, map_segments=200, levels=(0.5, 3.0), seconds=0.5, bodies=3
     )
-    report = serve.bench(scans(4), plan)
+    report = serve.measure_load(scans(4), plan)
     assert len(report["rows"]) == 8
     for row in report["rows"]:
         assert not row["failed"]
@@ -102,12 +102,12 @@ def test_a_short_run_against_the_real_service(
         assert {"decode", "queue", "infer", "search", "encode"} <= set(row["stages"])
     assert report["saturation_segments_per_second"] > 0
     assert report["match_50_p99_ms_at_half_saturation"] > 0
-    serve.draw(report, tmp_path / "serve.png")
+    serve.draw_load(report, tmp_path / "serve.png")
     assert (tmp_path / "serve.png").stat().st_size > 1000
 
 
 def test_a_short_soak(tmp_path: Path) -> None:
-    report = soak.soak(scans(4), soak.Soak(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
+    report = soak.run_soak(scans(4), soak.SoakPlan(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
     assert report["unexpected"] == 0
     told = {status for each in report["bad_clients"].values() for status in each}
     assert told <= {"gone", "200", "400", "413", "415", "422", "429"}

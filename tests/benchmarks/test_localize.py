@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.load import localize
-from benchmarks.load.localize import Plan, road_with_queries
-from benchmarks.map_content import VIEWS, Views
+from benchmarks.load.localize import LocalizePlan, road_with_queries
+from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
 from cli import app
 from evaluation.poses.queries import random_frame
 from placecell.descriptors.extractor import load_extractor
@@ -18,10 +18,10 @@ from tests.benchmarks.test_ladder import recorded_from_two_places
 
 
 def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def small(sizes: tuple[int, ...], seconds: float) -> Plan:
-        return Plan(sizes, requests=5, rate=5, seconds=seconds)
+    def small(sizes: tuple[int, ...], seconds: float) -> LocalizePlan:
+        return LocalizePlan(sizes, requests=5, rate=5, seconds=seconds)
 
-    monkeypatch.setattr(localize, "Plan", small)
+    monkeypatch.setattr(localize, "LocalizePlan", small)
     recorded_from_two_places().save(tmp_path / "boxes.safetensors")
     words = ["bench", "localize", "--segments", tmp_path / "boxes.safetensors", "--seconds", 1,
              "--size", 2000, "--json", tmp_path / "localize.json"]  # fmt: skip
@@ -38,9 +38,11 @@ def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
 
 def test_what_is_asked_about_stands_in_the_map() -> None:
     extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
-    views = Views.of(extractor, recorded_from_two_places(), 0)
+    views = DescriptorSampler.from_recording(extractor, recorded_from_two_places(), 0)
     frame = random_frame(1)
-    road, asked = road_with_queries(views, 2000, Plan(requests=3, queries=20), frame, seed=0)
+    road, asked = road_with_queries(
+        views, 2000, LocalizePlan(requests=3, queries=20), frame, seed=0
+    )
     road.check()
     assert len(road) == 2000
     assert len(asked) == 3

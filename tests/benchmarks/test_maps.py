@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.storage import map_writers
-from benchmarks.storage.map_writers import Plan
+from benchmarks.storage.map_writers import MapsPlan
 from cli import app
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
@@ -19,8 +19,10 @@ ROW = {
 
 
 def test_the_command_measures_and_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    tiny = Plan((2000,), asked=100, rate=5, upserts=100, upload=500, upload_seconds=0.5, starts=1)
-    monkeypatch.setattr(map_writers, "Plan", lambda seconds: replace(tiny, seconds=seconds))
+    tiny = MapsPlan(
+        (2000,), asked=100, rate=5, upserts=100, upload=500, upload_seconds=0.5, starts=1
+    )
+    monkeypatch.setattr(map_writers, "MapsPlan", lambda seconds: replace(tiny, seconds=seconds))
     recorded_from_two_places().save(tmp_path / "boxes.safetensors")
     words = ["bench", "maps", "--segments", tmp_path / "boxes.safetensors", "--seconds", 1,
              "--json", tmp_path / "maps.json", "--plot", tmp_path / "maps.png"]  # fmt: skip

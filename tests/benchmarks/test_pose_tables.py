@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.localization.pose_tables import comparison, in_full, read
+from benchmarks.localization.pose_tables import comparison_table, full_table, read_reports
 from cli import app
 
 REPORT: dict[str, Any] = {
@@ -39,7 +39,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_a_row_a_system_and_a_column_a_case(folder: Path) -> None:
-    table = list(comparison({"town": read(folder), "drive": {"context": REPORT}}))
+    table = list(comparison_table({"town": read_reports(folder), "drive": {"context": REPORT}}))
     assert table == [
         "|  | town | drive |",
         "| --- | --- | --- |",
@@ -52,7 +52,7 @@ def test_a_row_a_system_and_a_column_a_case(folder: Path) -> None:
 def test_in_full_with_bounds() -> None:
     nothing = {"median_position_error_m": None, "median_yaw_error_deg": None}
     never = {"metres_until_localised": {"median": None, "p95": None, "never": 9}}
-    _, _, told, untold = in_full({"town": REPORT, "lost": REPORT | nothing | never})
+    _, _, told, untold = full_table({"town": REPORT, "lost": REPORT | nothing | never})
     assert "3,012 | 96.12 (95.37 to 96.78) | 0.03 (0.00 to 0.18) | 3.00 (2.42 to 3.67)" in told
     assert "| 0.07 m, 0.15 deg | 0 m; 95%: 4 |" in told
     assert untold.endswith("| - | - |")
@@ -67,14 +67,14 @@ def test_shares_of_no_queries_are_left_open() -> None:
         "median_position_error_m": None,
         "metres_until_localised": {"median": None, "p95": None, "never": 0},
     }
-    assert list(comparison({"town": {"context": beyond}}))[-1] == "| context | - / - |"
-    *_, row = in_full({"town": beyond})
+    assert list(comparison_table({"town": {"context": beyond}}))[-1] == "| context | - / - |"
+    *_, row = full_table({"town": beyond})
     assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'} - | - |"
 
 
 def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localised() -> None:
     peer = {key: value for key, value in REPORT.items() if key != "metres_until_localised"}
-    *_, row = in_full({"town": peer})
+    *_, row = full_table({"town": peer})
     assert row.endswith("| 0.07 m, 0.15 deg | - |")
 
 

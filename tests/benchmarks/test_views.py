@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.storage.views import views
+from benchmarks.storage.views import measure_views
 from cli import app
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import BASELINE, MODELS_FOLDER
@@ -29,7 +29,7 @@ def driven_past(views: int) -> Recording:
 
 
 def test_more_views_are_more_segments_and_no_less_recall() -> None:
-    report = views(EIGENVALUE, driven_past(40), (0, 39), seed=0)
+    report = measure_views(EIGENVALUE, driven_past(40), (0, 39), seed=0)
     every, *rest = report["rows"]
     assert every["segments"] == 320
     differing = [row for row in rest if row["kept"] == "views that differ"]
@@ -45,7 +45,7 @@ def test_more_views_are_more_segments_and_no_less_recall() -> None:
 
 def test_without_a_mate_far_off_there_is_nothing_to_ask() -> None:
     with pytest.raises(ValueError, match="no segment has a mate"):
-        views(EIGENVALUE, recorded(2), (0, 0), seed=0)
+        measure_views(EIGENVALUE, recorded(2), (0, 0), seed=0)
 
 
 def test_the_command_tells_and_writes(tmp_path: Path) -> None:

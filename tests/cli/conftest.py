@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from placecell_client import CompactMap
 
-from benchmarks.map_content import map_of
+from benchmarks.synthetic_maps.road_map import road_map
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.child_process import running_service
@@ -28,4 +28,4 @@ def address(data_dir: Path) -> Iterator[str]:
 def yard() -> CompactMap:
     manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
     codes = np.random.default_rng(0).integers(-128, 128, (300, manifest.code_bytes))
-    return map_of(codes.astype(np.int8), manifest, "ann")
+    return road_map(codes.astype(np.int8), manifest, "ann")

@@ -9,17 +9,17 @@ import pytest
 from typer.testing import CliRunner
 
 from cli import app
-from demo.meeting import Meeting, Told
-from demo.run import Outcome
+from demo.meeting import Meeting, PoseAnswer
+from demo.run import DemoResult
 from demo.score import Score
 from evaluation.poses.robot import Robot
 from placecell.localization import Pose
 from tests.placecell.segment_builders import MemoryDrive, pose
 
 HERE = np.zeros(3)
-RIGHT = Told(HERE, HERE, 0.1, 0.1, 5.0)
-WRONG = Told(HERE, HERE + 30, 52.0, 0.1, 5.0)
-LOST = Told(HERE, None, np.inf, np.inf, 5.0)
+RIGHT = PoseAnswer(HERE, HERE, 0.1, 0.1, 5.0)
+WRONG = PoseAnswer(HERE, HERE + 30, 52.0, 0.1, 5.0)
+LOST = PoseAnswer(HERE, None, np.inf, np.inf, 5.0)
 
 LAID = Meeting([LOST, RIGHT], Pose.of_matrix(np.eye(4)), (0.1, 0.2), 9, 1)
 NOWHERE = Meeting([LOST, WRONG, LOST], LAID.laid, LAID.off, 9, 1)
@@ -39,7 +39,7 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         drive = MemoryDrive([np.zeros((0, 3))] * (metres + 1), [pose(x) for x in range(metres + 1)])
         robots = tuple(Robot(name, drive, [], np.eye(4)) for name in ("robot A", "robot B"))
         score = Score(10, 10, 0.01, {1: found}, np.ones(10, dtype=bool))
-        outcome = Outcome(score, {"model_id": "tiny"}, meeting)
+        outcome = DemoResult(score, {"model_id": "tiny"}, meeting)
         monkeypatch.setattr("evaluation.poses.robots.robots_of_drive", lambda *_: robots)
         monkeypatch.setattr("demo.run.run", lambda *_: outcome)
         words = ["demo", "--drive", str(tmp_path), "--output", str(tmp_path)]

@@ -7,7 +7,7 @@ from typing import Any, cast
 import pytest
 from placecell_client import Client, ServiceError
 
-from demo.meeting import meet
+from demo.meeting import localize_and_merge
 from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair
 from tests.benchmarks.drive_builders import trip
@@ -37,7 +37,9 @@ def meeting(folder: Path, kind: str) -> Any:
         trip(folder / name, 3, left=range(0))
     pair = Pair.of(folder / "a", folder / "b")
     with Local.open(folder / "models" / "tiny") as local:
-        return meet(pair.mapper, pair.asker, cast(Client, Refusing(local, kind)), "a", [])
+        return localize_and_merge(
+            pair.mapper, pair.asker, cast(Client, Refusing(local, kind)), "a", []
+        )
 
 
 def test_maps_that_cannot_be_laid_are_told_with_the_reason(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ import typer
 from placecell_client import Client, CompactMap, Delta, encode, encode_delta
 from placecell_client.maps.edit import take
 
-from benchmarks.map_content import map_of
+from benchmarks.synthetic_maps.road_map import road_map
 from cli import app
 from placecell.datasets import KittiOdometry
 from placecell.descriptors.manifest import Manifest
@@ -199,7 +199,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def made(robot: str, count: int = 300, first: int = 0, seed: int = 0) -> CompactMap:
     manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
     codes = np.random.default_rng(seed).integers(-128, 128, (count, manifest.code_bytes))
-    content = map_of(codes.astype(np.int8), manifest, robot)
+    content = road_map(codes.astype(np.int8), manifest, robot)
     return replace(content, ids=content.ids + np.uint32(first))
 
 

@@ -11,7 +11,7 @@ import pytest
 from placecell_client import Client, CompactMap, Delta
 from placecell_client.maps.edit import take
 
-from benchmarks.map_content import map_of
+from benchmarks.synthetic_maps.road_map import road_map
 from cli.reference.routes import openapi, routes_of
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
@@ -28,7 +28,7 @@ NAMED_FREELY = {"robots", "sources"}
 def random_map(robot: str, seed: int) -> CompactMap:
     manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
     codes = np.random.default_rng(seed).integers(-128, 128, (SEGMENTS, manifest.code_bytes))
-    return map_of(codes.astype(np.int8), manifest, robot)
+    return road_map(codes.astype(np.int8), manifest, robot)
 
 
 @pytest.fixture(scope="module")

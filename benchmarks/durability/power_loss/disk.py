@@ -119,7 +119,7 @@ class Disk:
         return folder in names or folder not in self._folders
 
 
-def write(files: Mapping[str, bytes], root: Path, folder: Path) -> None:
+def write_files(files: Mapping[str, bytes], root: Path, folder: Path) -> None:
     """Put files of one folder into another, which is empty."""
     for path, content in files.items():
         copy = folder / Path(path).relative_to(root)

@@ -14,8 +14,8 @@ from placecell_client import Client
 from benchmarks.durability.journal import Journal
 from benchmarks.durability.power_loss.disk import Disk
 from benchmarks.durability.power_loss.disk_log import Step, steps_of, tracer
-from benchmarks.durability.writer import Writer
-from benchmarks.made_map import Kind
+from benchmarks.durability.writing_robot import WritingRobot
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from service.child_process import Service
 
 UNKEPT = ("-shm", "/lock", "/reserve", "/service.log")
@@ -40,7 +40,7 @@ class RecordedRun:
 
     Attributes:
         folder: its data directory.
-        steps: in order; those of kind `said` tell of an answer.
+        steps: in order; those of template `said` tell of an answer.
         states: the maps after so many answers.
     """
 
@@ -92,7 +92,7 @@ class _Recorder:
         self._large = large
         self._draw = random.Random(seed)
         self._numbered = _Numbered()
-        self._writers: list[Writer] = []
+        self._writers: list[WritingRobot] = []
         self.states: list[Outline] = [()]
 
     def run(self, log: Path, writes: int, is_killed: bool) -> None:
@@ -107,11 +107,11 @@ class _Recorder:
         _wait_for_end(log)
 
     def _write(self, client: Client, writes: int) -> None:
-        kind = Kind.of(client.info())
+        template = MapTemplate.from_info(client.info())
         if not self._writers:
             self._writers = [
-                Writer(
-                    *(f"robot-{number}", kind, Journal(f"map-{number}"), self._large),
+                WritingRobot(
+                    *(f"robot-{number}", template, Journal(f"map-{number}"), self._large),
                     draw=random.Random(self._draw.getrandbits(64)),
                 )
                 for number in range(2)
@@ -123,7 +123,7 @@ class _Recorder:
             self.states.append(_outline([each.journal for each in self._writers]))
 
 
-def record(
+def record_run(
     folder: Path, writes: int, large: int, seed: int = 0, options: tuple[str, ...] = ()
 ) -> RecordedRun:
     """Write to a service that is killed in the middle, started again, and stopped.

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 import benchmarks
-from benchmarks.peers.compare import ask
+from benchmarks.peers.compare import run_peer
 from benchmarks.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
 from benchmarks.peers.runner import PACKAGES, PEERS
 from benchmarks.peers.score import outcome_of
@@ -170,7 +170,7 @@ def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
     inverse = np.linalg.inv(query)
     seen = blocks(1, reach) @ inverse[:3, :3].T + inverse[:3, 3]
     np.save(cloud_file(tmp_path / QUERIES, 0), seen.astype(np.float32))
-    ask(name, tmp_path, ENVIRONMENT, refine=True)
+    run_peer(name, tmp_path, ENVIRONMENT, refine=True)
     peer, answers = read_answers(tmp_path / "answers" / f"{name}+gicp.jsonl", 1)
     assert set(PACKAGES) <= set(peer.versions)
     outcome = outcome_of(answers[0], frames[1] @ query, mapped=True)

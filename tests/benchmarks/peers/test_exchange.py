@@ -6,10 +6,10 @@ import pytest
 
 from benchmarks.peers.exchange import (
     NOTHING,
-    Answer,
     Estimate,
     MapFrame,
     Peer,
+    PeerAnswer,
     nearest_frame,
     read_answers,
     write_answers,
@@ -18,9 +18,9 @@ from tests.placecell.segment_builders import pose
 
 PEER = Peer("somebody", {"voxel": 0.3}, {"numpy": "2"}, 1.5)
 ANSWERS = [
-    Answer(Estimate(pose(1.5, -2.0, 0.1, yaw=0.3), 12.0, sure=True), 30.5),
-    Answer(NOTHING, 2.0),
-    Answer(Estimate(pose(), -0.2, sure=False), 3.0),
+    PeerAnswer(Estimate(pose(1.5, -2.0, 0.1, yaw=0.3), 12.0, sure=True), 30.5),
+    PeerAnswer(NOTHING, 2.0),
+    PeerAnswer(Estimate(pose(), -0.2, sure=False), 3.0),
 ]
 
 

@@ -6,12 +6,12 @@ import pytest
 from benchmarks.peers.exchange import query_files, read_map
 from benchmarks.peers.frames import (
     Stretch,
+    leveled,
     map_poses,
     near_map,
     query_poses,
     stretches_of_one,
     stretches_of_two,
-    upright,
     write_map,
     write_queries,
 )
@@ -33,8 +33,8 @@ def along(count: int, spacing: float = 1.0) -> MemoryDrive:
 def test_upright_keeps_place_and_heading_and_levels_the_rest() -> None:
     tilted = pose(1, 2, 3, yaw=0.7)
     tilted[:3, :3] = tilted[:3, :3] @ [[1, 0, 0], [0, 0.995, -0.0998], [0, 0.0998, 0.995]]
-    assert upright(tilted) == pytest.approx(pose(1, 2, 3, yaw=0.7), abs=1e-3)
-    assert upright(pose(1, 2, 3, yaw=0.7), 0.5) == pytest.approx(pose(1, 2, 3, yaw=1.2))
+    assert leveled(tilted) == pytest.approx(pose(1, 2, 3, yaw=0.7), abs=1e-3)
+    assert leveled(pose(1, 2, 3, yaw=0.7), 0.5) == pytest.approx(pose(1, 2, 3, yaw=1.2))
 
 
 def test_map_frames_are_the_local_maps_of_our_segments(tmp_path: Path) -> None:
@@ -78,7 +78,7 @@ def test_queries_are_turned_and_the_truth_turns_along(tmp_path: Path) -> None:
         expected = Accumulator(driven, block.parameters, block.scans.start).local_map(scan)
         cloud = np.load(file)
         assert cloud @ true[:3, :3].T + true[:3, 3] == pytest.approx(expected, abs=1e-4)
-        turn = upright(driven.poses[scan])[:3, :3].T @ true[:3, :3]
+        turn = leveled(driven.poses[scan])[:3, :3].T @ true[:3, :3]
         turns.append(np.arctan2(turn[1, 0], turn[0, 0]))
     assert min(turns) < -1
     assert max(turns) > 1

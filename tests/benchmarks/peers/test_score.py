@@ -3,33 +3,35 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.peers.exchange import NOTHING, Answer, Estimate, Peer
-from benchmarks.peers.score import outcome_of, score
+from benchmarks.peers.exchange import NOTHING, Estimate, Peer, PeerAnswer
+from benchmarks.peers.score import outcome_of, score_peer
 from tests.placecell.segment_builders import pose
 
 PEER = Peer("somebody", {"voxel": 0.3}, {"numpy": "2"}, 1.5)
 
 
-def answer(x: float = 0.0, degrees: float = 0.0, *, sure: bool = True, value: float = 0) -> Answer:
-    return Answer(Estimate(pose(x, yaw=np.radians(degrees)), value, sure), 10.0)
+def answer(
+    x: float = 0.0, degrees: float = 0.0, *, sure: bool = True, value: float = 0
+) -> PeerAnswer:
+    return PeerAnswer(Estimate(pose(x, yaw=np.radians(degrees)), value, sure), 10.0)
 
 
-def scored(answers: list[Answer], mapped: list[bool] | None = None) -> dict[str, Any]:
+def scored(answers: list[PeerAnswer], mapped: list[bool] | None = None) -> dict[str, Any]:
     """Against a truth that is the identity."""
     within = np.array(mapped or [True] * len(answers))
-    return score(PEER, answers, np.stack([np.eye(4)] * len(answers)), within)
+    return score_peer(PEER, answers, np.stack([np.eye(4)] * len(answers)), within)
 
 
 def test_errors_by_hand() -> None:
     true = pose(1.0, 2.0, 3.0, yaw=np.pi)
-    there = outcome_of(Answer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
+    there = outcome_of(PeerAnswer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
     assert (there.metres, there.degrees) == pytest.approx((0, 0), abs=1e-9)
     assert (there.localised, there.right, there.milliseconds) == (True, True, 7.0)
     off = Estimate(pose(1.0, -1.0, 7.0, yaw=0.1 - np.pi), 1, sure=False)
-    found = outcome_of(Answer(off, 1.0), true, mapped=False)
+    found = outcome_of(PeerAnswer(off, 1.0), true, mapped=False)
     assert (found.metres, found.degrees) == pytest.approx((5, np.degrees(0.1)))
     assert not found.localised
-    nothing = outcome_of(Answer(NOTHING, 1.0), true, mapped=True)
+    nothing = outcome_of(PeerAnswer(NOTHING, 1.0), true, mapped=True)
     assert (nothing.metres, nothing.degrees) == (np.inf, np.inf)
     assert not nothing.localised
     assert not nothing.wrong_but_sure
@@ -38,7 +40,7 @@ def test_errors_by_hand() -> None:
 def test_a_tilt_counts_too() -> None:
     tilted = np.eye(4)
     tilted[1:3, 1:3] = [[np.cos(0.2), -np.sin(0.2)], [np.sin(0.2), np.cos(0.2)]]
-    found = outcome_of(Answer(Estimate(tilted, 1, sure=True), 1.0), np.eye(4), mapped=True)
+    found = outcome_of(PeerAnswer(Estimate(tilted, 1, sure=True), 1.0), np.eye(4), mapped=True)
     assert found.degrees == pytest.approx(np.degrees(0.2))
     assert found.wrong_but_sure
 
@@ -53,8 +55,8 @@ def test_shares_by_hand() -> None:
         answer(3.1, value=6),
         answer(0.0, 11.0, value=4),
         answer(50.0, value=6.5, sure=False),
-        Answer(NOTHING, 30.0),
-        Answer(NOTHING, 30.0),
+        PeerAnswer(NOTHING, 30.0),
+        PeerAnswer(NOTHING, 30.0),
     ]
     figures = scored(answers)
     assert figures["queries"] == 10
@@ -85,7 +87,7 @@ def test_bounds_are_those_of_the_binomial_distribution() -> None:
 
 
 def test_a_peer_that_says_nothing() -> None:
-    figures = scored([Answer(NOTHING, 5.0)])
+    figures = scored([PeerAnswer(NOTHING, 5.0)])
     assert figures["not_localised"] == 1
     assert figures["median_position_error_m"] is None
     assert figures["right_above_all_wrong"] == 0
@@ -93,7 +95,7 @@ def test_a_peer_that_says_nothing() -> None:
 
 
 def test_queries_beyond_the_map_stand_apart() -> None:
-    answers = [answer(value=5), answer(50.0, value=9), Answer(NOTHING, 1.0)]
+    answers = [answer(value=5), answer(50.0, value=9), PeerAnswer(NOTHING, 1.0)]
     figures = scored(answers, [True, False, False])
     assert (figures["queries"], figures["localised_right"]) == (1, 1)
     assert figures["right_above_all_wrong"] == 1

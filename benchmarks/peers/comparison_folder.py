@@ -16,7 +16,7 @@ STAMP = "comparison.sha256"
 ANSWERS = "answers"
 
 
-def lay_out(
+def prepare_folder(
     folder: Path,
     mapped: Sequence[Stretch],
     asking: Sequence[Stretch],
@@ -60,7 +60,7 @@ def digest(
     return whole.hexdigest()
 
 
-def answered(folder: Path, name: str, rows: Sequence[str], queries: int) -> bool:
+def has_answered(folder: Path, name: str, rows: Sequence[str], queries: int) -> bool:
     """Whether a peer has answered all, as it is set now."""
     for row in rows:
         try:

@@ -12,7 +12,7 @@ import numpy as np
 from placecell_client import Client, CompactMap, Delta, MapCopy, Retries, ServiceError, encode
 from placecell_client.maps.edit import apply, take
 
-from benchmarks.made_map import Kind
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 from placecell.core.types import UInt32
 
 T = TypeVar("T")
@@ -41,13 +41,13 @@ PAGE = 700
 
 
 @dataclass(slots=True)
-class Sharer:
+class SharingRobot:
     """Does one thing after the other, each until it is done, however often it must ask.
 
     Attributes:
         name: of the robot.
         site: name of the map.
-        kind: of its segments.
+        template: of its segments.
         draw: what it does.
         compacts: whether it also lets go of old versions, so that others lose their way.
         own: its segments, as the service has acknowledged them.
@@ -59,7 +59,7 @@ class Sharer:
 
     name: str
     site: str
-    kind: Kind
+    template: MapTemplate
     draw: random.Random
     compacts: bool = False
     own: CompactMap = field(init=False)
@@ -73,7 +73,7 @@ class Sharer:
     _random: np.random.Generator = field(init=False)
 
     def __post_init__(self) -> None:
-        self.own = self.kind.none()
+        self.own = self.template.empty_map()
         self.copy = MapCopy(self.site)
         self._random = np.random.default_rng(self.draw.getrandbits(64))
 
@@ -106,7 +106,7 @@ class Sharer:
         content = self.copy.content
         assert content is not None
         if self.name not in content.robots:
-            return self.kind.none()
+            return self.template.empty_map()
         return take(content, content.robot == content.robots.index(self.name))
 
     def _edit(self, client: Client) -> None:
@@ -117,7 +117,9 @@ class Sharer:
         too_many = max(len(self.own) - MOST, 0)
         removed = np.sort(order[len(replaced) :][: count // 6 + too_many])
         added = self._ids(client, count - count // 3)
-        changed = self.kind.made(self.name, np.concatenate([replaced, added]), self._random)
+        changed = self.template.random_map(
+            self.name, np.concatenate([replaced, added]), self._random
+        )
         delta = Delta(changed, removed)
         self._insist(lambda: client.edit_map(self.site, delta))
         self.own = apply(self.own, delta)

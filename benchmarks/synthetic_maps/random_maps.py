@@ -14,7 +14,7 @@ EPOCH = 1.7e9
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class MapTemplate:
     """What segments of one map have in common.
 
     Attributes:
@@ -30,16 +30,16 @@ class Kind:
     frame: str = "bench"
 
     @classmethod
-    def of(cls, info: Info) -> "Kind":
+    def from_info(cls, info: Info) -> "MapTemplate":
         """Of the model that a service has loaded."""
         model = info.model
         return cls(info.model_id, model["preprocessing"]["version"], model["code_bytes"])
 
-    def none(self) -> CompactMap:
+    def empty_map(self) -> CompactMap:
         """A map without segments."""
         return empty(self.model_id, self.preprocessing, self.frame, self.code_bytes)
 
-    def made(self, robot: str, ids: UInt32, random: np.random.Generator) -> CompactMap:
+    def random_map(self, robot: str, ids: UInt32, random: np.random.Generator) -> CompactMap:
         """A robot's segments of these ids; their frames' times lie within 1,000 s of `EPOCH`."""
         count, frames = len(ids), -(-len(ids) // FRAME_SEGMENTS)
         frame_index = (np.arange(count) // FRAME_SEGMENTS).astype(np.uint32)

@@ -9,7 +9,6 @@ seen from 5 m apart or more, drawn at random: what really separates views of one
 from dataclasses import dataclass
 
 import numpy as np
-from placecell_client import CompactMap
 
 from placecell.core.types import Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
@@ -19,15 +18,12 @@ from placecell.segmentation.recording import Recording
 VIEWS = 4
 """Of each thing in the map."""
 
-SEGMENTS_A_FRAME = 40
-METRES_A_FRAME = 1.0
-
 APART = 5.0
 """Metres between the places that two views are from: nearer ones are too easy to find."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Content:
+class SampledMap:
     """Segments of a map, and queries.
 
     Attributes:
@@ -40,13 +36,13 @@ class Content:
 
     model_id: str
     codes: Int8
-    things: Int64
-    asked: Int8
-    asked_things: Int64
+    objects: Int64
+    query_codes: Int8
+    query_objects: Int64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Views:
+class DescriptorSampler:
     """What real segments look like, and how views of one thing differ.
 
     Attributes:
@@ -60,7 +56,9 @@ class Views:
     apart: Float32
 
     @classmethod
-    def of(cls, extractor: Extractor, recording: Recording, seed: int) -> "Views":
+    def from_recording(
+        cls, extractor: Extractor, recording: Recording, seed: int
+    ) -> "DescriptorSampler":
         """From a recording.
 
         Raises:
@@ -83,60 +81,33 @@ class Views:
         apart = found[order[1:][same]] - found[order[:-1][same]]
         return cls(extractor.manifest, found[order[first]], apart)
 
-    def draw(self, count: int, queries: int, seed: int) -> Content:
+    def sample_map(self, count: int, queries: int, seed: int) -> SampledMap:
         """A map of so many segments, and queries for things in it."""
         random = np.random.default_rng(seed)
         things = np.arange(count) // VIEWS
         asked = random.choice(things[-1] + 1, queries, replace=queries > things[-1] + 1)
-        base = self.things(int(things[-1]) + 1, random)
-        return Content(
+        base = self.sample_objects(int(things[-1]) + 1, random)
+        return SampledMap(
             self.manifest.model_id,
             np.concatenate(
                 [
-                    self.codes(base, some, random)
+                    self.sample_views(base, some, random)
                     for some in np.array_split(things, 1 + count // 50_000)
                 ]
             ),
             things,
-            self.codes(base, asked, random),
+            self.sample_views(base, asked, random),
             asked,
         )
 
-    def things(self, count: int, random: np.random.Generator) -> Float32:
+    def sample_objects(self, count: int, random: np.random.Generator) -> Float32:
         """Draw descriptors of `count` things, float32 (count, d)."""
         real = self.found[random.permutation(len(self.found))[:count]]
         pairs = random.integers(len(self.found), size=(count - len(real), 2))
         mixed = (self.found[pairs[:, 0]] + self.found[pairs[:, 1]]) * np.float32(np.sqrt(0.5))
         return np.concatenate([real, mixed])
 
-    def codes(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
+    def sample_views(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
         """Draw a view of each of these things, int8 (n, code bytes)."""
         apart = self.apart[random.integers(len(self.apart), size=len(things))]
         return self.manifest.quantiser.encode(base[things] + apart)
-
-
-def map_of(codes: Int8, manifest: Manifest, robot: str, seed: int = 0) -> CompactMap:
-    """A map with these descriptors, along a road: some segments about each place of the sensor."""
-    random = np.random.default_rng(seed)
-    count = len(codes)
-    frames = -(-count // SEGMENTS_A_FRAME)
-    places = np.zeros((frames, 3))
-    # Back and forth in lanes of 2 km.
-    metres = METRES_A_FRAME * np.arange(frames)
-    places[:, 0], places[:, 1] = metres % 2000, 50 * (metres // 2000)
-    frame_index = np.arange(count) // SEGMENTS_A_FRAME
-    around = random.uniform([-40, -40, -2], [40, 40, 6], (count, 3))
-    return CompactMap(
-        model_id=manifest.model_id,
-        preprocessing=manifest.preprocessing["version"],
-        frame="bench",
-        codes=codes,
-        centroids=places[frame_index] + around,
-        ids=np.arange(count, dtype=np.uint32),
-        robots=(robot,),
-        robot=np.zeros(count, np.uint16),
-        frame_index=frame_index.astype(np.uint32),
-        frame_times=np.arange(1e9, 1e9 + frames),
-        frame_positions=places,
-        frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (frames, 1)),
-    )

@@ -17,9 +17,15 @@ from typing import Any
 
 from placecell_client import encode
 
-from benchmarks.durability.power_loss.disk import KEEPS, Disk, write
+from benchmarks.durability.power_loss.disk import KEEPS, Disk, write_files
 from benchmarks.durability.power_loss.disk_log import Step
-from benchmarks.durability.power_loss.recorded_run import NAME, UNKEPT, Outline, RecordedRun, record
+from benchmarks.durability.power_loss.recorded_run import (
+    NAME,
+    UNKEPT,
+    Outline,
+    RecordedRun,
+    record_run,
+)
 from evaluation.machine import machine
 from service.maps.cache import MapCache
 from service.maps.replay import newest
@@ -34,7 +40,7 @@ Progress = Callable[[Iterable[int], int, str], Iterable[int]]
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class PowerLossPlan:
     """What is done.
 
     Attributes:
@@ -66,7 +72,7 @@ class Cut:
 
 
 @dataclass(slots=True)
-class Tally:
+class PowerLossFindings:
     """What came of the cuts.
 
     Attributes:
@@ -84,8 +90,8 @@ class Tally:
     told: list[str] = field(default_factory=list)
 
 
-def powerloss(
-    plan: Plan,
+def run_power_cuts(
+    plan: PowerLossPlan,
     seed: int = 0,
     options: tuple[str, ...] = (),
     progress: Progress = lambda items, *_: items,
@@ -103,8 +109,10 @@ def powerloss(
         RuntimeError: strace cannot watch the service here.
     """
     with tempfile.TemporaryDirectory(prefix="placecell-powerloss-") as name:
-        recorded = record(Path(name), plan.writes, plan.large, seed, options)
-        tally = replay(recorded, plan, random.Random(seed), Path(name) / "left", progress)
+        recorded = record_run(Path(name), plan.writes, plan.large, seed, options)
+        tally = replay_power_cuts(
+            recorded, plan, random.Random(seed), Path(name) / "left", progress
+        )
     return {
         "writes": plan.writes,
         "steps": dict(sorted(Counter(step.kind for step in recorded.steps).items())),
@@ -121,29 +129,29 @@ def powerloss(
     }
 
 
-def replay(
+def replay_power_cuts(
     recorded: RecordedRun,
-    plan: Plan,
+    plan: PowerLossPlan,
     draw: random.Random,
     folder: Path,
     progress: Progress = lambda items, *_: items,
-) -> Tally:
+) -> PowerLossFindings:
     """Cut the power at every moment, or some, and open what is left each time in the folder."""
-    tally = Tally()
+    tally = PowerLossFindings()
     for cut in cuts(recorded, plan, draw, progress):
         tally.cuts[cut.keep] += 1
         digest = _digest(cut.files)
         if digest not in tally.found:
-            tally.found[digest] = opened(cut.files, recorded.folder, folder)
+            tally.found[digest] = read_maps_left(cut.files, recorded.folder, folder)
             shutil.rmtree(folder)
-        result, told = judge(recorded, cut.answered, tally.found[digest])
+        result, told = judge_maps(recorded, cut.answered, tally.found[digest])
         tally.results[result] += 1
         tally.told += [f"{cut.keep} kept: {told}"] if told else []
     return tally
 
 
 def cuts(
-    recorded: RecordedRun, plan: Plan, draw: random.Random, progress: Progress
+    recorded: RecordedRun, plan: PowerLossPlan, draw: random.Random, progress: Progress
 ) -> Iterator[Cut]:
     """Every moment, or some, in order."""
     disk, answered, count = Disk(UNKEPT), 0, len(recorded.steps)
@@ -160,7 +168,7 @@ def cuts(
                     yield Cut(answered, keep, disk.left(keep, draw))
 
 
-def opened(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline | str:
+def read_maps_left(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline | str:
     """The maps in files that a power cut left, after a write that must be possible.
 
     Args:
@@ -171,7 +179,7 @@ def opened(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline | st
     Returns:
         The maps; or what is wrong, if they cannot be used or are damaged.
     """
-    write(files, root, folder)
+    write_files(files, root, folder)
     cache, maps = MapCache(folder), []
     try:
         with SqliteMapStore.owned(folder) as store:
@@ -189,7 +197,7 @@ def opened(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline | st
     return tuple(maps)
 
 
-def judge(recorded: RecordedRun, answered: int, found: Outline | str) -> tuple[str, str]:
+def judge_maps(recorded: RecordedRun, answered: int, found: Outline | str) -> tuple[str, str]:
     """Whether maps are as they must be after so many answers.
 
     Returns:

@@ -8,8 +8,8 @@ from placecell_client import Client, CompactMap, Delta, decode, encode
 from placecell_client.maps.edit import apply, take, with_optional
 
 from benchmarks.durability.journal import Journal
-from benchmarks.durability.past import Past
-from benchmarks.made_map import EPOCH, Kind
+from benchmarks.durability.map_versions import VersionHistory
+from benchmarks.synthetic_maps.random_maps import EPOCH, MapTemplate
 from placecell.core.types import UInt32
 
 KEPT = 10
@@ -37,12 +37,12 @@ LARGE_BYTES = 3 << 20
 
 
 @dataclass(slots=True)
-class Writer:
+class WritingRobot:
     """Does one operation after the other, each once the answer to the last has come.
 
     Attributes:
         robot: its name.
-        kind: of its segments.
+        template: of its segments.
         journal: of its map.
         large: segments of a map that is put whole.
         draw: what it does next.
@@ -50,7 +50,7 @@ class Writer:
     """
 
     robot: str
-    kind: Kind
+    template: MapTemplate
     journal: Journal
     large: int
     draw: random.Random
@@ -98,11 +98,13 @@ class Writer:
         count = self.draw.choice([self.large, 200, 1])
         first = self.draw.randrange(1_000)
         file = encode(self._made(np.arange(first, first + count, dtype=np.uint32)))
-        self.journal.begin("put", Past.begun(file) if known is None else known.after(file))
+        self.journal.begin(
+            "put", VersionHistory.begun(file) if known is None else known.after(file)
+        )
         seen = known.newest.tag if known is not None else None
         self.journal.acknowledge(client.put_map(self.journal.name, file, if_match=seen).etag)
 
-    def _edit(self, client: Client, known: Past, count: int) -> None:
+    def _edit(self, client: Client, known: VersionHistory, count: int) -> None:
         content = decode(known.newest.file)
         delta = self._delta(content, count)
         self.journal.begin("edit", known.after(encode(apply(content, delta))))
@@ -116,20 +118,20 @@ class Writer:
         added = np.arange(first, first + count - count // 3, dtype=np.uint32)
         return Delta(self._made(np.concatenate([replaced, added])), np.sort(removed))
 
-    def _restore(self, client: Client, known: Past) -> None:
+    def _restore(self, client: Client, known: VersionHistory) -> None:
         version = self.draw.choice(known.versions)
         self.journal.begin("restore", known.after(version.file))
         written = client.restore_map(self.journal.name, version.sequence)
         self.journal.acknowledge(written.etag)
 
-    def _age(self, client: Client, known: Past) -> None:
+    def _age(self, client: Client, known: VersionHistory) -> None:
         content = decode(known.newest.file)
         since = EPOCH + self.draw.randrange(200)
         kept = take(content, np.asarray(with_optional(content, ["seen"]).seen) >= since)
         self.journal.begin("age", known.after(encode(kept)))
         self.journal.acknowledge(client.age_map(self.journal.name, since).etag)
 
-    def _compact(self, client: Client, known: Past) -> None:
+    def _compact(self, client: Client, known: VersionHistory) -> None:
         keep = self.draw.randint(1, 4)
         self.journal.begin("compact", known.shortened(keep))
         client.compact_map(self.journal.name, keep)
@@ -141,4 +143,4 @@ class Writer:
         self.journal.acknowledge()
 
     def _made(self, ids: UInt32) -> CompactMap:
-        return self.kind.made(self.robot, ids, self.random)
+        return self.template.random_map(self.robot, ids, self.random)

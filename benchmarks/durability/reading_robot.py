@@ -15,7 +15,7 @@ from placecell_client import (
     encode,
 )
 
-from benchmarks.made_map import Kind
+from benchmarks.synthetic_maps.random_maps import MapTemplate
 
 QUERIES = 5
 PAGE = 3_000
@@ -23,18 +23,18 @@ PAGE = 3_000
 
 
 @dataclass(slots=True)
-class Reader:
+class ReadingRobot:
     """Reads.
 
     Attributes:
-        kind: of the maps' segments.
+        template: of the maps' segments.
         has_been: of each map, whether a file is one that its writers ever sent or made of it.
         draw: what it reads next.
         reads: how many there were.
         half: maps that never were, told.
     """
 
-    kind: Kind
+    template: MapTemplate
     has_been: Mapping[str, Callable[[bytes], bool]]
     draw: random.Random
     reads: int = 0
@@ -71,10 +71,10 @@ class Reader:
 
     def _match(self, client: Client, name: str) -> None:
         random = np.random.default_rng(self.draw.getrandbits(64))
-        codes = random.integers(-127, 128, (QUERIES, self.kind.code_bytes)).astype(np.int8)
+        codes = random.integers(-127, 128, (QUERIES, self.template.code_bytes)).astype(np.int8)
         nothing = np.zeros((QUERIES, 0))
         queries = Description(
-            self.kind.model_id, codes, nothing.astype(np.float32), nothing, errors={}
+            self.template.model_id, codes, nothing.astype(np.float32), nothing, errors={}
         )
         client.match(queries, maps=[name], k=3)
 

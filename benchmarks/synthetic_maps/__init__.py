@@ -1,0 +1,1 @@
+"""Synthetic maps: random segments, sampled descriptors, and a road."""
