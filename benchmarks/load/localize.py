@@ -21,6 +21,7 @@ from benchmarks.load.generator import Load, encode_request, send_from_process
 from benchmarks.load.serve import percentiles
 from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
 from benchmarks.synthetic_maps.road_map import road_map
+from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent

@@ -18,6 +18,7 @@ from placecell_client.maps.edit import take
 
 from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
 from benchmarks.synthetic_maps.road_map import road_map
+from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalisationParameters, Pose

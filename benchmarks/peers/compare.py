@@ -13,6 +13,7 @@ from benchmarks.peers.exchange import read_answers
 from benchmarks.peers.frames import Stretch, map_poses, near_map, query_poses
 from benchmarks.peers.runner import REFINED
 from benchmarks.peers.score import score_peer
+from evaluation.machine import machine
 from evaluation.poses.queries import MAPPED_METRES
 from placecell.segmentation.pipeline import Progress, silent
 

@@ -15,6 +15,8 @@ from benchmarks.attack.suite import AttackPlan, run_case
 from benchmarks.attack.target import OWNER
 from cli import app
 
+pytestmark = pytest.mark.integration
+
 PLAN = AttackPlan(short=True)
 
 

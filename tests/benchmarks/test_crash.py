@@ -16,6 +16,8 @@ from benchmarks.durability.power_loss.power_cuts import PowerLossPlan, replay_po
 from benchmarks.durability.power_loss.recorded_run import RecordedRun, record_run
 from cli import app
 
+pytestmark = pytest.mark.integration
+
 
 def report_of(file: Path, *words: str | float) -> dict[str, Any]:
     """What `placecell bench` writes."""

@@ -85,11 +85,12 @@ def test_a_connection_that_fails_is_told() -> None:
     assert outcome.statuses == [0, 0]
 
 
+@pytest.mark.integration
 def test_a_short_run_against_the_real_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        serve, "rate", lambda pool, work, threads, _: measure_rate(pool, work, threads, 0.1)
+        serve, "measure_rate", lambda pool, work, threads, _: measure_rate(pool, work, threads, 0.1)
     )
     plan = serve.LoadPlan(
         segments=10, small=2, map_segments=200, levels=(0.5, 3.0), seconds=0.5, bodies=3
@@ -106,6 +107,7 @@ def test_a_short_run_against_the_real_service(
     assert (tmp_path / "serve.png").stat().st_size > 1000
 
 
+@pytest.mark.integration
 def test_a_short_soak(tmp_path: Path) -> None:
     report = soak.run_soak(scans(4), soak.SoakPlan(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
     assert report["unexpected"] == 0

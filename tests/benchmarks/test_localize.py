@@ -17,6 +17,7 @@ from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
 
+@pytest.mark.integration
 def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def small(sizes: tuple[int, ...], seconds: float) -> LocalizePlan:
         return LocalizePlan(sizes, requests=5, rate=5, seconds=seconds)

@@ -41,7 +41,7 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         score = Score(10, 10, 0.01, {1: found}, np.ones(10, dtype=bool))
         outcome = DemoResult(score, {"model_id": "tiny"}, meeting)
         monkeypatch.setattr("evaluation.poses.robots.robots_of_drive", lambda *_: robots)
-        monkeypatch.setattr("demo.run.run", lambda *_: outcome)
+        monkeypatch.setattr("demo.run.run_demo", lambda *_: outcome)
         words = ["demo", "--drive", str(tmp_path), "--output", str(tmp_path)]
         done = CliRunner().invoke(app, words)
         return done.exit_code, " ".join(done.output.split())

@@ -21,6 +21,8 @@ from town import two_robots
 ENVIRONMENT = Path(benchmarks.__file__).parents[1] / ".venv-peers" / "bin" / "python"
 HERE = Path(sys.executable)
 
+pytestmark = pytest.mark.integration
+
 
 @pytest.fixture(scope="module")
 def drives(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
@@ -132,7 +134,7 @@ def test_the_runner_needs_none_of_our_packages() -> None:
         cwd=Path(benchmarks.__file__).parents[1], capture_output=True, text=True, check=True,
     )  # fmt: skip
     loaded = set(done.stdout.split())
-    assert not loaded & {"segments", "training", "service", "numba", "onnxruntime", "faiss"}
+    assert not loaded & {"placecell", "training", "service", "numba", "onnxruntime", "faiss"}
 
 
 def blocks(seed: int, reach: float) -> Cloud:

@@ -12,8 +12,9 @@ from placecell_client.maps.edit import take
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import LocalisationParameters
+from service.maps import shared_index
 from service.maps.shared_index import SharedIndexes
-from service.search import ranking, shared_index
+from service.search import ranking
 from service.search.ranking import FULL, best_of, votes_of
 from tests.service.core.test_auth import made
 from tests.service.search.test_localize import (
