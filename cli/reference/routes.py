@@ -1,6 +1,7 @@
 """The HTTP API: parameters and answers of each route, and all schemas, from OpenAPI."""
 
 from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 from cli.reference.markdown import code, paragraphs, table
@@ -8,6 +9,7 @@ from cli.reference.markdown import code, paragraphs, table
 JSON, PROBLEM = "application/json", "application/problem+json"
 
 
+@cache
 def openapi() -> dict[str, Any]:
     """Return the OpenAPI document of the service with its default settings."""
     from service.app import create_app

@@ -14,6 +14,7 @@ import subprocess
 import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -131,9 +132,15 @@ def commands_of(block: Block) -> Iterator[str]:
             yield words
 
 
+@cache
+def command_line() -> Any:
+    """Return the command line; a command of it may be parsed many times."""
+    return typer.main.get_command(app)
+
+
 def check_placecell(words: list[str]) -> None:
     """Parse a command of `placecell` without running it."""
-    command: Any = typer.main.get_command(app)
+    command: Any = command_line()
     context = command.make_context("placecell", ["--help"], resilient_parsing=True)
     while hasattr(command, "commands"):
         name = words.pop(0) if words else ""
@@ -181,7 +188,7 @@ def test_B8_commands_that_are_not_run_exist_too(block: Block) -> None:
 @pytest.mark.parametrize(("file", "span"), SPANS)
 def test_B8_commands_in_sentences_exist(file: str, span: str) -> None:
     words = plain(span)[1:]
-    command: Any = typer.main.get_command(app)
+    command: Any = command_line()
     while words and hasattr(command, "commands"):
         assert words[0] in command.commands, f"{file}: `{span}`"
         command = command.commands[words.pop(0)]
