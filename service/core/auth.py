@@ -1,8 +1,8 @@
-"""Keys: who may read, and who may write, which maps.
+"""Authentication: keys, their principals and scopes.
 
-A file names each key by its SHA-256; the key itself is shown once, when it is made. The file is
-looked at again when it has changed. While it cannot be read, a key works on if its hash still
-stands in the file; any other key works for a minute more, as a file that is being edited may be
+A file lists each key by its SHA-256; the key itself is shown once, when it is made. The file is
+read again when it has changed. While the file cannot be read, a key whose hash still stands in it
+keeps working; any other key works for one more minute, because a file that is being edited may be
 incomplete for a moment.
 
     [robot-7]
@@ -29,7 +29,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from service.core.problems import Problem
 
 PREFIX = "placecell_"
-"""Of a key, so that whoever finds one knows what it opens."""
+"""Prefix of every key, so that a key found in a file or a log is recognized as one."""
 
 GRACE_SECONDS = 60.0
 """Seconds for which a key that was removed from an unreadable file still works."""
@@ -38,83 +38,91 @@ logger = logging.getLogger("placecell")
 
 
 class Key(BaseModel):
-    """What a key opens."""
+    """Scope of a key: the maps and operations that it allows."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="Of the key.")
-    write: bool = Field(default=False, description="May change maps.")
-    admin: bool = Field(default=False, description="May reload models and free ids.")
-    maps: tuple[str, ...] = Field(default=("*",), description="Names of maps, with * and ?.")
-    robot: str | None = Field(default=None, description="May write this robot's segments alone.")
+    sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="SHA-256 digest of the key, hex.")
+    write: bool = Field(default=False, description="True if the key may write maps.")
+    admin: bool = Field(
+        default=False, description="True if the key may reload models and free ids."
+    )
+    maps: tuple[str, ...] = Field(
+        default=("*",), description="Patterns of map names, with * and ?."
+    )
+    robot: str | None = Field(
+        default=None, description="If set, the key may write only segments of this robot."
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class Holder:
-    """Who sent a request, and what they may do."""
+    """Principal: name and scope of the key that sent a request."""
 
     name: str
     key: Key
 
     def check_map(self, name: str) -> None:
-        """See that the key opens a map; 403 if not."""
+        """Raise a problem (403) unless the scope includes a map."""
         if not self.opens(name):
-            raise Problem(403, "forbidden", f"This key does not open the map {name!r:.80}.")
+            raise Problem(403, "forbidden", f"This key has no access to the map {name!r:.80}.")
 
     def opens(self, name: str) -> bool:
-        """Whether the key opens a map."""
+        """Return whether the scope includes a map."""
         return any(fnmatchcase(name, pattern) for pattern in self.key.maps)
 
     @property
     def opens_all(self) -> bool:
-        """Return whether the key opens every map, future ones too."""
+        """Return whether the scope includes every map, future ones too."""
         return "*" in self.key.maps
 
     def check_write(self, name: str) -> None:
-        """See that the key may change a map; 403 if not."""
+        """Raise a problem (403) unless the key may write a map."""
         self.check_map(name)
         if not self.key.write:
-            raise Problem(403, "forbidden", "This key reads, but does not write.")
+            raise Problem(403, "forbidden", "This key may read maps, but not write them.")
 
     def check_robots(self, robots: Iterable[str]) -> None:
-        """See that the key may store, replace or remove these robots' segments; 403 if not."""
+        """Raise a problem (403) unless the key may write segments of these robots."""
         if self.key.robot is not None and {*robots} - {self.key.robot}:
             raise self._own_alone()
 
     def check_all(self) -> None:
-        """See that the key may store, replace or remove all robots' segments; 403 if not."""
+        """Raise a problem (403) unless the key may write segments of all robots."""
         if self.key.robot is not None:
             raise self._own_alone()
 
     def check_admin(self) -> None:
-        """See that the key may change what the service runs; 403 if not."""
+        """Raise a problem (403) unless the key may administer the service."""
         if not self.key.admin:
-            raise Problem(403, "forbidden", "This key does not administer the service.")
+            raise Problem(403, "forbidden", "This key may not administer the service.")
 
     def _own_alone(self) -> Problem:
         return Problem(
-            403, "forbidden", f"This key writes segments of {self.key.robot!r:.80} alone."
+            403,
+            "forbidden",
+            f"This key may write only segments of the robot {self.key.robot!r:.80}.",
         )
 
 
 ANYONE = Holder("anyone", Key(sha256="0" * 64, write=True, admin=True))
-"""Who may do all, where there are no keys."""
+"""Principal of all requests if the service has no keys."""
 
 KEYS = TypeAdapter(dict[str, Key])
 
 
 class Keys:
-    """The keys of a file; without a file everyone may do everything."""
+    """Keys of a file; without a file every client may do everything."""
 
     def __init__(self, file: Path | None, clock: Callable[[], float] = monotonic) -> None:
         """Read the keys.
 
         Args:
-            file: of the keys.
-            clock: gives seconds that only grow.
+            file: the file of keys; None for a service without keys.
+            clock: monotonic clock, seconds.
 
         Raises:
-            ValueError: the file is missing or is no file of keys.
+            ValueError: the file is missing or is not a file of keys.
         """
         self._file = file
         self._mark = _mark(file)
@@ -128,14 +136,14 @@ class Keys:
 
     @property
     def patterns(self) -> tuple[tuple[str, ...], ...]:
-        """Return the distinct lists of map name patterns that keys open."""
+        """Return the distinct lists of map name patterns of all keys."""
         return tuple(sorted({holder.key.maps for holder in self._holders}))
 
     def holder(self, authorization: str | None) -> Holder:
-        """Who sent a request with this Authorization header.
+        """Return the principal of a request with this Authorization header.
 
         Raises:
-            Problem: 401 if it names no key that is known.
+            Problem: 401, the header holds no known key.
         """
         if self._file is None:
             return ANYONE
@@ -143,7 +151,7 @@ class Keys:
         scheme, _, token = (authorization or "").partition(" ")
         digest = hashlib.sha256(token.strip().encode()).hexdigest()
         found = None
-        # All are compared, each in constant time: how long it takes tells nothing.
+        # All keys are compared, each in constant time, so that the time reveals nothing.
         for holder in self._holders:
             if hmac.compare_digest(holder.key.sha256, digest):
                 found = holder
@@ -151,7 +159,7 @@ class Keys:
             raise Problem(
                 401,
                 "unauthorized",
-                "A known key is needed: Authorization: Bearer KEY.",
+                "The request needs a known key in the header Authorization: Bearer KEY.",
                 headers={"WWW-Authenticate": "Bearer"},
             )
         return found
@@ -174,7 +182,7 @@ class Keys:
                 )
             else:
                 if self._bad_since is not None:
-                    logger.warning("the key file can be read again")
+                    logger.warning("the key file is readable again")
                 self._bad_since = None
             self._mark = mark
         return self._bad_since is None
@@ -191,17 +199,17 @@ class Keys:
 
 
 def read_keys(file: Path) -> list[Holder]:
-    """The keys of a file.
+    """Read the principals of a file of keys.
 
     Raises:
-        ValueError: it is missing or is no file of keys; the message does not show its content.
+        ValueError: the file is missing or is not a file of keys; the message shows no content.
     """
     try:
         keys = KEYS.validate_python(tomllib.loads(file.read_text(encoding="utf-8-sig")))
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{file}: is no TOML ({type(error).__name__})") from error
+        raise ValueError(f"{file}: is not valid TOML ({type(error).__name__})") from error
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
@@ -220,13 +228,13 @@ def _hashes_in(file: Path) -> frozenset[str]:
 
 
 def new_key() -> tuple[str, str]:
-    """A new key, and its SHA-256 in hex."""
+    """Return a new key and its SHA-256 digest in hex."""
     key = PREFIX + secrets.token_urlsafe(32)
     return key, hashlib.sha256(key.encode()).hexdigest()
 
 
 def _mark(file: Path | None) -> tuple[int, ...] | None:
-    """Changes when the file does."""
+    """Return a value that changes when the file does."""
     try:
         status = file.stat() if file else None
     except OSError:

@@ -1,9 +1,9 @@
 """Cost of a request: an estimate in seconds of one core, made before the work.
 
 A request within the limits on size can still be more work than its deadline allows: 1,000 queries
-in maps of a hundred million segments, or two maps of a million to be aligned. Such a request is
-refused at once (413), with its cost, the limit and what to do. What cannot be told before is left
-out (how many poses are tried, how many requests share the machine): the deadline stops such work.
+in maps of a hundred million segments, or the alignment of two maps of a million segments. Such a
+request is refused at once (413) with its cost, the limit and a remedy. The estimate leaves out what
+is not known before (number of poses tried, load of the machine): the deadline stops such work.
 """
 
 from collections.abc import Sequence
@@ -85,12 +85,12 @@ def check_cost(cost: Cost, limit: float, remedy: str | None = None) -> None:
     """Refuse work that costs more than a limit.
 
     Args:
-        cost: of the request.
-        limit: seconds that it may cost.
-        remedy: what to do instead; that of the largest kind unless given.
+        cost: cost of the request.
+        limit: largest cost, seconds.
+        remedy: advice to the client. Default: the advice for the largest kind of work.
 
     Raises:
-        Problem: 413, it costs more.
+        Problem: 413, the cost is above the limit.
     """
     if cost.seconds > limit:
         raise Problem(
@@ -107,9 +107,9 @@ def cost_of_describing(
     """Return the cost of describing segments.
 
     Args:
-        points: float32 (n, 3), of the segments, one after the other.
+        points: float32 (n, 3), points of the segments, one after the other.
         counts: int64 (segments,), points of each, 1 or more.
-        looks: how the model looks around; None if it does not.
+        looks: parameters of the neighborhood; None if the model uses none.
     """
     near = 0 if looks is None else near_voxels(points, counts, looks)
     return Cost(
@@ -120,10 +120,10 @@ def cost_of_describing(
 
 
 def near_voxels(points: Float32, counts: Int64, looks: SurroundingsParameters) -> int:
-    """Estimate the pairs of a segment and a voxel within reach; seldom too low.
+    """Estimate the number of pairs of a segment and a voxel within reach; seldom too low.
 
-    Along each axis by itself, of which the one with the fewest pairs counts; so it takes no longer
-    than to sort the segments.
+    Pairs are counted along each horizontal axis alone, and the axis with fewer pairs counts. So
+    the estimate takes no longer than sorting the segments.
     """
     if not len(counts):
         return 0
@@ -148,10 +148,10 @@ def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
     """Return the cost of searching candidates.
 
     Args:
-        queries: segments, or codes, of the request.
-        rows: segments of all maps that are searched.
-        k: candidates wanted of each.
-        models: by which the queries are searched, each in its own maps.
+        queries: number of segments or codes of the request.
+        rows: number of segments of all searched maps.
+        k: candidates per query.
+        models: number of models whose maps are searched.
     """
     return Cost(
         search=queries * rows * (RATES.compared + RATES.compared_k * k),
@@ -163,9 +163,9 @@ def cost_of_aligning(sizes: Sequence[int], k: int, parameters: AlignmentParamete
     """Return the cost of aligning every pair of some maps.
 
     Args:
-        sizes: segments of each map; each is searched for those of all after it.
-        k: candidates of each.
-        parameters: of the alignment.
+        sizes: number of segments of each map; each is searched for segments of all later ones.
+        k: candidates per segment.
+        parameters: constants of the alignment.
     """
     asked = parameters.submaps * parameters.things
     total = NOTHING

@@ -1,4 +1,4 @@
-"""Log lines: for people, or as JSON for machines."""
+"""Logging: text for people, or JSON for machines."""
 
 import logging
 import sys
@@ -12,7 +12,7 @@ def install(form: str) -> None:
     """Send the log to standard error.
 
     Args:
-        form: `json`: a line is an object, with the request's id and times; `text`: without.
+        form: `json` writes an object per line with request id and times, `text` plain lines.
     """
     handler = logging.StreamHandler(sys.stderr)
     if form == "json":

@@ -19,9 +19,9 @@ ARENAS = 4
 def limit() -> None:
     """Limit the free memory that the allocator keeps.
 
-    By itself glibc maps ever larger arrays inside its arenas (up to 32 MB, as they are freed), and
-    has eight arenas a core: after maps of a million were built anew some times, half of the memory
-    held nothing.
+    By default glibc keeps ever larger freed arrays (up to 32 MB) in its arenas, of which it has
+    eight per core. After maps of a million segments were rebuilt a few times, half of the memory
+    was unused.
     """
     with suppress(OSError, AttributeError):  # another system, or another library
         library = ctypes.CDLL("libc.so.6")

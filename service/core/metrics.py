@@ -1,4 +1,4 @@
-"""What Prometheus is told: counts, times and depths, on `/metrics`."""
+"""Metrics for Prometheus: counts, times and queue lengths, served on `/metrics`."""
 
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, ProcessCollector
 
@@ -9,54 +9,70 @@ COUNTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 class Metrics:
-    """All metrics of one application, in a registry of their own."""
+    """Metrics of one application, in their own registry."""
 
     def __init__(self) -> None:
         of = self.registry = CollectorRegistry()
         ProcessCollector(registry=of)
         self.requests = Counter(
-            "placecell_requests", "Requests answered.", ["route", "method", "status"], registry=of
+            "placecell_requests",
+            "Number of requests answered.",
+            ["route", "method", "status"],
+            registry=of,
         )
         self.seconds = Histogram(
             "placecell_request_seconds",
-            "From the request's head to the answer's end.",
+            "Seconds from the head of the request to the end of the answer.",
             ["route"],
             buckets=SECONDS,
             registry=of,
         )
         self.stages = Histogram(
-            "placecell_stage_seconds", "Steps of requests.", ["stage"], buckets=SECONDS, registry=of
+            "placecell_stage_seconds",
+            "Seconds of each step of the requests.",
+            ["stage"],
+            buckets=SECONDS,
+            registry=of,
         )
         for stage in STAGES:
             self.stages.labels(stage)  # a step that never ran is 0, not absent
         self.queue_requests = Gauge(
-            "placecell_queue_requests", "Requests admitted and not yet answered.", registry=of
+            "placecell_queue_requests",
+            "Number of requests admitted and not yet answered.",
+            registry=of,
         )
         self.queue_segments = Gauge(
-            "placecell_queue_segments", "Segments that wait for the model.", registry=of
+            "placecell_queue_segments", "Number of segments that wait for the model.", registry=of
         )
         self.batch_segments = Histogram(
-            "placecell_batch_segments", "Segments of a batch.", buckets=COUNTS, registry=of
+            "placecell_batch_segments", "Number of segments per batch.", buckets=COUNTS, registry=of
         )
         self.batch_requests = Histogram(
-            "placecell_batch_requests", "Requests in a batch.", buckets=COUNTS, registry=of
+            "placecell_batch_requests", "Number of requests per batch.", buckets=COUNTS, registry=of
         )
         self.rejected = Counter(
-            "placecell_rejected", "Requests refused, by kind of problem.", ["reason"], registry=of
+            "placecell_rejected",
+            "Number of requests refused, by kind of problem.",
+            ["reason"],
+            registry=of,
         )
-        self.writes = Counter("placecell_writes", "Changes of maps.", ["operation"], registry=of)
-        self.maps = Gauge("placecell_maps", "Maps stored.", registry=of)
-        self.map_segments = Gauge("placecell_map_segments", "Segments in all maps.", registry=of)
+        self.writes = Counter(
+            "placecell_writes", "Number of writes to maps.", ["operation"], registry=of
+        )
+        self.maps = Gauge("placecell_maps", "Number of stored maps.", registry=of)
+        self.map_segments = Gauge(
+            "placecell_map_segments", "Number of segments in all maps.", registry=of
+        )
         self.keys_file_good = Gauge(
             "placecell_keys_file_good",
             "1 if the key file can be read or none is set; 0 otherwise, see /readyz.",
             registry=of,
         )
         self.models = Gauge(
-            "placecell_model_info", "Models loaded.", ["model_id", "role"], registry=of
+            "placecell_model_info", "1 for each loaded model.", ["model_id", "role"], registry=of
         )
 
     def observe(self, timing: Timing) -> None:
-        """Take up the steps of a request that was answered."""
+        """Add the steps of an answered request."""
         for stage, seconds in timing.items():
             self.stages.labels(stage).observe(seconds)

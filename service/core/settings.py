@@ -30,7 +30,7 @@ FILE_VARIABLE = PREFIX + "CONFIG"
 DEFAULT_FILE = "placecell.toml"
 
 OTHER_NAMES = {
-    FILE_VARIABLE: "the settings' file",
+    FILE_VARIABLE: "settings file",
     PREFIX + "URL": "'placecell maps': address of the service",
     PREFIX + "KEY": "'placecell maps': key to send",
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
@@ -48,11 +48,13 @@ LINKED_PORT = re.compile(r"(tcp|udp|sctp)://", re.IGNORECASE)
 
 
 class Limits(BaseModel):
-    """How much the service takes at once; `/info` shows them."""
+    """Limits on requests, maps and connections; `/info` shows them."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    body_bytes: int = Field(default=16 * MEBIBYTE, ge=1, description="Bytes of a request's body.")
+    body_bytes: int = Field(
+        default=16 * MEBIBYTE, ge=1, description="Largest body of a request, bytes."
+    )
     json_bytes: int = Field(
         default=40 * MEBIBYTE,
         ge=1,
@@ -60,43 +62,46 @@ class Limits(BaseModel):
         "`points` points with all their digits. If only body_bytes is set, its value applies.",
     )
     map_bytes: int = Field(
-        default=64 * MEBIBYTE, ge=1, description="Bytes of an uploaded map file."
+        default=64 * MEBIBYTE, ge=1, description="Largest map file in one request, bytes."
     )
     upload_bytes: int = Field(
         default=512 * MEBIBYTE,
         ge=1,
-        description="Bytes of a map file that is uploaded in parts, at most.",
+        description="Largest map file that is uploaded in parts, bytes.",
     )
     unfinished_bytes: int = Field(
         default=2 * GIBIBYTE,
         ge=1,
-        description="Bytes of uploads in parts that are not complete, on disk, at most; of one "
-        "key, half of them.",
+        description="Largest size of all unfinished uploads in parts, on disk, bytes; one key may "
+        "use half.",
     )
-    segments: int = Field(default=1_000, ge=1, description="Segments, or descriptors, a request.")
-    points: int = Field(
-        default=500_000, ge=1, description="Points a request, over all its segments."
+    segments: int = Field(
+        default=1_000, ge=1, description="Largest number of segments or descriptors per request."
     )
+    points: int = Field(default=500_000, ge=1, description="Largest number of points per request.")
     min_points: int = Field(
         default=10,
         ge=3,
-        description="Points a segment, at least: fewer have no shape to describe. "
+        description="Smallest number of points per segment; fewer have no shape to describe. "
         "Models are trained on segments of 100 points or more.",
     )
-    max_points: int = Field(default=50_000, ge=3, description="Points a segment, at most.")
+    max_points: int = Field(
+        default=50_000, ge=3, description="Largest number of points per segment."
+    )
     reach: float = Field(
         default=1_000.0,
         gt=0,
-        description="Metres from a segment's sensor to its farthest point, at most.",
+        description="Largest distance from a segment's sensor position to its points, meters.",
     )
     spread: float = Field(
         default=10_000.0,
         gt=0,
-        description="Metres from the sensors' median to any one of them, at most.",
+        description="Largest distance from the median of the sensor positions to any of them, "
+        "meters.",
     )
-    k: int = Field(default=100, ge=1, description="Candidates a query, at most.")
+    k: int = Field(default=100, ge=1, description="Largest number of candidates per query.")
     batch: int = Field(
-        default=256, ge=1, description="Segments that the model computes together, at most."
+        default=256, ge=1, description="Largest number of segments per batch of the model."
     )
     requests: int = Field(
         default=32,
@@ -108,7 +113,8 @@ class Limits(BaseModel):
         default=10.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds that a request may take; it may ask for fewer (Placecell-Timeout).",
+        description="Seconds that a recognition request may take. A request may ask for fewer with "
+        "the header Placecell-Timeout.",
     )
     cost_seconds: float = Field(
         default=8.0,
@@ -121,7 +127,7 @@ class Limits(BaseModel):
         default=8.0,
         gt=0,
         allow_inf_nan=False,
-        description="Seconds in which the body of such a request must have come.",
+        description="Seconds within which the body of a recognition request must arrive.",
     )
     uploads: int = Field(
         default=4,
@@ -178,9 +184,13 @@ class Limits(BaseModel):
         description="Largest number of maps that a request names.",
     )
     robot_segments: int = Field(
-        default=2_000_000, ge=1, description="Segments of one robot over all maps, at most."
+        default=2_000_000,
+        ge=1,
+        description="Largest number of segments of one robot over all maps.",
     )
-    map_segments: int = Field(default=4_000_000, ge=1, description="Segments of a map, at most.")
+    map_segments: int = Field(
+        default=4_000_000, ge=1, description="Largest number of segments of a map."
+    )
     map_robots: int = Field(
         default=1_000,
         ge=1,
@@ -219,7 +229,9 @@ class Limits(BaseModel):
         description="Seconds within which a map or an edit must be stored after its last byte.",
     )
     alignments: int = Field(
-        default=2, ge=1, description="Maps aligned or merged at once; the others get a 429."
+        default=2,
+        ge=1,
+        description="Largest number of alignments and merges at once; further ones get a 429.",
     )
     alignment_seconds: float = Field(
         default=300.0,
@@ -228,7 +240,9 @@ class Limits(BaseModel):
         description="Seconds that an alignment or a merge may take.",
     )
     merged_maps: int = Field(
-        default=12, ge=2, description="Maps in a merge, at most; each two are aligned."
+        default=12,
+        ge=2,
+        description="Largest number of maps in a merge; every pair of them is aligned.",
     )
     sessions: int = Field(
         default=10_000,
@@ -258,30 +272,34 @@ class Limits(BaseModel):
 
 
 class Settings(BaseSettings):
-    """Everything that can be set, each with a default that works from a checkout."""
+    """Settings of the service; every default works from a checkout."""
 
     model_config = SettingsConfigDict(
         env_prefix=PREFIX, env_nested_delimiter="__", frozen=True, extra="forbid"
     )
 
     data_dir: Path = Field(
-        default=Path("var"), description="Folder of the maps; one service owns it."
+        default=Path("var"), description="Folder of the stored maps; only one service may use it."
     )
-    models_dir: Path = Field(default=MODELS_FOLDER, description="Folder of the models' folders.")
+    models_dir: Path = Field(
+        default=MODELS_FOLDER, description="Folder that holds one folder per model."
+    )
     model: str = Field(
         default=DEFAULT_MODEL,
         pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$",
-        description="Name of the model to load.",
+        description="Name of the default model.",
     )
     also: tuple[str, ...] = Field(
-        default=(), description="Names of models to load beside it, as a JSON list."
+        default=(), description="Names of further models to load, as a JSON list."
     )
     keys_file: Path | None = Field(
-        default=None, description="TOML file of keys (placecell keys); without it all may do all."
+        default=None,
+        description="TOML file of keys, made by `placecell keys`. Without it, every client may do "
+        "everything.",
     )
     host: str = Field(default="127.0.0.1", description="Address to listen on.")
     port: int = Field(
-        default=8000, ge=0, le=65_535, description="Port to listen on; 0: any free one."
+        default=8000, ge=0, le=65_535, description="Port to listen on; 0 takes any free port."
     )
     unix_socket: Path | None = Field(
         default=None, description="Path of a Unix socket to listen on instead of host and port."
@@ -289,7 +307,8 @@ class Settings(BaseSettings):
     root_path: str = Field(
         default="",
         pattern=r"^(/[A-Za-z0-9._~-]+)*$",
-        description="Path prefix that a proxy puts before the service's paths, such as /placecell.",
+        description="Path prefix that a proxy puts before the paths of the service, such as "
+        "/placecell.",
     )
     forwarded_allow_ips: tuple[str, ...] = Field(
         default=(),
@@ -302,7 +321,7 @@ class Settings(BaseSettings):
     cors_origins: tuple[str, ...] = Field(
         default=(),
         description="Origins of web pages that may call the service from a browser, as a JSON "
-        'list; ["*"]: all.',
+        'list; ["*"] allows all.',
     )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
@@ -310,19 +329,24 @@ class Settings(BaseSettings):
         "JSON list; *.example matches all names below it, * matches all.",
     )
     docs: bool = Field(
-        default=True, description="Serve the API's description: /docs, /redoc and /openapi.json."
+        default=True, description="Serve the API documentation at /docs, /redoc and /openapi.json."
     )
     workers: int = Field(
-        default=2, ge=1, description="Requests decoded and searched at once, beside the model."
+        default=2,
+        ge=1,
+        description="Number of threads that decode and search requests, beside those of the model.",
     )
-    threads: int = Field(default=0, ge=0, description="Cores that a model uses; 0: all there are.")
+    threads: int = Field(
+        default=0, ge=0, description="Number of cores that a model uses; 0 uses all cores."
+    )
     drain_seconds: float = Field(
         default=2.0,
         ge=0,
-        description="After SIGTERM /readyz fails for so long before connections are refused.",
+        description="Seconds after SIGTERM during which /readyz fails before the service refuses "
+        "connections.",
     )
-    log: Literal["json", "text"] = Field(default="text", description="How log lines are written.")
-    limits: Limits = Field(default=Limits(), description="How much is taken at once.")
+    log: Literal["json", "text"] = Field(default="text", description="Format of log lines.")
+    limits: Limits = Field(default=Limits(), description="Limits of the service.")
 
     @classmethod
     def settings_customise_sources(
@@ -394,8 +418,8 @@ def check_environment(model: type[BaseModel], environment: Mapping[str, str]) ->
     ]
     if wrong:
         raise ValueError(
-            f"the environment has names that are no settings: {', '.join(wrong)}. "
-            "'placecell config' lists all settings; unset the others"
+            f"The environment has unknown settings: {', '.join(wrong)}. Unset them. "
+            "'placecell config' lists all settings."
         )
 
 
@@ -407,7 +431,9 @@ def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -
     """
     wrong = list(unknown_keys(model, content))
     if wrong:
-        raise ValueError(f"{file}: unknown settings {', '.join(wrong)}; see 'placecell config'")
+        raise ValueError(
+            f"{file}: unknown settings {', '.join(wrong)}. 'placecell config' lists all settings."
+        )
 
 
 def unknown_keys(
@@ -450,12 +476,14 @@ def read_settings(file: Path) -> dict[str, Any]:
 
 
 def settings_file() -> Path:
-    """Where the settings' file is, if there is one.
+    """Return the path of the settings file, whether it exists or not.
 
     Raises:
-        ValueError: the environment names one that is not there.
+        ValueError: the environment names a file that does not exist.
     """
     named = os.environ.get(FILE_VARIABLE)
     if named and not Path(named).is_file():
-        raise ValueError(f"{FILE_VARIABLE} names {named}, which is no file")
+        raise ValueError(
+            f"{FILE_VARIABLE} names {named}, which is not a file. Correct the path or unset it."
+        )
     return Path(named or DEFAULT_FILE)

@@ -1,4 +1,4 @@
-"""How long the steps of a request take."""
+"""Timing of the steps of a request."""
 
 from collections.abc import Iterator
 from time import perf_counter
@@ -16,16 +16,16 @@ STAGES = (
     "encode",
     "commit",
 )
-"""All steps that there are, in order.
+"""All steps, in order.
 
-`look`: what stands around each segment; `verify`: from candidates to a pose.
+`look` describes the neighborhood of each segment, `verify` finds a pose from candidates.
 """
 
 
 class Timing:
-    """A stopwatch: each lap is the time since the one before.
+    """Stopwatch of a request: each lap is the time since the previous one.
 
-    A request passes from thread to thread, but is only ever in one of them.
+    A request passes from thread to thread, but only one thread works on it at a time.
     """
 
     def __init__(self) -> None:
@@ -33,15 +33,15 @@ class Timing:
         self._seconds: dict[str, float] = {}
 
     def lap(self, stage: str) -> None:
-        """A step has ended; one of `STAGES`. Done twice, its times add up."""
+        """Record the end of a step, one of `STAGES`; times of a repeated step add up."""
         now = perf_counter()
         self._seconds[stage] = self._seconds.get(stage, 0.0) + now - self._last
         self._last = now
 
     def items(self) -> Iterator[tuple[str, float]]:
-        """Steps with their seconds, in the order of their first laps."""
+        """Return the steps with their seconds, in the order of their first laps."""
         return iter(self._seconds.items())
 
     def header(self) -> str:
-        """For `Server-Timing`: milliseconds of each step."""
+        """Return the value of the `Server-Timing` header: milliseconds of each step."""
         return ", ".join(f"{stage};dur={1e3 * seconds:.2f}" for stage, seconds in self.items())

@@ -1,4 +1,4 @@
-"""What the service answers about how maps lie to each other."""
+"""Schemas of map alignment and of merging as JSON."""
 
 from typing import Annotated, Literal
 
@@ -11,64 +11,71 @@ from service.maps.store import NAME_PATTERN
 
 
 class LaidOut(BaseModel):
-    """A way to lay the second map on the first."""
+    """Alignment hypothesis: a possible pose of the second map in the first."""
 
-    pose: PoseOut = Field(description="Of the second map's frame in the first's.")
+    pose: PoseOut = Field(description="Pose of the second map's frame in the first map's frame.")
     score: float = Field(
-        description="What the pairs that agree are worth together: of each how likely the two are "
-        "the same, the less, the farther apart they are."
+        description="Evidence: the sum over the agreeing pairs of the match probability, weighted "
+        "down with their distance."
     )
     agreement: float = Field(
-        description="Of what should agree where both robots were, how much does, 0 to 1."
+        description="Share of the segments expected to agree in the overlap that do agree, 0 to 1."
     )
-    pairs: int = Field(description="Segments of the one that agree with one of the other.")
+    pairs: int = Field(description="Number of pairs of segments that agree with the pose.")
 
 
 class PairOut(BaseModel):
-    """Two segments that agree."""
+    """Pair of segments that agrees with the pose."""
 
-    id: int = Field(description="Of the first map.")
-    other_id: int = Field(description="Of the second map.")
-    residual: float = Field(description="Metres between the two, by the pose.")
+    id: int = Field(description="Id of the segment in the first map.")
+    other_id: int = Field(description="Id of the segment in the second map.")
+    residual: float = Field(description="Distance between the two segments under the pose, meters.")
 
 
 class OverlapOut(BaseModel):
-    """How much of the two maps is of the same places: of where each robot was, 0 to 1."""
+    """Share of each map's area that the other map covers too, 0 to 1."""
 
     of_map: float
     of_other: float
 
 
 class AlignmentOut(BaseModel):
-    """How two maps lie to each other."""
+    """Alignment of two maps."""
 
     map: str
-    etag: str = Field(description="Of the version that was looked at.")
-    frame: str = Field(description="Name of the first map's frame.")
+    etag: str = Field(description="Entity tag of the version that was aligned.")
+    frame: str = Field(description="Name of the frame of the first map.")
     other: str
     other_etag: str
     other_frame: str
     aligned: bool
-    reason: Reason | None = Field(description="Why the maps are not aligned; null if they are.")
-    detail: str = Field(description="The reason in words; empty if there is none.")
+    reason: Reason | None = Field(
+        description="Reason why the maps are not aligned. Null if they are."
+    )
+    detail: str = Field(description="Reason in words. Empty if there is none.")
     pose: PoseOut | None = Field(
-        description="Of the second map's frame in the first's; null if they are not aligned."
+        description="Pose of the second map's frame in the first map's frame. Null if they are not "
+        "aligned."
     )
     covariance: list[list[float]] | None = Field(
-        description="Of the pose, as `/localize` tells it; of the second frame's origin."
+        description="Covariance of the pose, in the form of `/localize`, at the origin of the "
+        "second frame."
     )
     overlap: OverlapOut | None
-    score: float = Field(description="Of the best way, aligned or not; as in `others`.")
-    agreement: float = Field(description="Of the best way, aligned or not; as in `others`.")
-    pairs: int = Field(description="That agree with the pose.")
-    inliers: list[PairOut] = Field(description="These pairs, if they were asked for.")
+    score: float = Field(description="Value of the best hypothesis, aligned or not; see `others`.")
+    agreement: float = Field(
+        description="Value of the best hypothesis, aligned or not; see `others`."
+    )
+    pairs: int = Field(description="Number of pairs of segments that agree with the pose.")
+    inliers: list[PairOut] = Field(description="The agreeing pairs, if the request asked for them.")
     others: list[LaidOut] = Field(
-        description="The second-best way; the best one first where the maps are not aligned."
+        description="Further hypotheses: the second-best one, after the best one if the maps are "
+        "not aligned."
     )
 
 
 class MergeRequest(BaseModel):
-    """What to merge into a site map."""
+    """Maps to merge into one map."""
 
     model_config = ConfigDict(
         extra="forbid",
@@ -80,31 +87,38 @@ class MergeRequest(BaseModel):
     ] = Field(
         min_length=1,
         max_length=NAMED_MAPS,
-        description="Names. A new site takes the frame of the first, and needs two or more.",
+        description="Names of the maps to merge. A new merged map takes the frame of the first one "
+        "and needs at least two.",
     )
-    dry_run: bool = Field(False, strict=True, description="Only tell what would be done.")
+    dry_run: bool = Field(
+        False, strict=True, description="Return what the merge would do, and write nothing."
+    )
     deduplicate: bool = Field(
         True,
         strict=True,
-        description="Leave out what another map's segment shows already, from the same side or "
-        "alike.",
+        description="Leave out segments that another map holds already, seen from the same side or "
+        "with nearly the same descriptor.",
     )
     motion: Literal["yaw", "se3"] = Field(
-        "yaw", description="Yaw and translation, for frames are level; or all six degrees."
+        "yaw",
+        description="Degrees of freedom of the alignment: `yaw` is yaw and translation "
+        "(level frames), `se3` is all six.",
     )
 
 
 class MergePairOut(BaseModel):
-    """What was found of two of the maps."""
+    """Alignment of two of the merged maps."""
 
     map: str
     other: str
     aligned: bool
-    rejected: bool = Field(description="Loops rule the alignment out.")
-    proven: bool = Field(description="The alignment is part of a loop that closes.")
+    rejected: bool = Field(
+        description="True if the alignment was rejected, because loops over it do not close."
+    )
+    proven: bool = Field(description="True if the alignment is part of a loop that closes.")
     reason: Reason | None
     detail: str
-    pose: PoseOut | None = Field(description="Of the other map's frame in the map's.")
+    pose: PoseOut | None = Field(description="Pose of the other map's frame in the map's frame.")
     overlap: OverlapOut | None
     score: float
     agreement: float
@@ -112,46 +126,52 @@ class MergePairOut(BaseModel):
 
 
 class LoopOut(BaseModel):
-    """A way around from map to map, back to the first."""
+    """Loop of alignments: from map to map, back to the first one."""
 
     maps: list[str]
-    metres: float = Field(description="By which one misses where one began.")
-    degrees: float = Field(description="By which one is turned then.")
+    metres: float = Field(description="Translation error of the loop, meters.")
+    degrees: float = Field(description="Rotation error of the loop, degrees.")
     closes: bool
 
 
 class MergedPartOut(BaseModel):
-    """What became of a map."""
+    """Result of the merge for one map."""
 
     map: str
-    etag: str = Field(description="Of the version that was merged.")
-    merged: bool = Field(description="False: it could not be laid on the site, and was left out.")
-    pose: PoseOut | None = Field(description="Of the map's frame in the site's.")
-    added: int = Field(description="Segments that are new in the site.")
-    known: int = Field(description="Segments that were merged before, and stay as they are.")
+    etag: str = Field(description="Entity tag of the version that was merged.")
+    merged: bool = Field(
+        description="False if the map could not be aligned to the merged map and was left out."
+    )
+    pose: PoseOut | None = Field(description="Pose of the map's frame in the merged map's frame.")
+    added: int = Field(description="Number of segments added to the merged map.")
+    known: int = Field(description="Number of segments that were merged before and stay unchanged.")
     repeats: int = Field(
-        description="Segments left out, for another map's segment shows the same (`deduplicate`)."
+        description="Number of segments left out as duplicates of another map's (`deduplicate`)."
     )
     removed: int = Field(
-        description="Segments merged before that the map no longer has, or has replaced."
+        description="Number of earlier merged segments that the map removed or replaced since."
     )
 
 
 class MergedOut(BaseModel):
-    """What a merge did, or would do."""
+    """Result of a merge, or of its dry run."""
 
-    map: str = Field(description="The site.")
-    frame: str = Field(description="Name of its coordinate frame.")
+    map: str = Field(description="Name of the merged map.")
+    frame: str = Field(description="Name of the coordinate frame.")
     dry_run: bool
-    sequence: int | None = Field(description="Of the site's version after it; null: dry run.")
-    etag: str | None = Field(description="Of that version; null: dry run.")
-    previous: int | None = Field(
-        description="The site's version before. To undo: POST /maps/MAP/versions/PREVIOUS/restore; "
-        "where it is null there was no site: DELETE /maps/MAP."
+    sequence: int | None = Field(
+        description="Sequence number of the merged map after the merge. Null for a dry run."
     )
-    segments: int = Field(description="In the site after it.")
-    changed: int = Field(description="Segments added or replaced.")
+    etag: str | None = Field(description="Entity tag of that version. Null for a dry run.")
+    previous: int | None = Field(
+        description="Version of the merged map before the merge. To undo the merge: POST "
+        "/maps/MAP/versions/PREVIOUS/restore. If it is null the map is new: DELETE /maps/MAP."
+    )
+    segments: int = Field(description="Number of segments in the merged map after the merge.")
+    changed: int = Field(description="Number of segments added or replaced.")
     removed: int
-    parts: list[MergedPartOut] = Field(description="In the order of the request.")
-    alignments: list[MergePairOut] = Field(description="Of each two of site and maps.")
+    parts: list[MergedPartOut] = Field(
+        description="Result for each map, in the order of the request."
+    )
+    alignments: list[MergePairOut] = Field(description="Alignment of each pair of the maps.")
     loops: list[LoopOut]

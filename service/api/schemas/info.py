@@ -1,4 +1,4 @@
-"""What the service tells of itself: `/info`, `/models` and its health, as JSON."""
+"""Schemas of `/info`, `/models` and the health routes as JSON."""
 
 from typing import Any, Literal
 
@@ -8,26 +8,30 @@ from service.core.settings import Limits
 
 
 class ModelOut(BaseModel):
-    """The loaded model's manifest in short."""
+    """Summary of a loaded model's manifest."""
 
     model_id: str
     name: str
     method: str
     network: str
     dimension: int
-    code_bytes: int = Field(description="Of a stored descriptor: the length of `codes`.")
-    per_byte: int = Field(description="How many dimensions share a byte of `codes`.")
+    code_bytes: int = Field(description="Bytes of a stored descriptor: the length of `codes`.")
+    per_byte: int = Field(description="Number of dimensions that share a byte of `codes`.")
     surroundings: bool = Field(
-        description="Whether a segment's descriptor takes in the other segments of its request: "
-        "then send all segments of a scan together."
+        description="True if a segment's descriptor depends on its neighborhood. Then send all "
+        "segments of a scan in one request."
     )
-    step: float = Field(description="What one level is worth in the descriptor's unit.")
-    pair_threshold: float = Field(description="Distance below which a pair is called a match.")
+    step: float = Field(
+        description="Quantizer step: the descriptor's change for one level of `codes`."
+    )
+    pair_threshold: float = Field(
+        description="Descriptor distance below which a pair counts as a match."
+    )
     preprocessing: dict[str, Any]
 
 
 class MapFileOut(BaseModel):
-    """The map file that this service reads and writes."""
+    """Map file format that this service reads and writes."""
 
     format: str
     version: int
@@ -56,11 +60,11 @@ class CostsOut(BaseModel):
 
 
 class InfoResponse(BaseModel):
-    """What the service is, and how much it takes at once."""
+    """Version, models, limits and costs of the service."""
 
     version: str
-    model: ModelOut = Field(description="The default one.")
-    models: list[ModelOut] = Field(description="All that are loaded, the default one first.")
+    model: ModelOut = Field(description="Default model.")
+    models: list[ModelOut] = Field(description="All loaded models, the default model first.")
     limits: Limits
     costs: CostsOut
     map_file: MapFileOut
@@ -68,14 +72,14 @@ class InfoResponse(BaseModel):
 
 
 class ReloadResponse(BaseModel):
-    """What is loaded now."""
+    """Models that are loaded after a reload."""
 
-    model_id: str = Field(description="Of the default model.")
-    models: list[str] = Field(description="Ids of all, the default one first.")
+    model_id: str = Field(description="Id of the default model.")
+    models: list[str] = Field(description="Ids of all loaded models, the default model first.")
 
 
 class HealthResponse(BaseModel):
-    """That the service is there."""
+    """Health of the service."""
 
     status: Literal["alive", "ready"]
     warnings: list[str] | None = Field(

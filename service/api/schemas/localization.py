@@ -1,4 +1,4 @@
-"""What goes over the wire of `/localize`, as JSON; `packed_schemas` has the request as msgpack."""
+"""Schemas of `/localize` as JSON; `schemas.msgpack` has the msgpack form of the request."""
 
 from typing import Annotated, Generic, Literal, Self, TypeVar
 
@@ -23,112 +23,120 @@ SessionId = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9._-]{1,64}$")
 
 
 class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, CentroidsT]):
-    """What a robot sees, and where it may be, in either encoding."""
+    """Segments or descriptors that a robot sees, and the maps to search, in either encoding."""
 
     centroids: CentroidsT | None = Field(
-        None, description="Of the codes, metres, all in one z-up frame of the robot's."
+        None,
+        description="Centroid of each code's segment, meters, in one frame of the robot with z up.",
     )
-    k: int = Field(25, ge=1, strict=True, description="Candidates a segment, at most.")
+    k: int = Field(25, ge=1, strict=True, description="Largest number of candidates per segment.")
     motion: Literal["yaw", "se3"] = Field(
-        "yaw", description="Yaw and translation, for gravity is known; or all six degrees."
+        "yaw",
+        description="Degrees of freedom of the pose: `yaw` is yaw and translation (gravity "
+        "is known), `se3` is all six.",
     )
     session: SessionId | None = Field(
         None,
-        description="Any id that the robot alone uses, for requests in one odometry frame: those "
-        "of the last seconds support each other, one that is sent again once.",
+        description="Id of the robot's own choice for its requests in one odometry frame. Requests "
+        "of the last seconds with the same id support each other.",
     )
 
     @model_validator(mode="after")
     def _centroids_of_codes(self) -> Self:
         if (self.codes is None) != (self.centroids is None):
-            raise ValueError("give centroids with codes, and not with segments")
+            raise ValueError("the request needs centroids with codes, and none with segments")
         return self
 
 
 class LocalizeRequest(
     LocalizeQuery[SegmentIn, Codes, Annotated[list[Point], Field(fail_fast=True, min_length=1)]]
 ):
-    """What a robot sees, as segments or as descriptors with centroids, and where it may be."""
+    """Segments, or descriptors with centroids, that a robot sees, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
 class PoseOut(BaseModel):
-    """A rigid transform: rotation @ point + translation."""
+    """Rigid transform: rotation @ point + translation."""
 
-    translation: Point = Field(description="Metres.")
+    translation: Point = Field(description="Translation x, y, z, meters.")
     rotation: tuple[float, float, float, float] = Field(
-        description="Unit quaternion x, y, z, w; w is not negative."
+        description="Rotation as a unit quaternion x, y, z, w, with w not negative."
     )
-    yaw: float = Field(description="Radians, -pi to pi: where the x axis points, from above.")
+    yaw: float = Field(description="Heading of the x axis about z, radians, -pi to pi.")
 
 
 class InlierOut(BaseModel):
-    """A segment that agrees with the pose."""
+    """Segment that agrees with the pose."""
 
     query: int = Field(description="Index of the segment in the request.")
-    id: int = Field(description="Of the map's segment that it was found as.")
-    residual: float = Field(description="Metres between the two, by the pose.")
+    id: int = Field(description="Id of the corresponding segment in the map.")
+    residual: float = Field(description="Distance between the two segments under the pose, meters.")
 
 
 class HypothesisOut(BaseModel):
-    """Another place where the robot may be."""
+    """Pose hypothesis: another pose that the robot may have."""
 
     pose: PoseOut
     score: float
-    inliers: int = Field(description="How many segments agree with it.")
+    inliers: int = Field(description="Number of segments that agree with the pose.")
 
 
 class RivalOut(HypothesisOut):
-    """Best pose in another map that is not known to show the same place."""
+    """Best pose hypothesis in another map that is not known to show the same place."""
 
     map: str
-    frame: str = Field(description="Name of the other map's frame, in which the pose is given.")
+    frame: str = Field(description="Name of the other map's frame; the pose is in this frame.")
 
 
 class LocalisationOut(BaseModel):
-    """What one map says of the robot's place."""
+    """Result of localization in one map."""
 
     map: str
-    frame: str = Field(description="Name of the map's frame.")
+    frame: str = Field(description="Name of the frame of the map.")
     localised: bool
-    reason: Reason | None = Field(description="Why the robot is not localised; null if it is.")
-    detail: str = Field(description="The reason in words; empty if there is none.")
+    reason: Reason | None = Field(
+        description="Reason why the robot is not localized. Null if it is."
+    )
+    detail: str = Field(description="Reason in words. Empty if there is none.")
     probability: float = Field(
-        description="Probability that the best hypothesis is right: within 1 m and 3 degrees, in "
-        "the right map. All maps of the request are judged together."
+        description="Probability that the best hypothesis is right: in the right map, within 1 m "
+        "and 3 degrees. All maps of the request are judged together."
     )
     pose: PoseOut | None = Field(
-        description="Of the request's frame in the map's; null if the robot is not localised."
+        description="Pose of the request's frame in the map's frame. Null if the robot is not "
+        "localized."
     )
     covariance: list[list[float]] | None = Field(
-        description="Of small changes along the map's axes, the translation's (metres) and the "
-        "rotation's (radians) applied after the pose's own: x, y, z, yaw; or x, y, z, and about "
-        "x, y, z. It is of the frame's origin: large where the robot is far from that."
+        description="Covariance of the pose for small changes along the axes of the map: x, y, z "
+        "(meters) and yaw (radians); with `se3`, x, y, z and rotations about x, y, z. It "
+        "belongs to the origin of the request's frame, so it grows with the robot's distance "
+        "from that origin."
     )
     score: float = Field(
-        description="Evidence for the pose: the sum over its inliers. Scores are comparable "
-        "between maps of one model in one answer."
+        description="Evidence for the pose, summed over its inliers. Scores are comparable between "
+        "maps of one model in one answer."
     )
     inliers: list[InlierOut]
     others: list[HypothesisOut] = Field(
-        description="Second-best hypothesis; the best one first where the robot is not localised."
+        description="Further hypotheses: the second-best one, after the best one if the robot is "
+        "not localized."
     )
     rival: RivalOut | None = Field(
-        description="Best pose in another map of the request. Null if no other map has one. Maps "
-        "with the same segments are no rivals: a merged map and its sources are one place."
+        description="Best pose hypothesis in another map of the request. Null if no other map has "
+        "one. Maps that share segments are no rivals, for example a merged map and its sources."
     )
 
 
 class UnusableOut(BaseModel):
-    """A segment that could not be used, while others of the request were."""
+    """Segment that could not be used; the others were."""
 
     query: int = Field(description="Index of the segment in the request.")
     error: ItemErrorOut
 
 
 class LocalizeResponse(BaseModel):
-    """Answers of all maps, the most probable first; equally probable ones by score."""
+    """Results of all searched maps: most probable first, then by score."""
 
     model_id: str
     localisations: list[LocalisationOut]
@@ -136,4 +144,7 @@ class LocalizeResponse(BaseModel):
     dropped_points: int = Field(
         default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
-    skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")
+    skipped: list[SkippedOut] = Field(
+        description="Maps that were not searched, because their "
+        "model is not loaded or not the requested one."
+    )

@@ -1,96 +1,106 @@
-"""What `/maps` answers, as JSON."""
+"""Schemas of `/maps` as JSON."""
 
 from pydantic import BaseModel, Field
 
 
 class MapOut(BaseModel):
-    """A stored map."""
+    """Stored map."""
 
     name: str
     segments: int
-    sequence: int = Field(description="Of its newest version; each write makes one.")
-    etag: str = Field(description="Names this version, of all versions of all maps.")
-    bytes: int = Field(description="That it takes in the service's store, with its old versions.")
-    model_id: str
-    frame: str = Field(description="Name of its coordinate frame.")
-    robots: dict[str, int] = Field(description="How many segments each has in it.")
-    sources: dict[str, int] = Field(
-        description="Number of segments merged from each source map that is known and that the "
-        "key opens."
+    sequence: int = Field(
+        description="Sequence number of the newest version; each write makes a new version."
     )
-    time_span: tuple[float, float] | None = Field(description="Seconds; null without segments.")
-    optional: list[str] = Field(description="Names of the optional columns that it has.")
+    etag: str = Field(
+        description="Entity tag of the newest version, for If-Match and If-None-Match."
+    )
+    bytes: int = Field(description="Size in the store with its old versions, bytes.")
+    model_id: str
+    frame: str = Field(description="Name of the coordinate frame.")
+    robots: dict[str, int] = Field(description="Number of segments of each robot.")
+    sources: dict[str, int] = Field(
+        description="Number of segments that were merged from each source map. Maps that the key "
+        "may not read are left out."
+    )
+    time_span: tuple[float, float] | None = Field(
+        description="Times of the first and the last "
+        "observation, Unix seconds. Null if the map is empty."
+    )
+    optional: list[str] = Field(description="Names of the optional columns in the map.")
 
 
 class MapsResponse(BaseModel):
-    """The stored maps, by name, and the model that is loaded."""
+    """Stored maps, sorted by name, and the default model."""
 
     model_id: str
     maps: list[MapOut]
-    damaged: list[str] = Field(description="Maps that are stored but cannot be read.")
+    damaged: list[str] = Field(description="Names of stored maps that cannot be read.")
 
 
 class WrittenOut(BaseModel):
-    """What a write did."""
+    """Result of a write."""
 
     map: str
-    sequence: int = Field(description="Of the map's version after it.")
-    etag: str = Field(description="Of that version.")
-    segments: int = Field(description="In the map after it.")
-    changed: int = Field(description="Segments added or replaced.")
-    removed: int = Field(description="Segments removed.")
+    sequence: int = Field(description="Sequence number of the map's version after the write.")
+    etag: str = Field(description="Entity tag of that version.")
+    segments: int = Field(description="Number of segments in the map after the write.")
+    changed: int = Field(description="Number of segments added or replaced.")
+    removed: int = Field(description="Number of segments removed.")
     repeats: int = Field(
-        0, description="Segments that were not stored, for they were seen before (`deduplicate`)."
+        0,
+        description="Number of segments that were not stored, because they were stored before "
+        "(`deduplicate`).",
     )
 
 
 class IdsOut(BaseModel):
-    """Ids for new segments: `first` and those after it."""
+    """Reserved ids for new segments: `count` ids from `first` on."""
 
     first: int
     count: int
 
 
 class VersionOut(BaseModel):
-    """A version of a map."""
+    """Version of a map."""
 
     sequence: int
     etag: str
-    time: float = Field(description="When it was written, Unix seconds of the service's clock.")
+    time: float = Field(description="Time of the write, Unix seconds of the service's clock.")
     author: str = Field(
-        description="Name of the key; a key that does not open all maps sees `another key`."
+        description="Name of the key that wrote. A key that may not read all maps sees `another "
+        "key` instead of other keys' names."
     )
     operation: str = Field(examples=["put", "edit", "restore", "age"])
-    changed: int = Field(description="Segments added or replaced.")
-    removed: int = Field(description="Segments removed.")
+    changed: int = Field(description="Number of segments added or replaced.")
+    removed: int = Field(description="Number of segments removed.")
 
 
 class VersionsResponse(BaseModel):
-    """The versions of a map, newest first."""
+    """Versions of a map, newest first."""
 
     map: str
-    oldest: int = Field(description="Sequence of the oldest that is kept.")
+    oldest: int = Field(description="Sequence number of the oldest version that is kept.")
     versions: list[VersionOut]
 
 
 class CompactOut(BaseModel):
-    """What a map keeps now."""
+    """Versions that a map keeps after compaction."""
 
-    oldest: int = Field(description="Sequence of the oldest version.")
-    sequence: int = Field(description="Of the newest.")
-    bytes: int = Field(description="That it takes in the service's store.")
+    oldest: int = Field(description="Sequence number of the oldest version.")
+    sequence: int = Field(description="Sequence number of the newest version.")
+    bytes: int = Field(description="Size in the store, bytes.")
 
 
 class UploadOut(BaseModel):
-    """A map file that is uploaded in parts and is not complete."""
+    """Unfinished upload of a map file in parts."""
 
-    digest: str = Field(description="SHA-256 of the whole file, 64 hex digits.")
-    bytes: int = Field(description="Received so far; the next part begins there.")
-    time: float = Field(description="Of the last part, Unix seconds of the service's clock.")
+    digest: str = Field(description="SHA-256 digest of the whole file, 64 hex digits.")
+    bytes: int = Field(description="Number of bytes received; the next part begins there.")
+    time: float = Field(description="Time of the last part, Unix seconds of the service's clock.")
 
 
 class UploadsResponse(BaseModel):
-    """The key's uploads for a map that are not complete."""
+    """Unfinished uploads of the key for a map."""
 
     map: str
     uploads: list[UploadOut]
@@ -99,5 +109,5 @@ class UploadsResponse(BaseModel):
 class PartOut(BaseModel):
     """Result of an uploaded part."""
 
-    digest: str = Field(description="SHA-256 of the whole file, 64 hex digits.")
-    bytes: int = Field(description="Received so far; the next part begins there.")
+    digest: str = Field(description="SHA-256 digest of the whole file, 64 hex digits.")
+    bytes: int = Field(description="Number of bytes received; the next part begins there.")

@@ -1,4 +1,4 @@
-"""What goes over the wire as msgpack: the schemas of JSON, with arrays as blobs.
+"""Schemas of msgpack bodies: those of JSON, with arrays as binary blobs.
 
 `docs/reference/msgpack.md` describes it byte by byte, for clients in any language.
 """
@@ -33,7 +33,7 @@ from service.api.schemas.recognition import (
 
 @dataclass(frozen=True, slots=True)
 class Pairs:
-    """A msgpack map as it was read, before anyone asked whether a key stands twice."""
+    """Key-value pairs of a msgpack map as read, before the check for duplicate keys."""
 
     items: list[tuple[object, object]]
 
@@ -44,7 +44,7 @@ def _points(blob: object) -> Float32:
 
 
 def _centroids(blob: object) -> Float64:
-    """The centroids of a blob, float64 (n, 3)."""
+    """Decode the centroids of a blob, float64 (n, 3)."""
     return np.asarray(_coordinates(blob, np.dtype("<f8")), np.float64)
 
 
@@ -56,15 +56,17 @@ def _coordinates(
     Args:
         blob: the bytes.
         kind: type of a coordinate.
-        infinite: whether NaN and infinity may stand there.
+        infinite: accept NaN and infinity.
 
     Raises:
-        ValueError: it holds no such points; the place and the words are those of JSON.
+        ValueError: the blob holds no such points; location and message are those of JSON.
     """
     data = _bin(blob)
     size = 3 * kind.itemsize
     if len(data) % size:
-        raise ValueError(f"{len(data)} bytes, not a multiple of {size}: x, y, z as {kind.name}")
+        raise ValueError(
+            f"found {len(data)} bytes, expected a multiple of {size}: x, y, z as {kind.name}"
+        )
     points = np.frombuffer(data, kind).reshape(-1, 3)
     # Written so that NaN fails too.
     if not (
@@ -80,16 +82,16 @@ def _coordinates(
 
 
 def _codes(blob: object) -> Int8:
-    """The codes of a blob, int8 (q * c,): only the model knows c, the bytes of a code."""
+    """Decode the codes of a blob, int8 (q * c,); only the model knows c, the bytes of a code."""
     data = _bin(blob)
     if not data:
-        raise ValueError("no codes")
+        raise ValueError("expected at least one code, found 0 bytes")
     return np.frombuffer(data, np.int8)
 
 
 def _bin(value: object) -> bytes:
     if not isinstance(value, bytes):
-        raise ValueError("not a bin")
+        raise ValueError("expected binary data (bin)")
     return value
 
 
@@ -111,7 +113,7 @@ CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
 
 
 class PackedRequest(Request):
-    """A msgpack map whose keys are strings, each once."""
+    """Request as a msgpack map whose keys are distinct strings."""
 
     model_config = ConfigDict(arbitrary_types_allowed=True)
 
@@ -119,25 +121,27 @@ class PackedRequest(Request):
     @classmethod
     def _keys(cls, value: object) -> dict[str, object]:
         if not isinstance(value, Pairs):
-            raise ValueError("not a map")
+            raise ValueError("expected a map")
         content: dict[str, object] = {}
         for key, item in value.items:
             if not isinstance(key, str):
-                raise ValueError("a key is not a string")
+                raise ValueError("expected strings as keys")
             if key in content:
-                raise ValueError(f"the key {key!r:.100} stands twice")
+                raise ValueError(f"found the key {key!r:.100} twice")
             content[key] = item
         return content
 
 
 class PackedSegment(PackedRequest):
-    """A segment: the points of one object, and where it was seen from."""
+    """Segment: the points of one object and the position of the sensor that saw it."""
 
     points: PointsBlob = Field(
         description="float32, little-endian: x, y, z of the first point in meters, then of the "
         "next. Points with NaN or infinity are left out and counted in the answer."
     )
-    sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
+    sensor: Point = Field(
+        description="Sensor position at capture, meters, in the frame of the points."
+    )
 
 
 class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
@@ -145,19 +149,22 @@ class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
 
 
 class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
-    """`MatchRequest` as msgpack; codes: int8, one query after the other."""
+    """`MatchRequest` as msgpack; codes are int8, one query after the other."""
 
 
 class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):
-    """`LocalizeRequest` as msgpack; codes as there, centroids: float64, little-endian: x, y, z."""
+    """`LocalizeRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
 
 
 class PackedDescriptor(BaseModel):
-    """A segment's descriptor."""
+    """Descriptor of one segment."""
 
-    codes: bytes = Field(description="int8, `code_bytes` of them: the stored form.")
-    descriptor: bytes = Field(description="float32, little-endian, d of them.")
-    centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
+    codes: bytes = Field(description="Stored descriptor, `code_bytes` values of int8.")
+    descriptor: bytes = Field(
+        description="Descriptor before it was rounded to `codes`, d values "
+        "of little-endian float32."
+    )
+    centroid: Point = Field(description="Mean of the points, meters, in the frame of the request.")
 
 
 class PackedDescribeResponse(DescriptorsResponse[PackedDescriptor]):

@@ -1,4 +1,4 @@
-"""What `/describe` and `/match` take and answer, as JSON; `packed_schemas` has it as msgpack."""
+"""Schemas of `/describe` and `/match` as JSON; `schemas.msgpack` has the msgpack form."""
 
 from typing import Annotated, Generic, Self, TypeVar
 
@@ -25,45 +25,51 @@ DescriptorT = TypeVar("DescriptorT")
 
 
 class Request(BaseModel):
-    """What all requests share: a field that is not known is an error."""
+    """Base of all requests; an unknown field is an error."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class SegmentIn(Request):
-    """A segment: the points of one object, and where it was seen from."""
+    """Segment: the points of one object and the position of the sensor that saw it."""
 
     points: Annotated[list[Point], Field(fail_fast=True)] = Field(
-        description="x, y, z in metres, z up; one frame for all segments of the request."
+        description="Points x, y, z in meters, z up, in one frame for all segments of the request."
     )
-    sensor: Point = Field(description="Where the sensor was at capture, in the same frame.")
+    sensor: Point = Field(
+        description="Sensor position at capture, meters, in the frame of the points."
+    )
 
 
 class ScanRequest(Request, Generic[SegmentT]):
-    """The segments of one scan, in either encoding."""
+    """Segments of one scan, in either encoding."""
 
     model: Name | None = Field(
-        None, description="Id or name of a loaded model; the default one unless said."
+        None, description="Id or name of a loaded model. Default: the default model of the service."
     )
     segments: Annotated[list[SegmentT], Field(fail_fast=True)] = Field(min_length=1)
     origin: Point | None = Field(
-        None, description="Added to all points and sensors, metres; for coordinates as float32."
+        None,
+        description="Offset in meters that is added to all points and sensor positions. It "
+        "keeps large coordinates exact when the points are float32.",
     )
 
 
 class QueryRequest(Request, Generic[SegmentT, CodesT]):
-    """Queries, as segments or as descriptors, and where to look for them, in either encoding."""
+    """Queries, as segments or as descriptors, and the maps to search, in either encoding."""
 
     segments: Annotated[list[SegmentT], Field(fail_fast=True)] | None = Field(None, min_length=1)
-    origin: Point | None = Field(None, description="Of the segments, as for `/describe`.")
-    model_id: Name | None = Field(None, description="Of the model that made the codes.")
-    codes: CodesT | None = Field(None, description="Stored descriptors, as `/describe` gives them.")
+    origin: Point | None = Field(None, description="Offset of the segments, as for `/describe`.")
+    model_id: Name | None = Field(None, description="Id of the model that made `codes`.")
+    codes: CodesT | None = Field(
+        None, description="Stored descriptors, as `/describe` returns them in `codes`."
+    )
     maps: Annotated[list[Name], Field(fail_fast=True, max_length=NAMED_MAPS)] | None = Field(
         None,
         min_length=1,
-        description=f"Names of at most {NAMED_MAPS:,} maps; default: all maps of loaded models.",
+        description=f"Names of at most {NAMED_MAPS:,} maps. Default: all maps of loaded models.",
     )
-    k: int = Field(10, ge=1, strict=True, description="Candidates a query, at most.")
+    k: int = Field(10, ge=1, strict=True, description="Largest number of candidates per query.")
 
     @model_validator(mode="after")
     def _one_kind_of_query(self) -> Self:
@@ -71,7 +77,7 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         for_codes = codes and self.segments is None and self.origin is None
         for_segments = self.segments is not None and self.codes is None and self.model_id is None
         if not for_codes and not for_segments:
-            raise ValueError("give either segments, or model_id and codes")
+            raise ValueError("the request needs either segments, or model_id and codes")
         return self
 
 
@@ -79,23 +85,23 @@ EXAMPLE: dict[str, JsonValue] = {
     "points": [[8.0, 2.0 + step / 8, step / 4] for step in range(12)],
     "sensor": [0.0, 0.0, 1.8],
 }
-"""A segment that can be described: the smallest, for the eye."""
+"""Example of a segment, as small as one may be."""
 
 
 class DescribeRequest(ScanRequest[SegmentIn]):
-    """The segments of one scan."""
+    """Segments of one scan."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
 class MatchRequest(QueryRequest[SegmentIn, Codes]):
-    """Queries, as segments or as descriptors, and where to look for them."""
+    """Queries, as segments or as descriptors, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE], "k": 5}]})
 
 
 class ItemErrorOut(BaseModel):
-    """Why one segment could not be used, while others of the request were."""
+    """Error of one segment that could not be used; the others were."""
 
     type: str
     title: str
@@ -103,17 +109,19 @@ class ItemErrorOut(BaseModel):
 
 
 class Failed(BaseModel):
-    """In the place of a segment that could not be used."""
+    """Placeholder for a segment that could not be used, with the reason."""
 
     error: ItemErrorOut
 
 
 class DescriptorOut(BaseModel):
-    """A segment's descriptor."""
+    """Descriptor of one segment."""
 
-    codes: list[int] = Field(description="The stored form, int8, for maps and for `/match`.")
-    descriptor: list[float] = Field(description="Before it was rounded to codes.")
-    centroid: Point = Field(description="Mean of the points, metres, in the request's frame.")
+    codes: list[int] = Field(
+        description="Stored descriptor, int8 values, for map files and for `/match`."
+    )
+    descriptor: list[float] = Field(description="Descriptor before it was rounded to `codes`.")
+    centroid: Point = Field(description="Mean of the points, meters, in the frame of the request.")
 
 
 class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
@@ -123,7 +131,7 @@ class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
     dimension: int
     descriptors: list[DescriptorT | Failed]
     dropped_points: int = Field(
-        default=0, description="Points that were not finite, in msgpack, and were left out."
+        default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
 
 
@@ -132,29 +140,33 @@ class DescribeResponse(DescriptorsResponse[DescriptorOut]):
 
 
 class CandidateOut(BaseModel):
-    """A segment of a map that looks like the query."""
+    """Segment of a map whose descriptor is near the query's."""
 
     map: str
     id: int
     robot: str
-    distance: float = Field(description="Euclidean, between stored descriptors.")
-    probability: float | None = Field(None, description="Null: the model has no classifier.")
-    centroid: Point = Field(description="Metres, in the map's frame.")
-    frame: str = Field(description="Name of the map's frame.")
+    distance: float = Field(description="Euclidean distance between the stored descriptors.")
+    probability: float | None = Field(
+        None,
+        description="Probability that both are the same "
+        "segment. Null if the model has no pair classifier.",
+    )
+    centroid: Point = Field(description="Mean of the points, meters, in the frame of the map.")
+    frame: str = Field(description="Name of the frame of the map.")
     model_id: str = Field(
-        description="Model that made the map. Its pair classifier gives the probability and its "
-        "descriptors the distance; neither is calibrated against another model's."
+        description="Id of the model that made the map. Distances and probabilities of different "
+        "models are not comparable."
     )
 
 
 class CandidatesOut(BaseModel):
-    """Candidates of one query, nearest first; those of several models by probability."""
+    """Candidates of one query: nearest first, or by probability if several models gave them."""
 
     candidates: list[CandidateOut]
 
 
 class SkippedOut(BaseModel):
-    """A map that was not searched: its model is not loaded, or not the one that made the codes."""
+    """Map that was not searched: its model is not loaded or did not make the codes."""
 
     map: str
     model_id: str
@@ -166,7 +178,10 @@ class MatchResponse(BaseModel):
     model_id: str
     queries: list[CandidatesOut | Failed]
     dropped_points: int = Field(
-        default=0, description="Points that were not finite, in msgpack, and were left out."
+        default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
     searched: list[str]
-    skipped: list[SkippedOut] = Field(description="Maps whose model is not loaded, or not asked.")
+    skipped: list[SkippedOut] = Field(
+        description="Maps that were not searched, because their "
+        "model is not loaded or not the requested one."
+    )

@@ -58,7 +58,7 @@ def test_a_reading_key_does_not_write(start: Any, file: Path, manifest: Manifest
     data = encode(map_of(random_codes(3), manifest.model_id))
     with start(keys_file=file) as service:
         assert_problem(
-            service.put("/maps/yard", content=data, headers=reads), 403, "forbidden", "reads"
+            service.put("/maps/yard", content=data, headers=reads), 403, "forbidden", "read maps, but not write"
         )
         assert service.put("/maps/yard", content=data, headers=writes).status_code == 201
         assert_problem(service.delete("/maps/yard", headers=reads), 403, "forbidden")
@@ -100,7 +100,7 @@ def test_a_robot_s_key_uploads_its_own_segments_alone(
         other = encode(map_of(random_codes(3), manifest.model_id, robot="bob"))
         assert service.put("/maps/a", content=own, headers=key).status_code == 201
         refused = service.put("/maps/b", content=other, headers=key)
-        assert_problem(refused, 403, "forbidden", "'ann' alone")
+        assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
         assert service.get("/maps/b", headers=key).status_code == 404
         # Nor does it replace or remove what another robot has stored.
         anyone = made(file, "all", "--write")

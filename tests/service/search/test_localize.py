@@ -385,11 +385,11 @@ def test_bad_requests_are_refused_with_the_reason(
 @pytest.mark.parametrize(
     ("changes", "detail"),
     [
-        ({"centroids": b"\0" * 25}, "/centroids: 25 bytes, not a multiple of 24"),
+        ({"centroids": b"\0" * 25}, "/centroids: found 25 bytes, expected a multiple of 24"),
         ({"centroids": np.full(120, NAN).tobytes()}, "/centroids/0/0"),
         ({"centroids": np.full(120, 1e9).tobytes()}, "/centroids/0/0"),
         ({"centroids": b"\0" * 24}, "1 of them for 40 codes"),
-        ({"centroids": [0.0] * 120}, "/centroids: not a bin"),
+        ({"centroids": [0.0] * 120}, "/centroids: expected binary data"),
         ({"codes": b"\0" * 13}, "/codes: 13 bytes"),
     ],
 )
