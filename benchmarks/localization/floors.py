@@ -28,10 +28,10 @@ from service.core.settings import Settings
 from service.core.timing import Timing
 from service.inference.model_registry import Model, Models
 from service.maps.index import LayeredIndex
-from service.maps.layers import Layers
+from service.maps.layers import MapLayers
 from service.maps.shared_index import SharedIndexes
-from service.maps.snapshot import StoredMap
-from service.maps.store import Head
+from service.maps.snapshot import MapSnapshot
+from service.maps.store import MapHead
 from service.search.localization import Group, InMap, localise_among
 
 SIZE = np.array([90.0, 40.0, 4.0])
@@ -326,11 +326,11 @@ def _mapped(
     return replace(content, centroids=places, frame=name)
 
 
-def _stored(content: CompactMap, model: Model, name: str) -> StoredMap:
-    layers = Layers.of(take(content, np.arange(len(content))))
-    head = Head(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
+def _stored(content: CompactMap, model: Model, name: str) -> MapSnapshot:
+    layers = MapLayers.of(take(content, np.arange(len(content))))
+    head = MapHead(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
     index = LayeredIndex.of(layers, model.manifest.quantiser)
-    return StoredMap(head, layers, 1, 1, index)
+    return MapSnapshot(head, layers, 1, 1, index)
 
 
 class _Shared:

@@ -23,7 +23,7 @@ from service.core.settings import Settings
 from service.core.timing import Timing
 from service.inference.model_registry import Model
 from service.inference.scan import Scan
-from service.maps.writes.writer import Writer
+from service.maps.writes.writer import MapWriter
 from service.merging.alignment import MapSide, align_maps
 from service.search.localization import localise_in
 
@@ -90,7 +90,7 @@ class Local:
         """As `PUT /maps/{map}`; the bytes of its file."""
         data = encode(compact_map)
         state = self._state
-        Writer(state.maps, state.models, ANYONE, Preconditions()).put(name, data)
+        MapWriter(state.maps, state.models, ANYONE, Preconditions()).put(name, data)
         return len(data)
 
     def replace_map(self, name: str, compact_map: CompactMap) -> None:

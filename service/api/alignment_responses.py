@@ -16,16 +16,16 @@ from service.api.schemas.alignment import (
     PairOut,
 )
 from service.api.schemas.localization import PoseOut
-from service.maps.snapshot import StoredMap
-from service.merging.join import Share
-from service.merging.merge import Merged
-from service.merging.plan import Pairing, Plan
+from service.maps.snapshot import MapSnapshot
+from service.merging.join import PartOutcome
+from service.merging.merge import MergeResult
+from service.merging.plan import AlignedPair, MergePlan
 
 
 def alignment_of(
     found: MapAlignment,
-    one: StoredMap,
-    other: StoredMap,
+    one: MapSnapshot,
+    other: MapSnapshot,
     ids: tuple[UInt32, UInt32] | None = None,
 ) -> AlignmentOut:
     """How two maps lie to each other.
@@ -79,7 +79,7 @@ def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
     return [PairOut(id=id_, other_id=other, residual=metres) for id_, other, metres in rows]
 
 
-def merged_of(merged: Merged, name: str, names: Sequence[str]) -> MergedOut:
+def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut:
     """What a merge did, or would do.
 
     Args:
@@ -111,10 +111,10 @@ def merged_of(merged: Merged, name: str, names: Sequence[str]) -> MergedOut:
     )
 
 
-def _part(merged: Merged, number: int) -> MergedPartOut:
+def _part(merged: MergeResult, number: int) -> MergedPartOut:
     stored, is_merged = merged.plan.maps[number], number in merged.shares
     pose = merged.plan.poses[number] if is_merged else None
-    share = merged.shares.get(number, Share(0, 0, 0, 0))
+    share = merged.shares.get(number, PartOutcome(0, 0, 0, 0))
     return MergedPartOut(
         map=stored.name,
         etag=stored.tag,
@@ -127,7 +127,7 @@ def _part(merged: Merged, number: int) -> MergedPartOut:
     )
 
 
-def _pairing(plan: Plan, pairing: Pairing) -> MergePairOut:
+def _pairing(plan: MergePlan, pairing: AlignedPair) -> MergePairOut:
     told = alignment_of(pairing.found, plan.maps[pairing.one], plan.maps[pairing.other])
     return MergePairOut(
         rejected=pairing.is_rejected,

@@ -5,12 +5,12 @@ import logging
 from fastapi import Request
 
 from service.api.state import State
-from service.maps.writes.writer import Written
+from service.maps.writes.writer import WriteResult
 
 logger = logging.getLogger("placecell.audit")
 
 
-def tell_written(request: Request, state: State, operation: str, written: Written) -> None:
+def tell_written(request: Request, state: State, operation: str, written: WriteResult) -> None:
     """Of a write to a map's segments."""
     what = f"{written.changed} segments changed, {written.removed} removed"
     tell(request, state, operation, written.stored.name, what, written.changed + written.removed)

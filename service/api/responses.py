@@ -7,13 +7,13 @@ from scipy.spatial.transform import Rotation
 from placecell.localization import Pose
 from service.api.schemas.maps import MapOut, VersionOut, WrittenOut
 from service.core.auth import Holder
-from service.maps.snapshot import StoredMap, tag_of
+from service.maps.snapshot import MapSnapshot, tag_of
 from service.maps.store import Commit
 from service.maps.visibility import author_for, sources_for
-from service.maps.writes.writer import Written
+from service.maps.writes.writer import WriteResult
 
 
-def summary_of(stored: StoredMap, holder: Holder) -> MapOut:
+def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
     """Summarize a map as a key may see it; reads all of it, so not for the event loop."""
     head, layers = stored.head, stored.layers
     return MapOut(
@@ -31,7 +31,7 @@ def summary_of(stored: StoredMap, holder: Holder) -> MapOut:
     )
 
 
-def outcome_of(written: Written) -> WrittenOut:
+def outcome_of(written: WriteResult) -> WrittenOut:
     """What a write did."""
     stored = written.stored
     return WrittenOut(

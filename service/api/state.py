@@ -20,13 +20,13 @@ from service.core.timing import Timing
 from service.inference.model_registry import Models
 from service.maps.cache import MapCache
 from service.maps.quotas import Quotas
-from service.maps.repository import Maps
+from service.maps.repository import MapRepository
 from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import StoreError, StoreLockedError
-from service.maps.sync import Changes
-from service.maps.writes.maintenance import Bounds, Housekeeper
+from service.maps.sync import MapSync
+from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
-from service.maps.writes.writer import Writer
+from service.maps.writes.writer import MapWriter
 from service.search.sessions import Sessions
 from service.warm_up import warm
 
@@ -69,9 +69,9 @@ class State:
     settings: Settings
     metrics: Metrics
     models: Models
-    maps: Maps
+    maps: MapRepository
     partial_uploads: PartialUploads
-    changes: Changes
+    sync: MapSync
     keys: Keys
     sessions: Sessions
     recognition: Lane
@@ -136,16 +136,18 @@ def open_state(settings: Settings) -> Iterator[State]:
             store = stack.enter_context(SqliteMapStore.owned(settings.data_dir))
             cache = MapCache(settings.data_dir)
             limits = settings.limits
-            maps = Maps(store, models, Quotas(limits), cache)
+            maps = MapRepository(store, models, Quotas(limits), cache)
         except (StoreLockedError, StoreError) as error:
             raise StartError(f"data directory: {error}") from error
         except OSError as error:
             raise StartError(f"data directory {settings.data_dir}: {error}") from error
-        changes = Changes(store)
-        bounds = Bounds(map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes)
+        sync = MapSync(store)
+        bounds = MaintenanceThresholds(
+            map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
+        )
         partial_uploads = PartialUploads(settings.data_dir, limits)
-        housekeeper = Housekeeper(maps, changes, cache, bounds, partial_uploads)
-        stack.enter_context(housekeeper.working())
+        maintenance = Maintenance(maps, sync, cache, bounds, partial_uploads)
+        stack.enter_context(maintenance.running())
         metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
         metrics.maps.set_function(lambda: len(maps))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
@@ -156,7 +158,7 @@ def open_state(settings: Settings) -> Iterator[State]:
             models=models,
             maps=maps,
             partial_uploads=partial_uploads,
-            changes=changes,
+            sync=sync,
             keys=keys,
             sessions=Sessions(limits.sessions),
             recognition=lanes["recognition"],
@@ -232,11 +234,11 @@ async def writer_of(
     if_none_match: Annotated[
         str | None, Header(description="ETags of the versions that this is not for, or *.")
     ] = None,
-) -> Writer:
+) -> MapWriter:
     """Whoever sent the request, as one who writes to maps."""
     state = await state_of(request)
     conditions = Preconditions(if_match, if_none_match)
-    return Writer(state.maps, state.models, await holder_of(request), conditions)
+    return MapWriter(state.maps, state.models, await holder_of(request), conditions)
 
 
 async def timing_of(request: Request) -> Timing:
@@ -249,4 +251,4 @@ async def timing_of(request: Request) -> Timing:
 StateOf = Annotated[State, Depends(state_of)]
 HolderOf = Annotated[Holder, Depends(holder_of)]
 TimingOf = Annotated[Timing, Depends(timing_of)]
-WriterOf = Annotated[Writer, Depends(writer_of)]
+WriterOf = Annotated[MapWriter, Depends(writer_of)]

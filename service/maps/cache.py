@@ -13,7 +13,7 @@ from pathlib import Path
 from placecell_client import CompactMap, decode, encode
 
 from service.core.files import sync_folder
-from service.maps.store import Head, History
+from service.maps.store import MapHead, MapHistory
 
 _SUFFIX = ".cache"
 _UNFINISHED = ".unfinished"
@@ -27,7 +27,7 @@ class MapCache:
     def __init__(self, data_dir: Path) -> None:
         self._folder = data_dir / "cache"
 
-    def load(self, history: History) -> tuple[CompactMap, int] | None:
+    def load(self, history: MapHistory) -> tuple[CompactMap, int] | None:
         """An earlier version of a map, and its sequence; None if there is none to be trusted."""
         head = history.head
         path = self._path(head.uid)
@@ -48,7 +48,7 @@ class MapCache:
             logger.warning("map %r: its cache is left aside: %s", head.name, error)
             return None
 
-    def save(self, head: Head, content: CompactMap) -> None:
+    def save(self, head: MapHead, content: CompactMap) -> None:
         """Keep a version of a map; the file is whole, or as it was.
 
         Args:

@@ -1,98 +1,158 @@
-"""What a map was: its commits, and each version that is still kept."""
+"""History of a map: its log of commits, and every version that the store still keeps."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
-from placecell_client import decode, decode_delta, encode
+from placecell_client import Delta, decode, decode_delta, encode
+from placecell_client.maps.edit import compose
 
+from placecell.core.cancellation import current
 from placecell.core.types import UInt32
 from service.core.problems import Problem
-from service.maps.layers import Layers, robots_of
-from service.maps.replay import version_of
-from service.maps.snapshot import StoredMap, tag_of
-from service.maps.store import Commit, History, MapStore
+from service.maps.cache import MapCache
+from service.maps.layers import MapLayers, robots_of
+from service.maps.snapshot import MapSnapshot, tag_of
+from service.maps.store import Commit, MapHead, MapHistory, MapStore
 
 
 @contextmanager
-def history_of(store: MapStore, stored: StoredMap) -> Iterator[History]:
-    """A map's log; 404 if the map was removed by now."""
+def history_of(store: MapStore, snapshot: MapSnapshot) -> Iterator[MapHistory]:
+    """Read a map's log; 404 if the map was removed in the meantime."""
     try:
-        with store.read(stored.head.uid) as history:
+        with store.read(snapshot.head.uid) as history:
             yield history
     except KeyError as error:
-        raise Problem(404, "unknown-map", f"Map {stored.name!r:.80} was removed.") from error
+        raise Problem(
+            404,
+            "unknown-map",
+            f"Map {snapshot.name!r:.80} was removed during the request. "
+            "GET /maps lists the maps that exist.",
+        ) from error
 
 
-def commits_of(store: MapStore, stored: StoredMap) -> list[Commit]:
-    """The commits of a map, oldest first."""
-    with history_of(store, stored) as history:
+def commits_of(store: MapStore, snapshot: MapSnapshot) -> list[Commit]:
+    """Return the commits of a map, oldest first."""
+    with history_of(store, snapshot) as history:
         return history.commits()
 
 
-def robots_ever(store: MapStore, stored: StoredMap) -> set[str]:
-    """Return the robots with segments in any kept version."""
-    with history_of(store, stored) as history:
+def robots_ever(store: MapStore, snapshot: MapSnapshot) -> set[str]:
+    """Return the robots that have segments in any kept version."""
+    with history_of(store, snapshot) as history:
         robots = {*robots_of(decode(history.base()))}
         for _, blob in history.blobs(history.head.oldest, history.head.sequence):
             robots |= {*robots_of(decode_delta(blob).changed)}
         return robots
 
 
-def ids_ever(store: MapStore, stored: StoredMap) -> UInt32:
+def ids_ever(store: MapStore, snapshot: MapSnapshot) -> UInt32:
     """Return the ids of all segments in any kept version, ascending."""
-    with history_of(store, stored) as history:
+    with history_of(store, snapshot) as history:
         ids = [decode(history.base()).ids]
         for _, blob in history.blobs(history.head.oldest, history.head.sequence):
             ids.append(decode_delta(blob).changed.ids)
         return np.unique(np.concatenate(ids))
 
 
-def version(store: MapStore, stored: StoredMap, sequence: int) -> tuple[Layers, str]:
-    """One version of a map, and its tag.
+def load_newest(store: MapStore, head: MapHead, cache: MapCache) -> tuple[MapLayers, int]:
+    """Load a map's newest version, starting from the cached version if the cache has a valid one.
+
+    Returns:
+        The layers, and the sequence of the version that their base is.
 
     Raises:
-        Problem: 404 if there is none of this sequence, 410 if it is no longer kept.
-        StoreError: it is damaged.
+        StoreError: the stored data is damaged.
+        MapFileError: the data was written by an incompatible version of Placecell.
     """
-    if sequence == stored.head.sequence:
-        return stored.layers, stored.tag
-    with history_of(store, stored) as history:
+    with store.read(head.uid) as history:
+        cached = cache.load(history)
+        if cached is None:
+            return replay(history, head.sequence), head.oldest
+        content, sequence = cached
+        return _advanced(MapLayers.of(content), history, sequence, head.sequence), sequence
+
+
+def load_version(store: MapStore, snapshot: MapSnapshot, sequence: int) -> tuple[MapLayers, str]:
+    """Load one version of a map; return its layers and its tag.
+
+    Raises:
+        Problem: 404 if the map never had this version, 410 if the version was compacted.
+        StoreError: the stored data is damaged.
+    """
+    if sequence == snapshot.head.sequence:
+        return snapshot.layers, snapshot.tag
+    with history_of(store, snapshot) as history:
         _check_kept(history, sequence)
-        return version_of(history, sequence), tag_of(sequence, history.mark(sequence))
+        return replay(history, sequence), tag_of(sequence, history.mark(sequence))
 
 
-def version_file(store: MapStore, stored: StoredMap, sequence: int) -> tuple[bytes, str]:
-    """The file of one version, and its tag; errors as of `version`."""
-    if sequence == stored.head.sequence != stored.head.oldest:
-        return encode(stored.layers.content()), stored.tag
-    with history_of(store, stored) as history:
+def version_file(store: MapStore, snapshot: MapSnapshot, sequence: int) -> tuple[bytes, str]:
+    """Return the file of one version and its tag; raises as `load_version` does."""
+    if sequence == snapshot.head.sequence != snapshot.head.oldest:
+        return encode(snapshot.layers.content()), snapshot.tag
+    with history_of(store, snapshot) as history:
         _check_kept(history, sequence)
         oldest = sequence == history.head.oldest
-        file = history.base() if oldest else encode(version_of(history, sequence).content())
+        file = history.base() if oldest else encode(replay(history, sequence).content())
         return file, tag_of(sequence, history.mark(sequence))
 
 
-def version_tag(store: MapStore, stored: StoredMap, sequence: int) -> str:
-    """Return the tag of one version; raises as `version` does."""
-    if sequence == stored.head.sequence:
-        return stored.tag
-    with history_of(store, stored) as history:
+def version_tag(store: MapStore, snapshot: MapSnapshot, sequence: int) -> str:
+    """Return the tag of one version; raises as `load_version` does."""
+    if sequence == snapshot.head.sequence:
+        return snapshot.tag
+    with history_of(store, snapshot) as history:
         _check_kept(history, sequence)
         return tag_of(sequence, history.mark(sequence))
 
 
-def _check_kept(history: History, sequence: int) -> None:
+def replay(history: MapHistory, sequence: int) -> MapLayers:
+    """Build one version of a map from its oldest version and the commits after it.
+
+    Raises:
+        StoreError: the stored data is damaged.
+        MapFileError: the data was written by an incompatible version of Placecell.
+    """
+    base = MapLayers.of(decode(history.base()))
+    return _advanced(base, history, history.head.oldest, sequence)
+
+
+def compose_all(deltas: Iterable[Delta]) -> Delta | None:
+    """Compose consecutive deltas into one; return None if there are none."""
+    row = list(deltas)
+    # Compose pairs, then pairs of pairs: each segment is handled log n times, not n times.
+    while len(row) > 1:
+        current().check()
+        pairs = [compose(*row[at : at + 2]) for at in range(0, len(row) - 1, 2)]
+        row = pairs + row[2 * len(pairs) :]
+    return row[0] if row else None
+
+
+def _advanced(layers: MapLayers, history: MapHistory, since: int, until: int) -> MapLayers:
+    """Apply the commits from `since`, exclusive, to `until` to the layers."""
+    delta = compose_all(_decoded(blob) for _, blob in history.blobs(since, until))
+    return layers if delta is None else layers.after(delta)
+
+
+def _decoded(blob: bytes) -> Delta:
+    current().check()
+    return decode_delta(blob)
+
+
+def _check_kept(history: MapHistory, sequence: int) -> None:
     head = history.head
     if not 1 <= sequence <= head.sequence:
         raise Problem(
             404,
             "unknown-version",
-            f"Map {head.name!r:.80} has versions {head.oldest} to {head.sequence}, not {sequence}.",
+            f"Map {head.name!r:.80} has no version {sequence}. "
+            f"Available versions: {head.oldest} to {head.sequence}.",
         )
     if sequence < head.oldest:
         raise Problem(
             410,
             "version-gone",
-            f"Map {head.name!r:.80} kept version {sequence}, but its first is now {head.oldest}.",
+            f"Version {sequence} of map {head.name!r:.80} was compacted. "
+            f"The oldest available version is {head.oldest}.",
         )

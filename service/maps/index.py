@@ -16,7 +16,7 @@ import numpy as np
 
 from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
 from placecell.descriptors.quantizer import LEVELS, Quantiser
-from service.maps.layers import Layers
+from service.maps.layers import MapLayers
 
 MARGIN = 12
 """Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
@@ -235,7 +235,7 @@ class LayeredIndex:
 
     @classmethod
     def of(
-        cls, layers: Layers, quantiser: Quantiser, base: MapIndex | None = None
+        cls, layers: MapLayers, quantiser: Quantiser, base: MapIndex | None = None
     ) -> "LayeredIndex":
         """Over both layers.
 
@@ -247,7 +247,7 @@ class LayeredIndex:
         recent = index_of(layers.recent.codes, quantiser)
         return cls(base or index_of(layers.base.codes, quantiser), recent)
 
-    def search(self, layers: Layers, codes: Int8, k: int) -> tuple[Float64, Int64]:
+    def search(self, layers: MapLayers, codes: Int8, k: int) -> tuple[Float64, Int64]:
         """The nearest segments to each query, over both layers.
 
         Args:
@@ -259,7 +259,7 @@ class LayeredIndex:
             Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows of
             `layers`, int64, of the same shape, by id among equal distances.
         """
-        distances, rows = self.base.search(codes, k, layers.gone if layers.buried else None)
+        distances, rows = self.base.search(codes, k, layers.gone if layers.gone_count else None)
         if not len(layers.recent):
             return distances, rows
         nearer, above = self.recent.search(codes, k)

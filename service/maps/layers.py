@@ -18,7 +18,7 @@ from placecell.core.types import Bool, Float64, Int64, UInt32
 
 
 @dataclass(frozen=True, eq=False)
-class Layers:
+class MapLayers:
     """All segments of one version of a map; nothing in it ever changes.
 
     The segments are the rows of `base` that are not gone, and those of `recent`. A *row* of the map
@@ -37,7 +37,7 @@ class Layers:
     base_robots: Counter[str]
 
     @classmethod
-    def of(cls, content: CompactMap) -> "Layers":
+    def of(cls, content: CompactMap) -> "MapLayers":
         """Of a map in canonical form."""
         none = empty(
             content.model_id,
@@ -49,10 +49,10 @@ class Layers:
         return cls(content, none, np.zeros(len(content), dtype=bool), robots_of(content))
 
     def __len__(self) -> int:
-        return len(self.base) - self.buried + len(self.recent)
+        return len(self.base) - self.gone_count + len(self.recent)
 
     @cached_property
-    def buried(self) -> int:
+    def gone_count(self) -> int:
         """Rows of the base that are gone."""
         return int(np.count_nonzero(self.gone))
 
@@ -90,7 +90,7 @@ class Layers:
 
     def content(self) -> CompactMap:
         """The map in one piece, in canonical form."""
-        if not self.buried and not len(self.recent) and self.optional == {*self.base.optional}:
+        if not self.gone_count and not len(self.recent) and self.optional == {*self.base.optional}:
             return self.base
         return apply(self.base, self._above())
 
@@ -102,13 +102,13 @@ class Layers:
             take(self.base, base[~self.gone[base]]), Delta(recent, np.zeros(0, dtype=np.uint32))
         )
 
-    def about(self, places: Float64, metres: float) -> CompactMap:
+    def near(self, places: Float64, metres: float) -> CompactMap:
         """The segments about these places, (p, 3): all that are so near to one, and some around."""
         if not len(places):
             return self.take(self.recent.ids[:0])
-        return self.take(self.column("ids", self.rows_about(places, metres)))
+        return self.take(self.column("ids", self.rows_near(places, metres)))
 
-    def rows_about(self, places: Float64, metres: float) -> Int64:
+    def rows_near(self, places: Float64, metres: float) -> Int64:
         """Rows of the map about these places, (p, 3), at least one; see `within`."""
         base, recent = (
             within(layer.centroids, places, metres) for layer in (self.base, self.recent)
@@ -139,10 +139,10 @@ class Layers:
         ids, seen = zip(*((layer.ids, layer.seen) for layer in layers), strict=True)
         return np.concatenate(ids), np.concatenate(seen)
 
-    def after(self, delta: Delta) -> "Layers":
+    def after(self, delta: Delta) -> "MapLayers":
         """The map after a delta."""
         if delta.is_whole:
-            return Layers.of(delta.changed)
+            return MapLayers.of(delta.changed)
         gone = self.gone.copy()
         gone[_rows_of(self.base, delta.changed.ids)] = True
         gone[_rows_of(self.base, delta.removed)] = True
@@ -167,7 +167,7 @@ class Layers:
         """Whether a delta, as `effect_of` gives it, makes another map of this one."""
         return bool(delta.is_whole or len(delta) or {*delta.changed.optional} - self.optional)
 
-    def upon(self, base: CompactMap, before: "Layers") -> "Layers":
+    def rebased(self, base: CompactMap, before: "MapLayers") -> "MapLayers":
         """The same segments above a new base.
 
         Args:
@@ -177,7 +177,7 @@ class Layers:
         changed, removed = difference(before.recent, self.recent)
         buried = self.base.ids[self.gone & ~before.gone]
         removed = np.setdiff1d(np.union1d(removed, buried), self.recent.ids)
-        return Layers.of(base).after(Delta(changed, removed))
+        return MapLayers.of(base).after(Delta(changed, removed))
 
     def _above(self) -> Delta:
         """From the base to the map."""

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 from service.core.problems import Problem
 from service.core.settings import Limits
-from service.maps.snapshot import StoredMap
-from service.maps.store import Head
+from service.maps.snapshot import MapSnapshot
+from service.maps.store import MapHead
 
 CURE = (
     "Delete maps, or drop old versions (POST /maps/MAP/compact); both are always possible. "
@@ -48,15 +48,15 @@ class Usage:
     by_key: Counter[str] = field(default_factory=Counter)
     robots: Counter[str] = field(default_factory=Counter)
 
-    def add(self, head: Head, stored: StoredMap | None = None) -> None:
+    def add(self, head: MapHead, stored: MapSnapshot | None = None) -> None:
         """Count a map; one that is damaged has a head alone."""
         self._count(head, stored, 1)
 
-    def remove(self, head: Head, stored: StoredMap | None = None) -> None:
+    def remove(self, head: MapHead, stored: MapSnapshot | None = None) -> None:
         """Stop counting a map."""
         self._count(head, stored, -1)
 
-    def _count(self, head: Head, stored: StoredMap | None, sign: int) -> None:
+    def _count(self, head: MapHead, stored: MapSnapshot | None, sign: int) -> None:
         self.maps += sign
         self.bytes += sign * head.bytes
         _add(self.by_key, head.author, sign)
@@ -100,7 +100,7 @@ class Quotas:
         self._check_bytes(usage, 0, size)
 
     def check_write(
-        self, usage: Usage, old: StoredMap, robots: Counter[str], sources: int, size: int
+        self, usage: Usage, old: MapSnapshot, robots: Counter[str], sources: int, size: int
     ) -> None:
         """Check that a version may be added; removal of segments is never refused.
 

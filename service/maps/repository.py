@@ -16,26 +16,25 @@ from placecell.core.types import UInt32
 from service.core.problems import Problem
 from service.inference.model_registry import Models
 from service.maps.cache import MapCache
-from service.maps.history import ids_ever
+from service.maps.history import ids_ever, load_newest
 from service.maps.index import LayeredIndex, MapIndex
-from service.maps.layers import Layers
+from service.maps.layers import MapLayers
 from service.maps.quotas import NoRoomError, Quotas, Usage
-from service.maps.replay import newest
 from service.maps.shared_index import SharedIndexes
-from service.maps.snapshot import KEEPS_FRAME, StoredMap
-from service.maps.store import Head, Ids, MapStore, Note, StoreError
+from service.maps.snapshot import KEEPS_FRAME, MapSnapshot
+from service.maps.store import Ids, MapHead, MapStore, Note, StoreError
 
 logger = logging.getLogger("placecell")
 
 
-class Maps:
-    """All maps, by name. For use from many threads.
+class MapRepository:
+    """All maps in memory, by name. Safe to use from many threads.
 
-    Readers take a `StoredMap` and see it whole, old or new; they wait for nobody. Who writes holds
-    `writing` of that name from reading the map to `commit`.
+    A reader takes a `MapSnapshot`, which never changes, and waits for no writer. A writer holds
+    `writing(name)` from reading the snapshot until `commit` returns.
 
     Attributes:
-        handled: segments that writes have copied.
+        copied_segments: segments that writes have copied.
     """
 
     def __init__(
@@ -48,28 +47,28 @@ class Maps:
     ) -> None:
         """Load what is stored. A damaged map is left out, with a line in the log."""
         self.store = store
-        self.handled = 0
+        self.copied_segments = 0
         self._models = models
         self._quotas = quotas
         self._clock = clock
         self._guard = Lock()
         self._locks: WeakValueDictionary[str, Lock] = WeakValueDictionary()
         self._committing = Lock()
-        self._damaged: dict[str, Head] = {}
-        self._by_name: dict[str, StoredMap] = {}
+        self._damaged: dict[str, MapHead] = {}
+        self._by_name: dict[str, MapSnapshot] = {}
         self.shared = SharedIndexes()
         self._usage = Usage()
-        self._pressed: set[str] = set()
+        self._refused: set[str] = set()
         loaded = {}
         for head in store.heads():
             try:
-                layers, folded = newest(store, head, cache)
+                layers, base_sequence = load_newest(store, head, cache)
             except (StoreError, MapFileError) as error:
                 logger.error("map %r is damaged and not served: %s", head.name, error)
                 self._damaged[head.name] = head
                 self._usage.add(head)
             else:
-                loaded[head.name] = StoredMap(head, layers, folded, head.sequence, None)
+                loaded[head.name] = MapSnapshot(head, layers, base_sequence, head.sequence, None)
         self._models.want({stored.model_id for stored in loaded.values()})
         # Shown at once: a new dictionary for each map would take a time that grows with its square.
         self._by_name = {
@@ -93,11 +92,11 @@ class Maps:
     def __len__(self) -> int:
         return len(self._by_name)
 
-    def pressed(self) -> list[str]:
+    def take_refused(self) -> list[str]:
         """Return and forget the maps whose writes were refused for lack of space."""
         with self._committing:
-            pressed, self._pressed = sorted(self._pressed & self._by_name.keys()), set()
-        return pressed
+            refused, self._refused = sorted(self._refused & self._by_name.keys()), set()
+        return refused
 
     @property
     def stored_bytes(self) -> int:
@@ -108,7 +107,7 @@ class Maps:
         """Return why no map can be stored; None if maps can be."""
         return self.store.trouble()
 
-    def all(self) -> list[StoredMap]:
+    def all(self) -> list[MapSnapshot]:
         """Sorted by name."""
         return sorted(self._by_name.values(), key=lambda stored: stored.name)
 
@@ -116,7 +115,7 @@ class Maps:
         """Names of the maps that are stored, but cannot be read."""
         return sorted(self._damaged)
 
-    def find(self, name: str) -> StoredMap | None:
+    def find(self, name: str) -> MapSnapshot | None:
         """One map, if there is one.
 
         Raises:
@@ -131,7 +130,7 @@ class Maps:
             )
         return self._by_name.get(name)
 
-    def get(self, name: str) -> StoredMap:
+    def get(self, name: str) -> MapSnapshot:
         """One map; 404 if there is none."""
         stored = self.find(name)
         if stored is None:
@@ -150,36 +149,36 @@ class Maps:
         with holding(lock):
             yield
 
-    def create(self, name: str, content: CompactMap, author: str, operation: str) -> StoredMap:
+    def create(self, name: str, content: CompactMap, author: str, operation: str) -> MapSnapshot:
         """Store a map under a new name; on return it is safely on disk.
 
         Raises:
             Problem: 507 if it is more than a quota allows.
             StoreError: nothing was changed.
         """
-        layers, file = Layers.of(content), encode(content)
+        layers, file = MapLayers.of(content), encode(content)
         robots, index = layers.robots, self._index(layers)
         note = Note(self._clock(), author, operation, len(content), 0)
         with self._committing:
             self._quotas.check_new(self._usage, author, robots, len(file))
-            self.handled += len(content)
+            self.copied_segments += len(content)
             runs = runs_of(content.ids)
             head = self.store.create(name, file, note, 0, Ids(runs, runs))
-            return self._swap(StoredMap(head, layers, 1, 1, index))
+            return self._swap(MapSnapshot(head, layers, 1, 1, index))
 
     def commit(
         self,
-        stored: StoredMap,
+        stored: MapSnapshot,
         delta: Delta,
         author: str,
         operation: str,
         written: UInt32 | None = None,
-    ) -> StoredMap:
+    ) -> MapSnapshot:
         """Store the map's next version; on return it is durable. Raises as `create` does.
 
         Args:
             stored: the map as it is.
-            delta: as `Layers.effect_of` gives it.
+            delta: as `MapLayers.effect_of` gives it.
             author: name of the key.
             operation: for the history.
             written: ids of the segments that are the author's from now on.
@@ -192,26 +191,26 @@ class Maps:
         index = self._index(layers, kept.base if kept is not None else None)
         # What only removes is stored even where there is no room for more.
         size = len(blob) if delta.is_whole or len(delta.changed) else 0
-        folded = until if delta.is_whole else stored.folded
+        base_sequence = until if delta.is_whole else stored.base_sequence
         # One without segments takes the frame of whatever comes next.
         keeps = operation in KEEPS_FRAME and len(stored)
-        lies_since = stored.lies_since if keeps else until
+        frame_since = stored.frame_since if keeps else until
         note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
         with self._committing:
             try:
                 self._quotas.check_write(self._usage, stored, robots, sources, size)
             except NoRoomError:
-                self._pressed.add(stored.name)
+                self._refused.add(stored.name)
                 raise
-            self.handled += len(delta.changed) + len(layers.recent)
-            self.handled += len(stored) if delta.is_whole else 0
+            self.copied_segments += len(delta.changed) + len(layers.recent)
+            self.copied_segments += len(stored) if delta.is_whole else 0
             own = runs_of(written) if written is not None else ()
             ids = Ids(runs_of(delta.changed.ids), own)
             frees = not len(delta.changed) and not delta.is_whole
             head = self.store.append(stored.head, blob, note, 0, ids, frees)
-            return self._swap(StoredMap(head, layers, folded, lies_since, index))
+            return self._swap(MapSnapshot(head, layers, base_sequence, frame_since, index))
 
-    def free_ids(self, stored: StoredMap) -> Head:
+    def free_ids(self, stored: MapSnapshot) -> MapHead:
         """Free all ids that no kept version has; the caller holds `writing`."""
         used = ids_ever(self.store, stored)
         with self._committing:
@@ -226,11 +225,11 @@ class Maps:
             head = self._damaged.get(name) or self.get(name).head
             self.store.delete(head.uid)
             self._usage.remove(head, stored)
-            self.handled += len(stored) if stored is not None else 0
+            self.copied_segments += len(stored) if stored is not None else 0
             self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
 
-    def compact(self, head: Head, sequence: int, file: bytes) -> StoredMap:
+    def compact(self, head: MapHead, sequence: int, file: bytes) -> MapSnapshot:
         """Let go of the versions before one.
 
         Args:
@@ -248,25 +247,27 @@ class Maps:
                 kept = self.store.compact(head.uid, sequence, file)
                 return self._swap(replace(stored, head=kept))
 
-    def fold(self, stored: StoredMap) -> CompactMap | None:
+    def flatten(self, stored: MapSnapshot) -> CompactMap | None:
         """Make one layer of a map's two. Nobody waits for it, and what is written meanwhile stays.
 
         Returns:
             All segments of that version; None if the map has become another meanwhile.
         """
         content = stored.layers.content()
-        index = self._index(Layers.of(content))
+        index = self._index(MapLayers.of(content))
         with self.writing(stored.name):
             now = self._by_name.get(stored.name)
             if now is None or now.layers.base is not stored.layers.base:
                 return None
-            layers = now.layers.upon(content, stored.layers)
+            layers = now.layers.rebased(content, stored.layers)
             both = self._index(layers, index.base if index is not None else None)
             with self._committing:
-                self._swap(replace(now, layers=layers, folded=stored.head.sequence, index=both))
+                self._swap(
+                    replace(now, layers=layers, base_sequence=stored.head.sequence, index=both)
+                )
         return content
 
-    def _swap(self, stored: StoredMap) -> StoredMap:
+    def _swap(self, stored: MapSnapshot) -> MapSnapshot:
         """Publish a map in a new dictionary, so that readers of the old one are undisturbed.
 
         `_committing` is held.
@@ -278,7 +279,7 @@ class Maps:
         self._by_name = self._by_name | {stored.name: stored}
         return stored
 
-    def _index(self, layers: Layers, base: MapIndex | None = None) -> LayeredIndex | None:
+    def _index(self, layers: MapLayers, base: MapIndex | None = None) -> LayeredIndex | None:
         made_by = layers.base.model_id
         model = self._models.find(made_by)
         if model is None or layers.base.code_bytes != model.manifest.code_bytes:

@@ -17,8 +17,8 @@ import numpy as np
 from placecell.core.types import Bool, Float32, Int64
 from placecell.descriptors.quantizer import Quantiser
 from service.maps.index import MapIndex, index_of
-from service.maps.layers import Layers
-from service.maps.snapshot import StoredMap
+from service.maps.layers import MapLayers
+from service.maps.snapshot import MapSnapshot
 
 SMALL = 8_192
 """Largest number of segments of a map in a shared index."""
@@ -42,9 +42,9 @@ Key = tuple[str, int, int]
 """Content of a map: its uid, its sequence, and the sequence of its base."""
 
 
-def key_of(stored: StoredMap) -> Key:
+def key_of(stored: MapSnapshot) -> Key:
     """Return the key of a map's content and row numbers."""
-    return stored.head.uid, stored.head.sequence, stored.folded
+    return stored.head.uid, stored.head.sequence, stored.base_sequence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +71,7 @@ class Shared:
         return 2 * len(self.rows) < ROOM and 2 * len(self.keys) < MEMBERS
 
     @classmethod
-    def of(cls, maps: Sequence[StoredMap], quantiser: Quantiser) -> "Shared":
+    def of(cls, maps: Sequence[MapSnapshot], quantiser: Quantiser) -> "Shared":
         """Build the index of these maps of one model."""
         maps = sorted(maps, key=lambda each: each.name)
         rows = [alive(each.layers) for each in maps]
@@ -121,8 +121,8 @@ class SharedIndexes:
 
     def parts(
         self,
-        searched: Sequence[StoredMap],
-        known: Iterable[StoredMap],
+        searched: Sequence[MapSnapshot],
+        known: Iterable[MapSnapshot],
         model_id: str,
         quantiser: Quantiser,
         patterns: Patterns,
@@ -145,7 +145,7 @@ class SharedIndexes:
         return _parts_of(searched, kept)
 
     def _renewed(
-        self, maps: Sequence[StoredMap], before: Sequence[Shared], quantiser: Quantiser
+        self, maps: Sequence[MapSnapshot], before: Sequence[Shared], quantiser: Quantiser
     ) -> list[Shared]:
         """Keep the valid indexes; rebuild those with too many changed maps."""
         small = {key_of(each): each for each in maps if 0 < len(each) <= SMALL}
@@ -163,16 +163,16 @@ class SharedIndexes:
         for shared in [each for each in kept if each.has_room]:
             kept.remove(shared)
             loose += [by_uid[uid] for uid, *_ in shared.keys if uid in by_uid]
-        groups: dict[tuple[int, ...], list[StoredMap]] = {}
+        groups: dict[tuple[int, ...], list[MapSnapshot]] = {}
         for each in sorted(loose, key=lambda one: one.name):
             groups.setdefault(self._openers(each.name), []).append(each)
         for group in groups.values():
             kept += self._filled(group, quantiser)
         return kept
 
-    def _filled(self, maps: Sequence[StoredMap], quantiser: Quantiser) -> list[Shared]:
+    def _filled(self, maps: Sequence[MapSnapshot], quantiser: Quantiser) -> list[Shared]:
         made: list[Shared] = []
-        some: list[StoredMap] = []
+        some: list[MapSnapshot] = []
         count = 0
         for each in maps:
             if some and (count + len(each) > ROOM or len(some) == MEMBERS):
@@ -193,7 +193,7 @@ class SharedIndexes:
         )
 
 
-def _parts_of(searched: Sequence[StoredMap], indexes: Sequence[Shared]) -> list[Part]:
+def _parts_of(searched: Sequence[MapSnapshot], indexes: Sequence[Shared]) -> list[Part]:
     places = {key_of(each): place for place, each in enumerate(searched)}
     parts, done = [], set()
     for shared in indexes:
@@ -210,7 +210,7 @@ def _parts_of(searched: Sequence[StoredMap], indexes: Sequence[Shared]) -> list[
     return parts
 
 
-def alive(layers: Layers) -> Int64:
+def alive(layers: MapLayers) -> Int64:
     """Return the rows of a map's live segments, by id, int64 (n,)."""
     rows = np.concatenate(
         [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]

@@ -3,30 +3,29 @@
 from dataclasses import dataclass
 
 from service.maps.index import LayeredIndex
-from service.maps.layers import Layers
-from service.maps.store import Head
+from service.maps.layers import MapLayers
+from service.maps.store import MapHead
 
 KEEPS_FRAME = frozenset({"edit", "age", "merge"})
 """Operations after which what a map held, if anything, still lies where it lay."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class StoredMap:
+class MapSnapshot:
     """A map as its newest version is: readers that have one see it whole, whatever is written.
 
     Attributes:
         head: where the map stands in the store.
         layers: its segments.
-        folded: sequence of the version that the layers' base is.
-        lies_since: sequence of the version since which nothing has come to lie elsewhere, or of one
-            after it.
+        base_sequence: sequence of the version that the layers' base is.
+        frame_since: sequence of a version since which no segment was moved in the map's frame.
         index: over its descriptors; None if the model that made them is not loaded.
     """
 
-    head: Head
-    layers: Layers
-    folded: int
-    lies_since: int
+    head: MapHead
+    layers: MapLayers
+    base_sequence: int
+    frame_since: int
     index: LayeredIndex | None
 
     def __len__(self) -> int:
@@ -47,9 +46,9 @@ class StoredMap:
         """Name of its coordinate frame."""
         return self.layers.base.frame
 
-    def lies_as(self, other: "StoredMap") -> bool:
+    def shares_frame_with(self, other: "MapSnapshot") -> bool:
         """Whether it is another version of the same map, in the same frame."""
-        return (self.head.uid, self.lies_since) == (other.head.uid, other.lies_since)
+        return (self.head.uid, self.frame_since) == (other.head.uid, other.frame_since)
 
     @property
     def tag(self) -> str:

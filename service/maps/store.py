@@ -85,7 +85,7 @@ class Commit:
 
 
 @dataclass(frozen=True, slots=True)
-class Head:
+class MapHead:
     """Present state of a map in the store.
 
     Attributes:
@@ -167,11 +167,11 @@ class Ids:
 NO_IDS = Ids()
 
 
-class History(Protocol):
+class MapHistory(Protocol):
     """One map's log as it stood at one moment, whatever is written meanwhile."""
 
     @property
-    def head(self) -> Head:
+    def head(self) -> MapHead:
         """Where the map stood."""
 
     def commits(self) -> list[Commit]:
@@ -198,24 +198,26 @@ class MapStore(Protocol):
     Each call is one transaction. Any may raise a StoreError; then nothing has changed.
     """
 
-    def heads(self) -> list[Head]:
+    def heads(self) -> list[MapHead]:
         """Of the maps, by name."""
 
-    def read(self, uid: str) -> AbstractContextManager[History]:
+    def read(self, uid: str) -> AbstractContextManager[MapHistory]:
         """A map's log; KeyError if there is none."""
 
-    def create(self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS) -> Head:
+    def create(
+        self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
+    ) -> MapHead:
         """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
 
     def append(
         self,
-        head: Head,
+        head: MapHead,
         blob: bytes,
         note: Note,
         next_id: int,
         ids: Ids = NO_IDS,
         frees: bool = False,
-    ) -> Head:
+    ) -> MapHead:
         """Add a commit.
 
         Args:
@@ -244,7 +246,7 @@ class MapStore(Protocol):
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
         """Return the last owner of each of these ids; None for ids without an owner."""
 
-    def free_ids(self, uid: str, used: Iterable[int]) -> Head:
+    def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
         """Forget the owners of unused ids; free ids begin after the used ones.
 
         Args:
@@ -252,13 +254,13 @@ class MapStore(Protocol):
             used: ids that are used, ascending.
         """
 
-    def compact(self, uid: str, sequence: int, file: bytes) -> Head:
+    def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Let go of the versions before one, whose file is given; KeyError if it is not there."""
 
     def delete(self, uid: str) -> None:
         """Remove a map with all its versions; KeyError if there is none."""
 
-    def give_back(self) -> None:
+    def release_space(self) -> None:
         """Return the room of what was removed to the disk, if it is much."""
 
     def trouble(self) -> str | None:

@@ -11,11 +11,10 @@ from placecell_client import Delta, decode_delta
 
 from placecell.core.types import UInt32
 from service.core.problems import Problem
-from service.maps.history import history_of
-from service.maps.layers import Layers
-from service.maps.replay import version_of
-from service.maps.snapshot import StoredMap, tag_of
-from service.maps.store import IDS, History, MapStore
+from service.maps.history import history_of, replay
+from service.maps.layers import MapLayers
+from service.maps.snapshot import MapSnapshot, tag_of
+from service.maps.store import IDS, MapHistory, MapStore
 
 PINNED = 8
 """Syncs at work whose version is kept in memory; of others it is made anew for each page."""
@@ -28,7 +27,7 @@ _CURSOR = re.compile(r"([0-9]{1,16})\.([0-9a-f]{16}-([0-9]{1,16}))\.([0-9]{1,10}
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
+class SyncPage:
     """A part of what changed.
 
     Attributes:
@@ -57,11 +56,11 @@ class _Sync:
     since: int
     until: int
     tag: str
-    layers: Layers
+    layers: MapLayers
     ids: UInt32
 
 
-class Changes:
+class MapSync:
     """Answers the syncs of all maps. For use from many threads."""
 
     def __init__(self, store: MapStore) -> None:
@@ -69,7 +68,7 @@ class Changes:
         self._guard = Lock()
         self._pinned: OrderedDict[tuple[str, int, str], tuple[_Sync, float]] = OrderedDict()
 
-    def since(self, stored: StoredMap, since: str, limit: int) -> Page:
+    def first_page(self, stored: MapSnapshot, since: str, limit: int) -> SyncPage:
         """The first page from a version to the newest.
 
         Args:
@@ -91,14 +90,14 @@ class Changes:
                 _check_known(history, sequence, since)
         return self._page(stored, sequence, stored.tag, stored.head.sequence, 0, limit)
 
-    def at(self, stored: StoredMap, cursor: str, limit: int) -> Page:
+    def next_page(self, stored: MapSnapshot, cursor: str, limit: int) -> SyncPage:
         """A further page; 422 if the cursor is none, 410 if its version is no longer known."""
         match = _CURSOR.fullmatch(cursor)
         if match is None:
             raise Problem(422, "invalid-request", f"cursor: {cursor!r:.80} is none.")
         return self._page(stored, int(match[1]), match[2], int(match[3]), int(match[4]), limit)
 
-    def forget(self) -> None:
+    def expire(self) -> None:
         """Let go of versions that nobody has asked for in a while."""
         with self._guard:
             for key, (_, asked) in list(self._pinned.items()):
@@ -106,8 +105,8 @@ class Changes:
                     del self._pinned[key]
 
     def _page(
-        self, stored: StoredMap, since: int, tag: str, until: int, first: int, limit: int
-    ) -> Page:
+        self, stored: MapSnapshot, since: int, tag: str, until: int, first: int, limit: int
+    ) -> SyncPage:
         sync = self._sync(stored, since, until, tag)
         place = int(np.searchsorted(sync.ids, np.uint32(min(first, IDS - 1))))
         ids = sync.ids[place : place + limit]
@@ -116,9 +115,9 @@ class Changes:
         rest = sync.ids[place + limit :]
         following = f"{since}.{tag}.{rest[0]}" if len(rest) else None
         self._pin(stored, sync, wanted=following is not None)
-        return Page(Delta(changed, removed, since, until), tag, following)
+        return SyncPage(Delta(changed, removed, since, until), tag, following)
 
-    def _sync(self, stored: StoredMap, since: int, until: int, tag: str) -> _Sync:
+    def _sync(self, stored: MapSnapshot, since: int, until: int, tag: str) -> _Sync:
         with self._guard:
             pinned = self._pinned.get((stored.head.uid, since, tag))
         if pinned is not None:
@@ -128,11 +127,11 @@ class Changes:
             return _Sync(since, until, tag, stored.layers, ids)
         with history_of(self._store, stored) as history:
             _check_known(history, until, tag)
-            layers = stored.layers if tag == stored.tag else version_of(history, until)
+            layers = stored.layers if tag == stored.tag else replay(history, until)
             ids = _touched(history, since, until) if since else layers.ids
         return _Sync(since, until, tag, layers, ids)
 
-    def _pin(self, stored: StoredMap, sync: _Sync, wanted: bool) -> None:
+    def _pin(self, stored: MapSnapshot, sync: _Sync, wanted: bool) -> None:
         key = stored.head.uid, sync.since, sync.tag
         with self._guard:
             self._pinned.pop(key, None)
@@ -142,7 +141,7 @@ class Changes:
                 self._pinned.popitem(last=False)
 
 
-def _check_known(history: History, sequence: int, tag: str) -> None:
+def _check_known(history: MapHistory, sequence: int, tag: str) -> None:
     try:
         known = tag_of(sequence, history.mark(sequence)) == tag
     except KeyError:
@@ -151,7 +150,7 @@ def _check_known(history: History, sequence: int, tag: str) -> None:
         raise _gone(history, tag)
 
 
-def _touched(history: History, since: int, until: int) -> UInt32:
+def _touched(history: MapHistory, since: int, until: int) -> UInt32:
     """Ids of the segments that the commits between two versions changed or removed, ascending."""
     touched = [np.zeros(0, np.uint32)]
     if not history.head.oldest <= since <= until:
@@ -164,7 +163,7 @@ def _touched(history: History, since: int, until: int) -> UInt32:
     return np.unique(np.concatenate(touched))
 
 
-def _gone(history: History, version: str) -> Problem:
+def _gone(history: MapHistory, version: str) -> Problem:
     return Problem(
         410,
         "version-gone",

@@ -14,8 +14,8 @@ from placecell_client.maps.canonical import canonical
 
 from service.core.auth import Holder
 from service.core.problems import Problem
-from service.maps.layers import Layers
-from service.maps.snapshot import StoredMap
+from service.maps.layers import MapLayers
+from service.maps.snapshot import MapSnapshot
 
 HIDDEN_AUTHOR = "another key"
 """Text that replaces another key's name."""
@@ -34,7 +34,7 @@ def sources_for(holder: Holder, sources: Counter[str]) -> dict[str, int]:
     return {name: count for name, count in sorted(sources.items()) if holder.opens(name)}
 
 
-def is_hidden_from(holder: Holder, layers: Layers) -> bool:
+def is_hidden_from(holder: Holder, layers: MapLayers) -> bool:
     """Return whether a map has sources that a key may not see."""
     return not holder.opens_all and not all(map(holder.opens, layers.sources))
 
@@ -58,7 +58,7 @@ def delta_for(holder: Holder, uid: str, delta: Delta) -> Delta:
     return replace(delta, changed=content_for(holder, uid, delta.changed))
 
 
-def written_by(holder: Holder, stored: StoredMap | None, content: CompactMap) -> CompactMap:
+def written_by(holder: Holder, stored: MapSnapshot | None, content: CompactMap) -> CompactMap:
     """Replace pseudonyms by names in what a key writes.
 
     Args:

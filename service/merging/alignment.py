@@ -12,7 +12,7 @@ from service.core.problems import Problem
 from service.inference.match_probability import likely
 from service.inference.model_registry import Model
 from service.maps.index import MapIndex, index_of
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 
 K = 25
 """Candidates of each view of a submap's thing."""
@@ -38,12 +38,12 @@ class MapSide:
         view: where its segments are, and were seen from.
     """
 
-    stored: StoredMap
+    stored: MapSnapshot
     content: CompactMap
     view: MapView
 
     @classmethod
-    def of(cls, stored: StoredMap) -> "MapSide":
+    def of(cls, stored: MapSnapshot) -> "MapSide":
         """Of a map as it is now."""
         content = stored.layers.content()
         stands = content.frame_positions[content.frame_index]
@@ -119,7 +119,7 @@ def align_maps(
     return align(a.view, b.view, looks, parameters)
 
 
-def check_same_model(a: StoredMap, b: StoredMap) -> None:
+def check_same_model(a: MapSnapshot, b: MapSnapshot) -> None:
     """See that two maps can be compared; 409 if not."""
     if a.model_id != b.model_id:
         raise Problem(

@@ -14,8 +14,8 @@ from placecell.localization import Pose
 from placecell.localization.registration import register
 from placecell.map_alignment import AlignmentParameters
 from service.maps.deduplication import NONE, RADIUS, SameView, count_elsewhere, sighting
-from service.maps.layers import Layers
-from service.maps.snapshot import StoredMap
+from service.maps.layers import MapLayers
+from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, OutOfIdsError
 from service.merging.alignment import MapSide
 from service.merging.provenance import keys_in, moments_of, of_source, shared
@@ -28,7 +28,7 @@ ROUNDS = 20
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
+class MergePart:
     """A map that is to be merged.
 
     Attributes:
@@ -45,7 +45,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class PartOutcome:
     """What became of a part's segments.
 
     Attributes:
@@ -61,7 +61,7 @@ class Share:
     removed: int
 
 
-def site_of(stored: StoredMap) -> CompactMap:
+def empty_merged_map(stored: MapSnapshot) -> CompactMap:
     """An empty site, in the frame of a map."""
     base = stored.layers.base
     return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
@@ -72,7 +72,7 @@ def content_of(side: MapSide) -> CompactMap:
     return originated(side.content, side.stored.name)
 
 
-def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
+def known_pose(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
     """How a map lies in a site that it was merged into, from what it gave; None if that is unclear.
 
     The stands tell it exactly, for they are moved without rounding; where all are on one line or
@@ -105,8 +105,8 @@ def laid_before(site: CompactMap, part: CompactMap, parameters: AlignmentParamet
 
 
 def join(
-    site: CompactMap, parts: Sequence[Part], first_id: int, same: SameView | None
-) -> tuple[CompactMap, list[Share]]:
+    site: CompactMap, parts: Sequence[MergePart], first_id: int, same: SameView | None
+) -> tuple[CompactMap, list[PartOutcome]]:
     """The site with the parts in it, one after the other.
 
     A segment is known by the map that it was written to first, and its id there; so a map can be
@@ -142,7 +142,7 @@ def join(
             # Not with what the map itself gave before: it is another's that is left out. But its
             # views count, or what had no room in a thing would have it the next time.
             there = take(site, ~gone)
-            about = Layers.of(there).about(added.centroids, RADIUS)
+            about = MapLayers.of(there).near(added.centroids, RADIUS)
             seen = sighting(
                 added,
                 about,
@@ -156,18 +156,18 @@ def join(
         removed = np.sort(site.ids[gone])
         site = apply(site, Delta(changed, removed))
         shares.append(
-            Share(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
+            PartOutcome(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
         )
     return site, shares
 
 
 def join_settled(
     site: CompactMap,
-    parts: Sequence[Part],
+    parts: Sequence[MergePart],
     first_id: int,
     same: SameView | None,
     parameters: AlignmentParameters,
-) -> tuple[CompactMap, list[Share]]:
+) -> tuple[CompactMap, list[PartOutcome]]:
     """Merge the parts into the map until merging them again changes nothing.
 
     What one part adds may show a segment of another one from a new side; so the parts are joined
@@ -190,20 +190,22 @@ def join_settled(
             break
         content = after
         shares = [
-            Share(one.added + other.added, one.known, other.repeats, one.removed + other.removed)
+            PartOutcome(
+                one.added + other.added, one.known, other.repeats, one.removed + other.removed
+            )
             for one, other in zip(shares, more, strict=True)
         ]
     return content, shares
 
 
-def as_laid(site: CompactMap, part: Part, parameters: AlignmentParameters) -> Part:
+def as_laid(site: CompactMap, part: MergePart, parameters: AlignmentParameters) -> MergePart:
     """Return a part as it lies in the map that it was merged into; unchanged if unclear."""
-    pose = laid_before(site, part.content, parameters)
+    pose = known_pose(site, part.content, parameters)
     return part if pose is None else replace(part, pose=pose, slack=ROUNDED)
 
 
 def replaced(
-    part: Part, laid: CompactMap, site: CompactMap, rows: Int64, places: Int64
+    part: MergePart, laid: CompactMap, site: CompactMap, rows: Int64, places: Int64
 ) -> tuple[Int64, Int64]:
     """What the part has replaced since it was merged, rows of both, int64 (m,) each.
 

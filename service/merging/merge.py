@@ -9,24 +9,24 @@ from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from service.core.problems import Problem
 from service.maps.deduplication import RADIUS, SameView
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
-from service.maps.writes.writer import Writer, Written, leading_to, out_of_ids
+from service.maps.writes.writer import MapWriter, WriteResult, delta_to, out_of_ids
 from service.merging.alignment import Check, check_same_model
 from service.merging.join import (
     ROUNDED,
-    Part,
-    Share,
+    MergePart,
+    PartOutcome,
     content_of,
+    empty_merged_map,
     join_settled,
-    laid_before,
-    site_of,
+    known_pose,
 )
-from service.merging.plan import Plan, plan_merge
+from service.merging.plan import MergePlan, plan_merge
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Merged:
+class MergeResult:
     """What a merge did, or would do.
 
     Attributes:
@@ -39,10 +39,10 @@ class Merged:
         removed: segments that were, or would be, removed.
     """
 
-    plan: Plan
-    shares: dict[int, Share]
+    plan: MergePlan
+    shares: dict[int, PartOutcome]
     segments: int
-    written: Written | None
+    written: WriteResult | None
     previous: int | None
     changed: int
     removed: int
@@ -60,13 +60,13 @@ class Merger:
         check: raises an exception when nobody waits any longer.
     """
 
-    writer: Writer
+    writer: MapWriter
     parameters: AlignmentParameters
     deduplicate: bool
     dry_run: bool
     check: Check
 
-    def merge(self, name: str, names: Sequence[str]) -> Merged:
+    def merge(self, name: str, names: Sequence[str]) -> MergeResult:
         """Merge stored maps into a site, which is made if there is none.
 
         A site's frame is that of the first map, and stays. Maps that cannot be laid on it are left
@@ -74,7 +74,7 @@ class Merger:
 
         Raises:
             Problem: 404 for a map that is not there, 409 if the maps do not go together or the site
-                changed meanwhile, and what `Writer` finds wrong.
+                changed meanwhile, and what `MapWriter` finds wrong.
         """
         maps = self.writer.maps
         site = maps.find(name)
@@ -99,7 +99,7 @@ class Merger:
         if len(plan.poses) < 2:
             if self.dry_run:
                 segments, previous = (len(site), site.head.sequence) if site else (0, None)
-                return Merged(plan, {}, segments, None, previous, 0, 0)
+                return MergeResult(plan, {}, segments, None, previous, 0, 0)
             raise Problem(
                 409,
                 "not-aligned",
@@ -110,7 +110,7 @@ class Merger:
         with maps.writing(name):
             return self._write(name, site, plan, joining)
 
-    def _as_before(self, plan: Plan) -> dict[int, Pose]:
+    def _as_before(self, plan: MergePlan) -> dict[int, Pose]:
         """How maps that are part of the site already were laid, by number.
 
         So merging them again changes nothing, where alignment would lay them a little elsewhere.
@@ -118,27 +118,29 @@ class Merger:
         site = plan.sides[0].content
         poses = {}
         for number, side in enumerate(plan.sides[1:], start=1):
-            pose = laid_before(site, content_of(side), self.parameters)
+            pose = known_pose(site, content_of(side), self.parameters)
             if pose is not None:
                 poses[number] = pose
         return poses
 
     def _write(
-        self, name: str, before: StoredMap | None, plan: Plan, joining: Mapping[int, float]
-    ) -> Merged:
+        self, name: str, before: MapSnapshot | None, plan: MergePlan, joining: Mapping[int, float]
+    ) -> MergeResult:
         """Join these parts, by number, each with its slack, and store the site."""
         writer, maps = self.writer, self.writer.maps
         stored = maps.find(name)
         self._check_lies_still(name, before, stored)
         parts = [
-            Part(plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack)
+            MergePart(
+                plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack
+            )
             for number, slack in joining.items()
         ]
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
         present = None if stored is None else stored.layers.content()
         # One without segments is begun anew, in the first map's frame.
-        site = present if present is not None and len(present) else site_of(plan.maps[0])
+        site = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
         first_id = 0 if stored is None else stored.head.next_id
         try:
             content, found = join_settled(site, parts, first_id, same, self.parameters)
@@ -155,24 +157,24 @@ class Merger:
         previous = stored.head.sequence if stored is not None else None
         if stored is None:
             written = None if self.dry_run else writer.create(name, content, "merge")
-            return Merged(plan, shares, len(content), written, previous, len(content), 0)
-        delta = leading_to(stored, content, present)
+            return MergeResult(plan, shares, len(content), written, previous, len(content), 0)
+        delta = delta_to(stored, content, present)
         if self.dry_run:
             _, delta = stored.layers.effect_of(delta)
             changed, removed = len(delta.changed), len(delta.removed)
-            return Merged(plan, shares, len(content), None, previous, changed, removed)
+            return MergeResult(plan, shares, len(content), None, previous, changed, removed)
         written = writer.commit(stored, delta, "merge")
-        return Merged(
+        return MergeResult(
             plan, shares, len(content), written, previous, written.changed, written.removed
         )
 
     def _check_lies_still(
-        self, name: str, before: StoredMap | None, stored: StoredMap | None
+        self, name: str, before: MapSnapshot | None, stored: MapSnapshot | None
     ) -> None:
         """See that the site is the one that the maps were laid on; 409 if not."""
         if before is stored:
             return
-        if before is not None and stored is not None and stored.lies_as(before):
+        if before is not None and stored is not None and stored.shares_frame_with(before):
             return
         raise Problem(
             409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."

@@ -14,12 +14,12 @@ from placecell.map_alignment import (
 )
 from placecell.map_alignment.loops import Checked
 from service.inference.model_registry import Model
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 from service.merging.alignment import Check, MapLikeness, MapSide, align_maps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pairing:
+class AlignedPair:
     """What was found of two maps.
 
     Attributes:
@@ -37,7 +37,7 @@ class Pairing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Plan:
+class MergePlan:
     """How maps lie to the first of them.
 
     Attributes:
@@ -48,19 +48,19 @@ class Plan:
     """
 
     sides: tuple[MapSide, ...]
-    pairings: tuple[Pairing, ...]
+    pairings: tuple[AlignedPair, ...]
     checked: Checked
     poses: dict[int, Pose]
 
     @property
-    def maps(self) -> tuple[StoredMap, ...]:
+    def maps(self) -> tuple[MapSnapshot, ...]:
         """As they are stored."""
         return tuple(side.stored for side in self.sides)
 
 
 def plan_merge(
-    maps: Sequence[StoredMap], model: Model, parameters: AlignmentParameters, check: Check
-) -> Plan:
+    maps: Sequence[MapSnapshot], model: Model, parameters: AlignmentParameters, check: Check
+) -> MergePlan:
     """Align each two, reject what loops rule out, and lay all that is connected on the first."""
     sides = tuple(MapSide.of(stored) for stored in maps)
     found: dict[tuple[int, int], MapAlignment] = {}
@@ -89,7 +89,7 @@ def plan_merge(
     checked = check_loops(edges, lies)
     numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}
     pairings = tuple(
-        Pairing(
+        AlignedPair(
             *pair,
             each,
             numbers.get(pair) in checked.rejected,
@@ -97,7 +97,7 @@ def plan_merge(
         )
         for pair, each in found.items()
     )
-    return Plan(sides, pairings, checked, poses_from(0, edges, checked))
+    return MergePlan(sides, pairings, checked, poses_from(0, edges, checked))
 
 
 def _with_later(

@@ -11,8 +11,8 @@ from placecell.core.spatial import evenly
 from placecell.core.types import Float64, Int64, UInt32
 from placecell.localization import LocalisationParameters, Pose
 from placecell.localization.registration import register
-from service.maps.layers import Layers
-from service.maps.snapshot import StoredMap
+from service.maps.layers import MapLayers
+from service.maps.snapshot import MapSnapshot
 
 SAMPLE = 2_048
 """Largest number of segments of one map that are looked up in the other."""
@@ -21,7 +21,7 @@ OFF = 0.5
 """Largest median distance between segments of linked maps, meters."""
 
 
-def pose_between(one: StoredMap, other: StoredMap) -> Pose | None:
+def pose_between(one: MapSnapshot, other: MapSnapshot) -> Pose | None:
     """Return the pose of `other`'s frame in `one`'s; None if they share no segments."""
     rows, others = _common(one, other)
     if not len(rows):
@@ -33,7 +33,7 @@ def pose_between(one: StoredMap, other: StoredMap) -> Pose | None:
     return pose if np.median(off) <= OFF else None
 
 
-def _common(one: StoredMap, other: StoredMap) -> tuple[Int64, Int64]:
+def _common(one: MapSnapshot, other: MapSnapshot) -> tuple[Int64, Int64]:
     """Return rows of both maps that are the same segments, a sample, int64 (n,) each."""
     if _is_copy(one, other):
         by_id = (_alive(each.layers) for each in (one, other))
@@ -58,7 +58,7 @@ def _common(one: StoredMap, other: StoredMap) -> tuple[Int64, Int64]:
     return rows[same], others[same]
 
 
-def _is_copy(one: StoredMap, other: StoredMap) -> bool:
+def _is_copy(one: MapSnapshot, other: MapSnapshot) -> bool:
     """Return whether both maps hold the same segments, captured at the same moments.
 
     Moments tell a copy from a look-alike; where all segments are of one moment, nothing does.
@@ -75,7 +75,7 @@ def _is_copy(one: StoredMap, other: StoredMap) -> bool:
     return bool(len(moments)) and bool(moments.min() < moments.max())
 
 
-def _alive(layers: Layers) -> Int64:
+def _alive(layers: MapLayers) -> Int64:
     """Return the rows of the map's live segments, by id, int64 (n,)."""
     rows = np.concatenate(
         [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]
@@ -83,12 +83,12 @@ def _alive(layers: Layers) -> Int64:
     return rows[np.argsort(layers.column("ids", rows), kind="stable")]
 
 
-def _names(stored: StoredMap) -> set[str]:
+def _names(stored: MapSnapshot) -> set[str]:
     """Return the names of maps that the segments may have been written to first."""
     return {stored.name, *stored.layers.base.sources, *stored.layers.recent.sources}
 
 
-def _written_to(stored: StoredMap, name: str) -> tuple[UInt32, Int64]:
+def _written_to(stored: MapSnapshot, name: str) -> tuple[UInt32, Int64]:
     """Return ids and rows of the segments that were first written to the map of this name."""
     layers = stored.layers
     ids, rows = [], []
@@ -110,7 +110,7 @@ def _written_to(stored: StoredMap, name: str) -> tuple[UInt32, Int64]:
     return np.concatenate(ids), np.concatenate(rows)
 
 
-def _of_frames(layers: Layers, column: str, rows: Int64) -> Float64:
+def _of_frames(layers: MapLayers, column: str, rows: Int64) -> Float64:
     """Return values of a frame table's column, at rows of the map."""
     base, recent = layers.base, layers.recent
     above = rows >= len(base)
@@ -121,13 +121,13 @@ def _of_frames(layers: Layers, column: str, rows: Int64) -> Float64:
     return values
 
 
-def _moments(layers: Layers, rows: Int64) -> Float64:
+def _moments(layers: MapLayers, rows: Int64) -> Float64:
     return _of_frames(layers, "frame_times", rows)
 
 
-def _stands(layers: Layers, rows: Int64) -> Float64:
+def _stands(layers: MapLayers, rows: Int64) -> Float64:
     return _of_frames(layers, "frame_positions", rows)
 
 
-def _centroids(layers: Layers, rows: Int64) -> Float64:
+def _centroids(layers: MapLayers, rows: Int64) -> Float64:
     return np.asarray(layers.column("centroids", rows), np.float64)

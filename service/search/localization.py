@@ -15,7 +15,7 @@ from service.core.timing import Timing
 from service.inference.match_probability import likely
 from service.inference.model_registry import Model
 from service.maps.shared_index import Part
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 from service.search.links import pose_between
 from service.search.matching import found_in
 from service.search.ranking import FULL, best_of, votes_of
@@ -24,7 +24,7 @@ from service.search.ranking import FULL, best_of, votes_of
 class MapSurroundings:
     """`Surroundings` of a stored map."""
 
-    def __init__(self, codes: Int8, model: Model, stored: StoredMap) -> None:
+    def __init__(self, codes: Int8, model: Model, stored: MapSnapshot) -> None:
         """For queries of these codes, int8 (q, code bytes), of the model that made the map."""
         self._codes = codes
         self._model = model
@@ -32,7 +32,7 @@ class MapSurroundings:
 
     def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
         """Rows about places, and their centroids."""
-        rows = self._layers.rows_about(places, metres)
+        rows = self._layers.rows_near(places, metres)
         return rows, self._layers.column("centroids", rows)
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
@@ -44,7 +44,7 @@ def localise_in(
     codes: Int8,
     centroids: Float64,
     model: Model,
-    stored: StoredMap,
+    stored: MapSnapshot,
     k: int,
     parameters: LocalisationParameters,
     timing: Timing,
@@ -73,7 +73,7 @@ def query_in(
     codes: Int8,
     centroids: Float64,
     model: Model,
-    stored: StoredMap,
+    stored: MapSnapshot,
     k: int,
     evidence: Evidence | None = None,
 ) -> MapQuery:
@@ -101,7 +101,7 @@ class Group:
     """
 
     model: Model
-    searched: tuple[StoredMap, ...]
+    searched: tuple[MapSnapshot, ...]
     codes: Int8
     centroids: Float64
 
@@ -118,11 +118,11 @@ class InMap:
         rival: the map of `judged.rival`.
     """
 
-    stored: StoredMap
+    stored: MapSnapshot
     group: int
     judged: Judged
     is_full: bool
-    rival: StoredMap | None = None
+    rival: MapSnapshot | None = None
 
 
 def localise_among(
@@ -131,7 +131,7 @@ def localise_among(
     parameters: LocalisationParameters,
     timing: Timing,
     parts: Callable[[Group], list[Part]],
-    evidence: Callable[[StoredMap], Evidence | None],
+    evidence: Callable[[MapSnapshot], Evidence | None],
 ) -> list[InMap]:
     """Localize the robot in any of the maps, the most probable first.
 

@@ -11,9 +11,9 @@ from placecell.core.types import Float64, Int8, Int64
 from service.core.auth import Holder
 from service.core.problems import Problem
 from service.inference.model_registry import Model, Models
-from service.maps.repository import Maps
+from service.maps.repository import MapRepository
 from service.maps.shared_index import Part, Patterns
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 
 Candidate = dict[str, Any]
 """As `CandidateOut` says; not made of it, for there are hundreds a request."""
@@ -28,18 +28,18 @@ class Scope:
         skipped: their models are not loaded, or not those of the codes.
     """
 
-    searched: tuple[tuple[Model, tuple[StoredMap, ...]], ...]
-    skipped: tuple[StoredMap, ...]
+    searched: tuple[tuple[Model, tuple[MapSnapshot, ...]], ...]
+    skipped: tuple[MapSnapshot, ...]
 
     @property
-    def maps(self) -> list[StoredMap]:
+    def maps(self) -> list[MapSnapshot]:
         """All that are searched, by name."""
         every = [stored for _, group in self.searched for stored in group]
         return sorted(every, key=lambda stored: stored.name)
 
 
 def scope_of(
-    maps: Maps, models: Models, names: list[str] | None, only: Model | None, holder: Holder
+    maps: MapRepository, models: Models, names: list[str] | None, only: Model | None, holder: Holder
 ) -> Scope:
     """The maps of these names, or all that the key opens.
 
@@ -56,7 +56,7 @@ def scope_of(
         for name in names:
             holder.check_map(name)
         chosen = [maps.get(name) for name in sorted(set(names))]
-    groups: dict[str, list[StoredMap]] = {}
+    groups: dict[str, list[MapSnapshot]] = {}
     skipped = []
     for stored in chosen:
         made_by = stored.model_id
@@ -87,7 +87,7 @@ class Found:
         probabilities: of a match, float64 (q, k); None if the model has no classifier.
     """
 
-    searched: tuple[StoredMap, ...]
+    searched: tuple[MapSnapshot, ...]
     places: Int64
     rows: Int64
     distances: Float64
@@ -137,7 +137,7 @@ class Found:
 def found_in(
     codes: Int8,
     model: Model,
-    searched: tuple[StoredMap, ...],
+    searched: tuple[MapSnapshot, ...],
     k: int,
     parts: Sequence[Part] | None = None,
 ) -> Found:
@@ -170,7 +170,7 @@ def found_in(
 
 
 def _nearest(
-    codes: Int8, searched: tuple[StoredMap, ...], part: Part, k: int
+    codes: Int8, searched: tuple[MapSnapshot, ...], part: Part, k: int
 ) -> tuple[Float64, Int64, Int64]:
     """Search one part: distances in steps, places and rows of the k nearest, (q, up to k) each."""
     if part.shared is None:
@@ -186,7 +186,7 @@ def _nearest(
 
 
 def parts_of(
-    maps: Maps, model: Model, searched: Sequence[StoredMap], patterns: Patterns
+    maps: MapRepository, model: Model, searched: Sequence[MapSnapshot], patterns: Patterns
 ) -> list[Part]:
     """Return the parts to search for these maps of one model.
 
@@ -219,7 +219,7 @@ def _standing(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, i
 
 
 def _probabilities(
-    codes: Int8, model: Model, searched: tuple[StoredMap, ...], places: Int64, rows: Int64
+    codes: Int8, model: Model, searched: tuple[MapSnapshot, ...], places: Int64, rows: Int64
 ) -> Float64 | None:
     """Return the probability of each candidate of each query, (q, k)."""
     if model.classifier is None:

@@ -17,7 +17,7 @@ from placecell.core.spatial import evenly
 from placecell.core.types import Float32, Float64, Int8, Int32, Int64
 from placecell.localization import LocalisationParameters
 from service.maps.shared_index import Part, centred
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 
 FULL = 8
 """Largest number of maps that are searched in full."""
@@ -62,7 +62,7 @@ class Nearest:
 def votes_of(
     codes: Int8,
     centroids: Float64,
-    searched: Sequence[StoredMap],
+    searched: Sequence[MapSnapshot],
     parts: Sequence[Part],
     parameters: LocalisationParameters,
 ) -> Int64:
@@ -145,7 +145,7 @@ def warm() -> None:
     )
 
 
-def _nearest(codes: Int8, searched: Sequence[StoredMap], part: Part) -> Nearest:
+def _nearest(codes: Int8, searched: Sequence[MapSnapshot], part: Part) -> Nearest:
     """Return the candidates of one part."""
     shared = part.shared
     if shared is None:

@@ -19,13 +19,13 @@ class SessionKey:
         holder: name of the key that the requests came with.
         session: the id that the robot chose.
         map: uid of the map: another of its name lies elsewhere.
-        lies_since: of the map; what was replaced may lie elsewhere, too.
+        frame_since: of the map; what was replaced may lie elsewhere, too.
     """
 
     holder: str
     session: str
     map: str
-    lies_since: int
+    frame_since: int
 
 
 class Sessions:

@@ -28,7 +28,7 @@ from benchmarks.durability.power_loss.recorded_run import (
 )
 from evaluation.machine import machine
 from service.maps.cache import MapCache
-from service.maps.replay import newest
+from service.maps.history import load_newest
 from service.maps.snapshot import tag_of
 from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import Note, StoreError
@@ -187,7 +187,7 @@ def read_maps_left(files: Mapping[str, bytes], root: Path, folder: Path) -> Outl
                 with store.read(head.uid) as history:
                     commits = history.commits()
                 tags = tuple((each.sequence, tag_of(each.sequence, each.mark)) for each in commits)
-                file = encode(newest(store, head, cache)[0].content())
+                file = encode(load_newest(store, head, cache)[0].content())
                 maps.append((head.name, tags, hashlib.sha256(file).hexdigest()))
             if wrong := store.verify():
                 return "; ".join(wrong)

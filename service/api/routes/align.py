@@ -21,7 +21,7 @@ from service.core.auth import Holder
 from service.core.cost import check_cost, cost_of_aligning
 from service.core.problems import invalid, invalid_value
 from service.inference.model_registry import Model
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 from service.merging.alignment import K, MapSide, align_maps, check_same_model
 from service.merging.merge import Merger
 
@@ -83,7 +83,7 @@ async def align(
 
 
 def _aligned(
-    one: StoredMap, other: StoredMap, model: Model, motion: Literal["yaw", "se3"], pairs: bool
+    one: MapSnapshot, other: MapSnapshot, model: Model, motion: Literal["yaw", "se3"], pairs: bool
 ) -> AlignmentOut:
     parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
     here, there = MapSide.of(one), MapSide.of(other)

@@ -20,7 +20,7 @@ from service.api.state import HolderOf, State, StateOf, TimingOf
 from service.core.auth import Holder
 from service.core.timing import Timing
 from service.maps.shared_index import Part
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 from service.search.localization import Group, InMap, localise_among
 from service.search.matching import parts_of
 from service.search.sessions import SessionKey
@@ -70,10 +70,10 @@ def _read(state: State, holder: Holder, body: Body, timing: Timing) -> tuple[Que
     return query, read_query(state, holder, query, timing, centroids)
 
 
-def _session_key(holder: Holder, query: Query, stored: StoredMap) -> SessionKey | None:
+def _session_key(holder: Holder, query: Query, stored: MapSnapshot) -> SessionKey | None:
     if not query.session:
         return None
-    return SessionKey(holder.name, query.session, stored.head.uid, stored.lies_since)
+    return SessionKey(holder.name, query.session, stored.head.uid, stored.frame_since)
 
 
 def _answered(
@@ -97,7 +97,7 @@ def _answered(
         for stored in group.searched
     }
 
-    def evidence(stored: StoredMap) -> Evidence | None:
+    def evidence(stored: MapSnapshot) -> Evidence | None:
         key = _session_key(holder, query, stored)
         return state.sessions.evidence(key, middle_in[stored.head.uid]) if key else None
 

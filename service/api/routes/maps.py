@@ -18,11 +18,10 @@ from service.api.responses import summary_of
 from service.api.schemas.maps import MapOut, MapsResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
-from service.maps.history import version as version_of
-from service.maps.history import version_file, version_tag
-from service.maps.snapshot import StoredMap
+from service.maps.history import load_version, version_file, version_tag
+from service.maps.snapshot import MapSnapshot
 from service.maps.visibility import content_for, is_hidden_from
-from service.maps.writes.writer import Written
+from service.maps.writes.writer import WriteResult
 
 router = APIRouter(tags=["maps"])
 
@@ -145,7 +144,7 @@ async def delete_map(
     tell(request, state, "delete", name, f"{segments} segments", segments)
 
 
-async def put_response(state: State, holder: Holder, written: Written) -> Response:
+async def put_response(state: State, holder: Holder, written: WriteResult) -> Response:
     """The answer to a map that was stored whole."""
     summary = await state.store(summary_of, written.stored, holder)
     return JSONResponse(
@@ -159,7 +158,7 @@ async def put_response(state: State, holder: Holder, written: Written) -> Respon
 
 
 def _file(
-    state: State, holder: Holder, stored: StoredMap, sequence: int, tag: str
+    state: State, holder: Holder, stored: MapSnapshot, sequence: int, tag: str
 ) -> tuple[str, Callable[[], bytes]]:
     """Return a name for a version's file, equal for keys that see the same, and its maker."""
     name, store, uid = f"{stored.head.uid} {tag}", state.maps.store, stored.head.uid
@@ -168,7 +167,7 @@ def _file(
         return name, lambda: version_file(store, stored, sequence)[0]
 
     def made() -> bytes:
-        layers, _ = version_of(store, stored, sequence)
+        layers, _ = load_version(store, stored, sequence)
         return encode(content_for(holder, uid, layers.content()))
 
     return f"{name} {' '.join(holder.key.maps)}", made

@@ -17,8 +17,8 @@ from service.api.responses import outcome_of
 from service.api.schemas.maps import IdsOut, WrittenOut
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
-from service.maps.snapshot import StoredMap
-from service.maps.sync import Page
+from service.maps.snapshot import MapSnapshot
+from service.maps.sync import SyncPage
 from service.maps.visibility import delta_for
 
 router = APIRouter(tags=["sharing"])
@@ -131,7 +131,7 @@ async def age_segments(
     """A version of its own, that can be undone as any other."""
     holder.check_write(name)
     async with state.edits.enter(request):
-        written = await state.store(writer.age, name, unseen_since, dry_run)
+        written = await state.store(writer.prune, name, unseen_since, dry_run)
     timing.lap("commit")
     if not dry_run:
         tell_written(request, state, "age", written)
@@ -235,11 +235,11 @@ async def changes(
 
 
 def _page(
-    state: State, holder: Holder, stored: StoredMap, since: str, cursor: str | None, limit: int
-) -> tuple[Page, bytes]:
+    state: State, holder: Holder, stored: MapSnapshot, since: str, cursor: str | None, limit: int
+) -> tuple[SyncPage, bytes]:
     """A page, and its file."""
     if cursor is None:
-        page = state.changes.since(stored, since, limit)
+        page = state.sync.first_page(stored, since, limit)
     else:
-        page = state.changes.at(stored, cursor, limit)
+        page = state.sync.next_page(stored, cursor, limit)
     return page, encode_delta(delta_for(holder, stored.head.uid, page.delta))

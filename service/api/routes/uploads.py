@@ -13,7 +13,7 @@ from service.api.path_parameters import Name
 from service.api.routes.maps import NEW_RESPONSE, put_response
 from service.api.schemas.maps import MapOut, PartOut, UploadOut, UploadsResponse
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
-from service.maps.writes.writer import Writer, Written
+from service.maps.writes.writer import MapWriter, WriteResult
 
 router = APIRouter(tags=["maps"])
 
@@ -122,7 +122,7 @@ async def delete_upload(
     tell(request, state, "delete upload", name, f"upload {digest[:16]}")
 
 
-def _completed(state: State, writer: Writer, name: str, digest: str) -> Written:
+def _completed(state: State, writer: MapWriter, name: str, digest: str) -> WriteResult:
     """Write an upload to its map."""
     with state.partial_uploads.whole(writer.holder.name, name, digest) as content:
         return writer.put(name, content)

@@ -14,7 +14,7 @@ from service.api.schemas.maps import CompactOut, VersionsResponse, WrittenOut
 from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
 from service.core.auth import Holder
 from service.maps.history import commits_of
-from service.maps.snapshot import StoredMap
+from service.maps.snapshot import MapSnapshot
 
 router = APIRouter(tags=["versions"])
 
@@ -89,7 +89,7 @@ async def compact_map(
     return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)
 
 
-def _listed(state: State, holder: Holder, stored: StoredMap, limit: int) -> bytes:
+def _listed(state: State, holder: Holder, stored: MapSnapshot, limit: int) -> bytes:
     commits = commits_of(state.maps.store, stored)
     response = VersionsResponse(
         map=stored.name,

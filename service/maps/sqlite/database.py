@@ -206,7 +206,7 @@ class Database:
         """Return freed pages to a full disk; `bytes_left` of the reserve stay."""
         self._reserve.release(bytes_left)
         try:
-            self.give_back()
+            self.release_space()
         except StoreError as error:
             # The work is done. What it freed is given back as soon as there is room to do that.
             logger.warning("freed room was not given back to the disk: %s", error)
@@ -262,7 +262,7 @@ class Database:
             return str(error)
         return None
 
-    def give_back(self) -> None:
+    def release_space(self) -> None:
         """Return freed pages to the disk in steps, so that no writer waits long.
 
         Fewer are left, to be written to again. Where the disk is full all are returned.

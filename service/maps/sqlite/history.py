@@ -5,19 +5,19 @@ import sqlite3
 from collections.abc import Iterator
 
 from service.maps.sqlite.tables import COMMIT, commit_from, follows, is_own_mark
-from service.maps.store import Commit, Head, StoreError
+from service.maps.store import Commit, MapHead, StoreError
 
 
 class SqliteHistory:
     """One map's log as it stood at one moment."""
 
-    def __init__(self, connection: sqlite3.Connection, row: int, head: Head) -> None:
+    def __init__(self, connection: sqlite3.Connection, row: int, head: MapHead) -> None:
         self._connection = connection
         self._row = row
         self._head = head
 
     @property
-    def head(self) -> Head:
+    def head(self) -> MapHead:
         """Where the map stood."""
         return self._head
 

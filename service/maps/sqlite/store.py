@@ -32,8 +32,8 @@ from service.maps.sqlite.tables import (
 from service.maps.store import (
     IDS,
     NO_IDS,
-    Head,
     Ids,
+    MapHead,
     Note,
     OutOfIdsError,
     Owner,
@@ -116,7 +116,7 @@ class SqliteMapStore:
             logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
         self._database.close()
 
-    def heads(self) -> list[Head]:
+    def heads(self) -> list[MapHead]:
         """Of the maps, by name."""
         with self._database.snapshot() as connection:
             return [head_from(row) for row in connection.execute(f"{HEAD} ORDER BY name")]
@@ -127,7 +127,9 @@ class SqliteMapStore:
         with self._database.snapshot() as connection:
             yield SqliteHistory(connection, row_of(connection, uid), head_of(connection, uid))
 
-    def create(self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS) -> Head:
+    def create(
+        self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
+    ) -> MapHead:
         """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
         uid = secrets.token_hex(8)
         commit = commit_after(uid, 1, note, file, 0)
@@ -135,7 +137,7 @@ class SqliteMapStore:
             if connection.execute("SELECT 1 FROM maps WHERE name = ?", (name,)).fetchone():
                 raise ValueError(f"there is a map {name!r} already")
             first, end = ids.leave(next_id, IDS)
-            head = Head(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
+            head = MapHead(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
             row = connection.execute(
                 "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
                 " VALUES (?, ?, 1, ?, 1, ?, ?, 0)",
@@ -149,20 +151,20 @@ class SqliteMapStore:
 
     def append(
         self,
-        head: Head,
+        head: MapHead,
         blob: bytes,
         note: Note,
         next_id: int,
         ids: Ids = NO_IDS,
         frees: bool = False,
-    ) -> Head:
+    ) -> MapHead:
         """Add a commit that follows a head; KeyError if the map stands elsewhere.
 
         Args:
             frees: whether it makes the map smaller, so that it may use what is kept for that.
         """
 
-        def add(connection: sqlite3.Connection) -> Head:
+        def add(connection: sqlite3.Connection) -> MapHead:
             row, found = row_of(connection, head.uid), head_of(connection, head.uid)
             if found.mark != head.mark:
                 raise KeyError(head.name)
@@ -219,7 +221,7 @@ class SqliteMapStore:
         with self._database.snapshot() as connection:
             return Owners(connection, row_of(connection, uid)).of(ids)
 
-    def free_ids(self, uid: str, used: Iterable[int]) -> Head:
+    def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
         """Forget who owned ids that are not used, and let the free ones begin after the used.
 
         Args:
@@ -240,10 +242,10 @@ class SqliteMapStore:
             raise StoreError("failing", f"{self._folder / LEDGER}: {error}") from error
         return after
 
-    def compact(self, uid: str, sequence: int, file: bytes) -> Head:
+    def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Let go of the versions before one, whose file is given; KeyError if it is not there."""
 
-        def shorten(connection: sqlite3.Connection) -> Head:
+        def shorten(connection: sqlite3.Connection) -> MapHead:
             row, head = row_of(connection, uid), head_of(connection, uid)
             found = connection.execute(
                 "UPDATE commits SET delta = NULL, bytes = 0 WHERE map = ? AND sequence = ?",
@@ -275,9 +277,9 @@ class SqliteMapStore:
 
         self._database.freeing(remove)
 
-    def give_back(self) -> None:
+    def release_space(self) -> None:
         """Return the room of what was removed to the disk."""
-        self._database.give_back()
+        self._database.release_space()
 
     def trouble(self) -> str | None:
         """Say why the store cannot take a write, if so; None if it can."""
@@ -346,7 +348,7 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
         save_head(connection, row, replace(head, next_id=next_id))
 
 
-def _skipped(head: Head, given_out: int, count: int) -> int:
+def _skipped(head: MapHead, given_out: int, count: int) -> int:
     """Return a map's first free id after those that may have been given out."""
     first = min(max(head.next_id, given_out), head.end_id)
     return max(first, min(first + count, (first + head.end_id) // 2))

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from service.maps.sqlite.owners import Owners
-from service.maps.store import Commit, Head, Note, StoreError, link_of, mark_of
+from service.maps.store import Commit, MapHead, Note, StoreError, link_of, mark_of
 
 VERSION = 2
 
@@ -94,7 +94,7 @@ def migrate(connection: sqlite3.Connection) -> None:
             Owners(connection, row).write([(0, head.next_id)], "")
 
 
-def save_head(connection: sqlite3.Connection, row: int, head: Head) -> Head:
+def save_head(connection: sqlite3.Connection, row: int, head: MapHead) -> MapHead:
     """Write a map's head with its digest; return the head."""
     connection.execute(
         "UPDATE maps SET sequence = ?, mark = ?, base = ?, next_id = ?, base_bytes = ?, "
@@ -107,7 +107,7 @@ def save_head(connection: sqlite3.Connection, row: int, head: Head) -> Head:
     return head
 
 
-def digest_of(head: Head) -> str:
+def digest_of(head: MapHead) -> str:
     """Hash a map's head, so that an altered row is noticed."""
     told = [
         *(head.name, head.uid, head.sequence, head.mark, head.oldest, head.next_id),
@@ -124,7 +124,7 @@ def row_of(connection: sqlite3.Connection, uid: str) -> int:
     return int(found[0])
 
 
-def head_of(connection: sqlite3.Connection, uid: str) -> Head:
+def head_of(connection: sqlite3.Connection, uid: str) -> MapHead:
     """Return a map's head; KeyError if there is none, StoreError if its row was altered."""
     row = connection.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone()
     if row is None:
@@ -135,9 +135,9 @@ def head_of(connection: sqlite3.Connection, uid: str) -> Head:
     return head
 
 
-def head_from(row: tuple[Any, ...]) -> Head:
+def head_from(row: tuple[Any, ...]) -> MapHead:
     """Build a head from a row of `HEAD`, unchecked."""
-    return Head(*row[:-1])
+    return MapHead(*row[:-1])
 
 
 def commit_from(row: Sequence[Any]) -> Commit:

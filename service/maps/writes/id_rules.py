@@ -5,13 +5,13 @@ import numpy as np
 from placecell.core.types import UInt32
 from service.core.auth import Holder
 from service.core.problems import Problem
-from service.maps.store import Head, MapStore
+from service.maps.store import MapHead, MapStore
 
 SLACK = 1 << 20
 """Number of ids above the highest one in use that a robot may choose without reservation."""
 
 
-def check_new(store: MapStore, holder: Holder, head: Head | None, ids: UInt32) -> None:
+def check_new(store: MapStore, holder: Holder, head: MapHead | None, ids: UInt32) -> None:
     """Check that new ids are reserved by this key, or near those in use; 409 if not.
 
     Args:
@@ -39,7 +39,7 @@ def check_new(store: MapStore, holder: Holder, head: Head | None, ids: UInt32) -
         )
 
 
-def check_authors(store: MapStore, holder: Holder, head: Head, old: UInt32, new: UInt32) -> None:
+def check_authors(store: MapStore, holder: Holder, head: MapHead, old: UInt32, new: UInt32) -> None:
     """Check that no other key wrote or reserved these ids; 409 if one did.
 
     Two robots may have one name; their keys tell them apart.

@@ -14,12 +14,11 @@ from placecell_client import encode
 
 from service.core.memory import release
 from service.maps.cache import MapCache
-from service.maps.history import history_of
-from service.maps.replay import version_of
-from service.maps.repository import Maps
-from service.maps.snapshot import StoredMap
-from service.maps.store import Head
-from service.maps.sync import Changes
+from service.maps.history import history_of, replay
+from service.maps.repository import MapRepository
+from service.maps.snapshot import MapSnapshot
+from service.maps.store import MapHead
+from service.maps.sync import MapSync
 from service.maps.writes.partial_uploads import PartialUploads
 
 logger = logging.getLogger("placecell")
@@ -32,7 +31,7 @@ WORTH = 0.25
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class MaintenanceThresholds:
     """Thresholds of maintenance work.
 
     Attributes:
@@ -60,28 +59,28 @@ class Bounds:
     seconds: float = 1.0
 
 
-class Housekeeper:
+class Maintenance:
     """Looks after all maps."""
 
     def __init__(
         self,
-        maps: Maps,
-        changes: Changes,
+        maps: MapRepository,
+        sync: MapSync,
         cache: MapCache,
-        bounds: Bounds = Bounds(),
+        bounds: MaintenanceThresholds = MaintenanceThresholds(),
         partial_uploads: PartialUploads | None = None,
     ) -> None:
         self._maps = maps
-        self._changes = changes
+        self._sync = sync
         self._cache = cache
         self._bounds = bounds
         self._partial_uploads = partial_uploads
         self._released = 0
-        self._good: dict[str, Head] = {}
+        self._good: dict[str, MapHead] = {}
         self._stopped = Event()
 
     @contextmanager
-    def working(self) -> Iterator[None]:
+    def running(self) -> Iterator[None]:
         """At work until the context ends."""
         thread = Thread(target=self._work, name="housekeeping", daemon=True)
         thread.start()
@@ -91,7 +90,7 @@ class Housekeeper:
             self._stopped.set()
             thread.join()
 
-    def look(self) -> None:
+    def run_once(self) -> None:
         """Do what is due, map by map; what fails is told in the log, and tried again."""
         # By name: who holds all maps holds the memory of what is folded meanwhile.
         due = {
@@ -110,23 +109,23 @@ class Housekeeper:
             self._good.clear()
         with _told("histories"):
             self._make_room()
-        if self._maps.handled - self._released > self._bounds.handled:
+        if self._maps.copied_segments - self._released > self._bounds.handled:
             self._release()
         with _told("the data directory"):
-            self._changes.forget()
+            self._sync.expire()
             if self._partial_uploads is not None:
                 self._partial_uploads.forget_old()
             self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
-            self._maps.store.give_back()
+            self._maps.store.release_space()
 
     def _work(self) -> None:
         while not self._stopped.wait(self._bounds.seconds):
-            self.look()
+            self.run_once()
 
     def _care(self, name: str) -> None:
         stored = self._maps.find(name)
         if stored is not None and self._is_to_fold(stored):
-            head, content = stored.head, self._maps.fold(stored)
+            head, content = stored.head, self._maps.flatten(stored)
             stored = None  # what it was before need not be in memory while the file is made
             if content is not None:
                 self._cache.save(head, content)
@@ -137,12 +136,12 @@ class Housekeeper:
             self._shorten(stored, self._log_bytes(stored.head))
 
     def _release(self) -> None:
-        self._released = self._maps.handled
+        self._released = self._maps.copied_segments
         release()
 
     def _make_room(self) -> None:
         """Drop history if a write was refused for lack of space, or all maps together are large."""
-        for name in self._maps.pressed():
+        for name in self._maps.take_refused():
             stored = self._maps.find(name)
             if stored is not None and stored.head.commits:
                 self._shorten(stored, stored.head.log_bytes)
@@ -157,21 +156,21 @@ class Housekeeper:
             with _told(f"map {stored.name!r}"):
                 self._shorten(stored, head.log_bytes)
 
-    def _is_to_fold(self, stored: StoredMap) -> bool:
+    def _is_to_fold(self, stored: MapSnapshot) -> bool:
         layers, bounds = stored.layers, self._bounds
         most = max(bounds.recent, bounds.share * len(layers.base))
-        above = max(len(layers.recent), layers.buried)
-        return above > most or stored.head.sequence - stored.folded > bounds.commits
+        above = max(len(layers.recent), layers.gone_count)
+        return above > most or stored.head.sequence - stored.base_sequence > bounds.commits
 
-    def _has_long_log(self, stored: StoredMap) -> bool:
+    def _has_long_log(self, stored: MapSnapshot) -> bool:
         head, bounds = stored.head, self._bounds
         return head.log_bytes > self._log_bytes(head) or head.commits > bounds.log_commits
 
-    def _log_bytes(self, head: Head) -> float:
+    def _log_bytes(self, head: MapHead) -> float:
         wanted = max(self._bounds.log_bytes, self._bounds.log_share * head.base_bytes)
         return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
-    def _shorten(self, stored: StoredMap, most: float) -> None:
+    def _shorten(self, stored: MapSnapshot, most: float) -> None:
         """Drop old versions until half of the allowed bytes are left.
 
         So this is not due again at once.
@@ -186,7 +185,7 @@ class Housekeeper:
                     break
                 oldest = commit.sequence - 1
             oldest = max(oldest, head.oldest)
-            file = encode(version_of(history, oldest).content())
+            file = encode(replay(history, oldest).content())
         self._maps.compact(head, oldest, file)
         logger.info("map %r: versions before %d were let go", head.name, oldest)
 

@@ -14,12 +14,12 @@ from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.inference.model_registry import Models
 from service.maps.deduplication import NONE, RADIUS, VIEWS, SameView, Sighting, sighting
-from service.maps.history import robots_ever, version
-from service.maps.layers import Layers, robots_of
+from service.maps.history import load_version, robots_ever
+from service.maps.layers import MapLayers, robots_of
 from service.maps.quotas import OverQuotaError
-from service.maps.repository import Maps, unknown
-from service.maps.snapshot import StoredMap
-from service.maps.store import IDS, Head, OutOfIdsError, TooManyIdsError
+from service.maps.repository import MapRepository, unknown
+from service.maps.snapshot import MapSnapshot
+from service.maps.store import IDS, MapHead, OutOfIdsError, TooManyIdsError
 from service.maps.visibility import written_by
 from service.maps.writes.clock_check import check_times
 from service.maps.writes.id_rules import check_added, check_authors, check_new
@@ -27,7 +27,7 @@ from service.maps.writes.validation import check_joins, edit_of, map_of
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class WriteResult:
     """What a write did.
 
     Attributes:
@@ -38,19 +38,19 @@ class Written:
         repeats: segments that were not stored, for they were seen before.
     """
 
-    stored: StoredMap
+    stored: MapSnapshot
     changed: int
     removed: int
     is_new: bool = False
     repeats: int = 0
 
 
-Check = Callable[[StoredMap, CompactMap, Delta], None]
+Check = Callable[[MapSnapshot, CompactMap, Delta], None]
 """Check of an edit: takes the map, the segments that it replaces or removes, and the delta."""
 
 
 @dataclass(frozen=True, slots=True)
-class Writer:
+class MapWriter:
     """Whoever sent a request, at work on the maps.
 
     What leads to where the map is already is done, not refused, and makes no version: so a `put` or
@@ -66,12 +66,12 @@ class Writer:
         conditions: under which they write.
     """
 
-    maps: Maps
+    maps: MapRepository
     models: Models
     holder: Holder
     conditions: Preconditions
 
-    def put(self, name: str, data: bytes) -> Written:
+    def put(self, name: str, data: bytes) -> WriteResult:
         """Make a map what a file says; what others wrote is replaced only if it was seen."""
         content = map_of(data, self.models)
         with self.maps.writing(name):
@@ -79,7 +79,7 @@ class Writer:
             content = written_by(self.holder, stored, content)
             if stored is None:
                 return self.create(name, content, "put")
-            delta = leading_to(stored, content)
+            delta = delta_to(stored, content)
             return self.commit(stored, delta, "put", replaces=True)
 
     def edit(
@@ -90,7 +90,7 @@ class Writer:
         create: bool,
         deduplicate: bool,
         only_new: bool = False,
-    ) -> Written:
+    ) -> WriteResult:
         """Add, replace and remove segments, all or none.
 
         Args:
@@ -107,7 +107,7 @@ class Writer:
         owners = {robot, self.holder.key.robot, *edit.changed.robots} - {None}
         refreshed = NONE
 
-        def check(stored: StoredMap, before: CompactMap, delta: Delta) -> None:
+        def check(stored: MapSnapshot, before: CompactMap, delta: Delta) -> None:
             written = np.setdiff1d(delta.changed.ids, refreshed)
             replaced = np.intersect1d(before.ids, written)
             if only_new:
@@ -123,7 +123,7 @@ class Writer:
         with self.maps.writing(name):
             stored = self.maps.find(name) if create else self.maps.get(name)
             edit = replace(edit, changed=written_by(self.holder, stored, edit.changed))
-            layers = stored.layers if stored is not None else Layers.of(take(edit.changed, NONE))
+            layers = stored.layers if stored is not None else MapLayers.of(take(edit.changed, NONE))
             check_joins(edit.changed, name, layers.base)
             seen = self._sighting(edit, layers) if deduplicate else None
             if seen is not None:
@@ -135,14 +135,14 @@ class Writer:
                 written = self.commit(stored, edit, "edit", check, refreshed)
             return replace(written, repeats=seen.repeats if seen is not None else 0)
 
-    def restore(self, name: str, sequence: int) -> Written:
+    def restore(self, name: str, sequence: int) -> WriteResult:
         """Make a map again what it was."""
         with self.maps.writing(name):
             stored = self.maps.get(name)
-            layers, _ = version(self.maps.store, stored, sequence)
-            return self.commit(stored, leading_to(stored, layers.content()), "restore")
+            layers, _ = load_version(self.maps.store, stored, sequence)
+            return self.commit(stored, delta_to(stored, layers.content()), "restore")
 
-    def age(self, name: str, unseen_since: float, dry_run: bool) -> Written:
+    def prune(self, name: str, unseen_since: float, dry_run: bool) -> WriteResult:
         """Remove what was last seen before a time, seconds of the frames' clock.
 
         Args:
@@ -155,7 +155,7 @@ class Writer:
             ids, seen = stored.layers.last_seen()
             removed = np.sort(ids[seen < unseen_since])
             if dry_run:
-                return Written(stored, 0, len(removed))
+                return WriteResult(stored, 0, len(removed))
             nothing = stored.layers.take(removed[:0])
             return self.commit(stored, Delta(nothing, removed), "age")
 
@@ -176,7 +176,7 @@ class Writer:
             self.maps.delete(name)
             return len(stored)
 
-    def compact(self, name: str, keep: int) -> StoredMap:
+    def compact(self, name: str, keep: int) -> MapSnapshot:
         """Let go of all but the last versions.
 
         Args:
@@ -188,7 +188,7 @@ class Writer:
         sequence = max(stored.head.sequence - keep + 1, stored.head.oldest)
         if sequence == stored.head.oldest:
             return stored
-        layers, _ = version(self.maps.store, stored, sequence)
+        layers, _ = load_version(self.maps.store, stored, sequence)
         return self.maps.compact(stored.head, sequence, encode(layers.content()))
 
     def reserve(self, name: str, count: int, most: int = IDS) -> int:
@@ -217,22 +217,22 @@ class Writer:
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
 
-    def reset_ids(self, name: str) -> Head:
+    def reset_ids(self, name: str) -> MapHead:
         """Make all ids free that no version of the map has; for administrators."""
         self.holder.check_admin()
         with self.maps.writing(name):
             return self.maps.free_ids(self.maps.get(name))
 
-    def _sighting(self, edit: Delta, layers: Layers) -> Sighting:
+    def _sighting(self, edit: Delta, layers: MapLayers) -> Sighting:
         upload = edit.changed
         # As far as the views of a thing reach, for all of them count.
-        there = layers.about(upload.centroids, VIEWS * RADIUS)
+        there = layers.near(upload.centroids, VIEWS * RADIUS)
         stored = apply(there, Delta(layers.take(upload.ids), NONE))
         # What the edit removes was not seen again.
         stored = take(stored, ~np.isin(stored.ids, edit.removed))
         return sighting(upload, stored, SameView.of(self.models.named(upload.model_id).manifest))
 
-    def create(self, name: str, content: CompactMap, operation: str) -> Written:
+    def create(self, name: str, content: CompactMap, operation: str) -> WriteResult:
         """Store a new map, as far as the key and the conditions allow; `Maps.writing` is held."""
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
@@ -240,17 +240,17 @@ class Writer:
         check_new(self.maps.store, self.holder, None, content.ids)
         with self._told_quota():
             stored = self.maps.create(name, content, self.holder.name, operation)
-        return Written(stored, len(content), 0, is_new=True)
+        return WriteResult(stored, len(content), 0, is_new=True)
 
     def commit(
         self,
-        stored: StoredMap,
+        stored: MapSnapshot,
         asked: Delta,
         operation: str,
         check: Check = lambda *_: None,
         refreshed: UInt32 = NONE,
         replaces: bool = False,
-    ) -> Written:
+    ) -> WriteResult:
         """Do what a delta asks, as far as the key and the conditions allow; `Maps.writing` is held.
 
         Args:
@@ -263,7 +263,7 @@ class Writer:
         """
         before, delta = stored.layers.effect_of(asked)
         if not stored.layers.is_changed_by(delta):
-            return Written(stored, 0, 0)
+            return WriteResult(stored, 0, 0)
         # To have seen another's segment again is not to write it.
         for content in (before, delta.changed):
             self.holder.check_robots(robots_of(take(content, ~np.isin(content.ids, refreshed))))
@@ -283,7 +283,7 @@ class Writer:
                 check_new(self.maps.store, self.holder, stored.head, new)
         with self._told_quota():
             stored = self.maps.commit(stored, delta, self.holder.name, operation, written)
-        return Written(stored, len(delta.changed), len(delta.removed))
+        return WriteResult(stored, len(delta.changed), len(delta.removed))
 
     @contextmanager
     def _told_quota(self) -> Iterator[None]:
@@ -301,7 +301,7 @@ def out_of_ids(name: str, error: OutOfIdsError) -> Problem:
     return Problem(409, "out-of-ids", f"Map {name!r}: {error}.")
 
 
-def leading_to(stored: StoredMap, content: CompactMap, present: CompactMap | None = None) -> Delta:
+def delta_to(stored: MapSnapshot, content: CompactMap, present: CompactMap | None = None) -> Delta:
     """From a map as it is to a content.
 
     Args:

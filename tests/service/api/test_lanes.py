@@ -117,11 +117,11 @@ def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
         ("service.api.routes.maps.summary_of", "GET", "/maps"),
         ("service.api.routes.versions.commits_of", "GET", "/maps/yard/versions"),
         ("service.api.routes.segments._page", "GET", "/maps/yard/changes"),
-        ("service.maps.writes.writer.Writer.restore", "POST", "/maps/yard/versions/1/restore"),
-        ("service.maps.writes.writer.Writer.compact", "POST", "/maps/yard/compact"),
-        ("service.maps.writes.writer.Writer.age", "POST", "/maps/yard/age?unseen_since=0"),
-        ("service.maps.writes.writer.Writer.reserve", "POST", "/maps/yard/ids?count=1"),
-        ("service.maps.writes.writer.Writer.delete", "DELETE", "/maps/yard"),
+        ("service.maps.writes.writer.MapWriter.restore", "POST", "/maps/yard/versions/1/restore"),
+        ("service.maps.writes.writer.MapWriter.compact", "POST", "/maps/yard/compact"),
+        ("service.maps.writes.writer.MapWriter.prune", "POST", "/maps/yard/age?unseen_since=0"),
+        ("service.maps.writes.writer.MapWriter.reserve", "POST", "/maps/yard/ids?count=1"),
+        ("service.maps.writes.writer.MapWriter.delete", "DELETE", "/maps/yard"),
     ],
 )
 def test_A5_every_path_ends_at_its_deadline(

@@ -11,7 +11,7 @@ from placecell.descriptors.manifest import Manifest
 from service.maps.sqlite.database import Database
 from service.maps.sqlite.disk_reserve import DiskReserve
 from service.maps.sqlite.store import SqliteMapStore
-from service.maps.store import Head, Note, StoreError
+from service.maps.store import MapHead, Note, StoreError
 from tests.service.api.test_faults import put
 from tests.service.faulty_disk import small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
@@ -149,7 +149,7 @@ def test_A18_only_what_frees_may_use_the_room(
         store.create("hall", b"", NOTE, 0)
 
 
-def appended(store: SqliteMapStore, head: Head, size: int) -> Head | None:
+def appended(store: SqliteMapStore, head: MapHead, size: int) -> MapHead | None:
     """Add a commit of so many bytes; None if the disk is full."""
     try:
         return store.append(head, os.urandom(size), NOTE, 0)

@@ -1,4 +1,4 @@
-"""Layers hold what their edits led to, however many edits, and whenever they are folded."""
+"""MapLayers hold what their edits led to, however many edits, and whenever they are folded."""
 
 from collections import Counter
 from dataclasses import replace
@@ -11,7 +11,7 @@ from placecell_client.maps.edit import apply, empty
 
 from placecell.descriptors.quantizer import Quantiser
 from service.maps.index import LayeredIndex, index_of
-from service.maps.layers import Layers, robots_of
+from service.maps.layers import MapLayers, robots_of
 from tests.service.service_builders import map_of
 
 QUANTISER = Quantiser(0.1)
@@ -53,7 +53,7 @@ STARTS = IDS.map(sorted).map(segments)
 @given(STARTS, EDITS)
 @settings(max_examples=200, deadline=None)
 def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[Delta]) -> None:
-    layers, expected = Layers.of(start), start
+    layers, expected = MapLayers.of(start), start
     for each in edits:
         layers, expected = layers.after(each), apply(expected, each)
         assert encode(layers.content()) == encode(expected)
@@ -75,13 +75,13 @@ def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[
 def test_a_new_base_changes_nothing(
     start: CompactMap, first: list[Delta], then: list[Delta]
 ) -> None:
-    before = Layers.of(start)
+    before = MapLayers.of(start)
     for each in first:
         before = before.after(each)
     after = before
     for each in then:
         after = after.after(each)
-    folded = after.upon(before.content(), before)
+    folded = after.rebased(before.content(), before)
     assert encode(folded.content()) == encode(after.content())
     assert len(folded) == len(after)
 
@@ -91,7 +91,7 @@ def test_a_new_base_changes_nothing(
 def test_the_effect_of_an_edit_is_all_that_it_changes(
     start: CompactMap, edits: list[Delta], asked: list[Delta]
 ) -> None:
-    layers = Layers.of(start)
+    layers = MapLayers.of(start)
     for each in edits:
         layers = layers.after(each)
     before, effect = layers.effect_of(asked[0])
@@ -107,7 +107,7 @@ def test_the_effect_of_an_edit_is_all_that_it_changes(
 @given(STARTS, EDITS, st.integers(1, 15))
 @settings(max_examples=100, deadline=None)
 def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], k: int) -> None:
-    layers = Layers.of(start)
+    layers = MapLayers.of(start)
     for each in edits:
         layers = layers.after(each)
     flat = layers.content()
@@ -122,7 +122,7 @@ def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], 
 
 
 def test_optional_columns_of_an_edit_become_the_map_s() -> None:
-    start = Layers.of(segments([1, 2, 3]))
+    start = MapLayers.of(segments([1, 2, 3]))
     seen = replace(segments([2, 9]), seen=np.array([7, 8], np.uint32))
     after = start.after(Delta(seen, np.zeros(0, np.uint32)))
     assert after.optional == {"seen"}
@@ -145,7 +145,7 @@ def test_optional_columns_of_an_edit_become_the_map_s() -> None:
 
 
 def test_a_whole_delta_replaces_all() -> None:
-    start = Layers.of(segments([1, 2, 3], robot="zoe"))
+    start = MapLayers.of(segments([1, 2, 3], robot="zoe"))
     other = replace(segments([5]), model_id="another")
     whole = Delta(other, np.zeros(0, np.uint32), 0, 9)
     before, effect = start.effect_of(whole)

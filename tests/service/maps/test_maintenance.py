@@ -14,19 +14,19 @@ from placecell_client import encode
 from placecell.descriptors.manifest import Manifest
 from service.api.state import State
 from service.maps.cache import MapCache
-from service.maps.writes.maintenance import Bounds, Housekeeper
+from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from tests.service.service_builders import edit_of, map_of, random_codes
 
-EAGER = Bounds(recent=3, share=0.0, commits=1_000)
+EAGER = MaintenanceThresholds(recent=3, share=0.0, commits=1_000)
 
 
-def keeper_of(state: State, data_dir: Path, bounds: Bounds) -> Housekeeper:
-    return Housekeeper(state.maps, state.changes, MapCache(data_dir), bounds)
+def keeper_of(state: State, data_dir: Path, bounds: MaintenanceThresholds) -> Maintenance:
+    return Maintenance(state.maps, state.sync, MapCache(data_dir), bounds)
 
 
 @contextmanager
 def site(start: Any, manifest: Manifest, edits: int = 5) -> Iterator[tuple[Any, State]]:
-    """A service whose own housekeeper is asleep, with a map of edits + 1 versions."""
+    """A service whose own maintenance is asleep, with a map of edits + 1 versions."""
     with start() as service:
         service.put("/maps/site", content=encode(map_of(random_codes(20), manifest.model_id)))
         for step in range(edits):
@@ -54,15 +54,15 @@ def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir
     with site(start, manifest) as (service, state):
         before = told(service, manifest)
         assert len(state.maps.get("site").layers.recent) > 3
-        keeper_of(state, data_dir, EAGER).look()
+        keeper_of(state, data_dir, EAGER).run_once()
         assert len(state.maps.get("site").layers.recent) == 0
-        assert state.maps.get("site").folded == 6
+        assert state.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
     with start() as service:
         assert told(service, manifest) == before
         # From the cache, which needed nothing replayed.
         stored = service.app.state.placecell.maps.get("site")
-        assert (stored.folded, len(stored.layers.recent)) == (6, 0)
+        assert (stored.base_sequence, len(stored.layers.recent)) == (6, 0)
 
 
 def test_what_is_written_during_a_fold_stays(
@@ -81,7 +81,7 @@ def test_what_is_written_during_a_fold_stays(
 
         monkeypatch.setattr(state.maps, "_index", slowly)
         keeper = keeper_of(state, data_dir, EAGER)
-        thread = threading.Thread(target=keeper.look)
+        thread = threading.Thread(target=keeper.run_once)
         thread.start()
         assert begun.wait(60)
         data = edit_of(random_codes(4, 8), manifest.model_id, 118, removed=[100, 116])
@@ -89,7 +89,7 @@ def test_what_is_written_during_a_fold_stays(
         before = told(service, manifest)
         written.set()
         thread.join(60)
-        assert state.maps.get("site").folded == 6
+        assert state.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
     with start() as service:
         assert told(service, manifest) == before
@@ -105,34 +105,37 @@ def test_a_map_that_is_removed_during_a_fold_stays_removed(
         if "anew" in what:
             service.put("/maps/site", content=encode(map_of(random_codes(1), manifest.model_id)))
         before = service.get("/maps").json()
-        assert state.maps.fold(stored) is None
+        assert state.maps.flatten(stored) is None
         assert service.get("/maps").json() == before
 
 
 def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_dir: Path) -> None:
     with site(start, manifest) as (_, state):
-        keeper = keeper_of(state, data_dir, Bounds(commits=5))
-        keeper.look()
-        assert state.maps.get("site").folded == 1
-        keeper_of(state, data_dir, Bounds(commits=4)).look()
-        assert state.maps.get("site").folded == 6
+        keeper = keeper_of(state, data_dir, MaintenanceThresholds(commits=5))
+        keeper.run_once()
+        assert state.maps.get("site").base_sequence == 1
+        keeper_of(state, data_dir, MaintenanceThresholds(commits=4)).run_once()
+        assert state.maps.get("site").base_sequence == 6
 
 
-@pytest.mark.parametrize("bounds", [Bounds(log_bytes=100, log_share=0), Bounds(log_commits=4)])
+@pytest.mark.parametrize(
+    "bounds",
+    [MaintenanceThresholds(log_bytes=100, log_share=0), MaintenanceThresholds(log_commits=4)],
+)
 def test_a_long_history_is_shortened(
-    start: Any, manifest: Manifest, data_dir: Path, bounds: Bounds
+    start: Any, manifest: Manifest, data_dir: Path, bounds: MaintenanceThresholds
 ) -> None:
     with site(start, manifest) as (service, state):
         before = told(service, manifest)
-        keeper_of(state, data_dir, Bounds()).look()
+        keeper_of(state, data_dir, MaintenanceThresholds()).run_once()
         assert told(service, manifest) == before
-        keeper_of(state, data_dir, bounds).look()
+        keeper_of(state, data_dir, bounds).run_once()
         after = told(service, manifest)
         assert 1 < after[2]["oldest"] <= 6
         assert after[1] == before[1]
         assert after[3] == before[3][-len(after[3]) :]
         # Enough that it is not to be done again at once.
-        keeper_of(state, data_dir, bounds).look()
+        keeper_of(state, data_dir, bounds).run_once()
         assert told(service, manifest) == after
     with start() as service:
         assert told(service, manifest) == after
@@ -165,13 +168,13 @@ def test_a_cache_that_is_not_to_be_trusted_is_not(
     start: Any, manifest: Manifest, data_dir: Path, how: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     with site(start, manifest) as (service, state):
-        keeper_of(state, data_dir, EAGER).look()
+        keeper_of(state, data_dir, EAGER).run_once()
         before = told(service, manifest)
     (file,) = (data_dir / "cache").iterdir()
     damage(file, how)
     with caplog.at_level(logging.WARNING), start() as service:
         assert told(service, manifest) == before
-        assert service.app.state.placecell.maps.get("site").folded == 1
+        assert service.app.state.placecell.maps.get("site").base_sequence == 1
     assert ("left aside" in caplog.text) == (how != "gone")
 
 
@@ -179,12 +182,12 @@ def test_a_cache_of_an_earlier_version_is_completed(
     start: Any, manifest: Manifest, data_dir: Path
 ) -> None:
     with site(start, manifest) as (service, state):
-        keeper_of(state, data_dir, EAGER).look()
+        keeper_of(state, data_dir, EAGER).run_once()
         data = edit_of(random_codes(4, 8), manifest.model_id, 118, removed=[100, 116])
         service.post("/maps/site/segments", content=data)
         before = told(service, manifest)
     with start() as service:
-        assert service.app.state.placecell.maps.get("site").folded == 6
+        assert service.app.state.placecell.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
 
 
@@ -193,11 +196,11 @@ def test_caches_of_maps_that_are_gone_are_removed(
 ) -> None:
     with site(start, manifest) as (service, state):
         keeper = keeper_of(state, data_dir, EAGER)
-        keeper.look()
+        keeper.run_once()
         (data_dir / "cache" / "half.unfinished").write_bytes(b"half")
         assert len(list((data_dir / "cache").iterdir())) == 2
         service.delete("/maps/site")
-        keeper.look()
+        keeper.run_once()
         assert list((data_dir / "cache").iterdir()) == []
 
 
@@ -212,13 +215,13 @@ def test_what_fails_is_told_and_tried_again(
         keeper = keeper_of(state, data_dir, EAGER)
         with monkeypatch.context() as patched, caplog.at_level(logging.ERROR):
             patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "full")))
-            keeper.look()
+            keeper.run_once()
             assert "housekeeping failed at map 'site'" in caplog.text
-            patched.setattr(state.maps.store, "give_back", lambda: 1 / 0)
-            keeper.look()
+            patched.setattr(state.maps.store, "release_space", lambda: 1 / 0)
+            keeper.run_once()
             assert "housekeeping failed at the data directory" in caplog.text
         assert service.get("/maps/site").status_code == 200
-        keeper.look()
+        keeper.run_once()
 
 
 def test_it_works_by_itself_and_ends(
@@ -227,24 +230,24 @@ def test_it_works_by_itself_and_ends(
     with site(start, manifest) as (_, state):
         before = threading.active_count()
         looked = threading.Event()
-        monkeypatch.setattr(state.changes, "forget", looked.set)
-        bounds = Bounds(recent=3, share=0.0, seconds=0.01)
-        with keeper_of(state, data_dir, bounds).working():
+        monkeypatch.setattr(state.sync, "forget", looked.set)
+        bounds = MaintenanceThresholds(recent=3, share=0.0, seconds=0.01)
+        with keeper_of(state, data_dir, bounds).running():
             assert threading.active_count() == before + 1
             assert looked.wait(60)
         assert threading.active_count() == before
-        assert state.maps.get("site").folded == 6
+        assert state.maps.get("site").base_sequence == 6
 
 
 def test_A2_only_maps_that_were_written_are_looked_at_again(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    monkeypatch.setattr(Maintenance, "_work", lambda _: None)
     with start() as service:
         file = encode(map_of(random_codes(3), manifest.model_id))
         for number in range(5):
             assert service.put(f"/maps/m{number}", content=file).status_code == 201
-        keeper = keeper_of(service.app.state.placecell, data_dir, Bounds())
+        keeper = keeper_of(service.app.state.placecell, data_dir, MaintenanceThresholds())
         cared: list[str] = []
         care = keeper._care
 
@@ -256,11 +259,11 @@ def test_A2_only_maps_that_were_written_are_looked_at_again(
 
         monkeypatch.setattr(keeper, "_care", noted)
         for _ in range(3):
-            keeper.look()
+            keeper.run_once()
         # What failed is tried again.
         assert cared == ["m0", "m1", "m2", "m3", "m4", "m3"]
         edit = edit_of(random_codes(1), manifest.model_id, 900)
         assert service.post("/maps/m1/segments", content=edit).status_code == 200
         for _ in range(2):
-            keeper.look()
+            keeper.run_once()
         assert cared[6:] == ["m1"]

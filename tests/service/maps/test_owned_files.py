@@ -16,7 +16,7 @@ import pytest
 from placecell_client import MapFileError, decode, encode
 
 from placecell.descriptors.manifest import Manifest
-from service.maps.replay import version_of
+from service.maps.history import replay
 from service.maps.sqlite.database import Database
 from service.maps.sqlite.id_ledger import LEASE, SKIPPED
 from service.maps.sqlite.store import FILE, LEDGER, SqliteMapStore
@@ -79,7 +79,7 @@ def told_by(folder: Path) -> Any:
             try:
                 with store.read(head.uid) as history:
                     versions = [
-                        encode(version_of(history, commit.sequence).content())
+                        encode(replay(history, commit.sequence).content())
                         for commit in history.commits()
                     ]
                     commits = history.commits()

@@ -18,9 +18,9 @@ from placecell.descriptors.quantizer import Quantiser
 from service.core.settings import Limits
 from service.maps.cache import MapCache
 from service.maps.index import FlatIndex, MapIndex, NibbleIndex, Nibbles
-from service.maps.layers import Layers
+from service.maps.layers import MapLayers
 from service.maps.writes import maintenance
-from service.maps.writes.maintenance import Bounds, Housekeeper
+from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 
@@ -29,9 +29,9 @@ def key_of(file: Path, name: str, *options: str) -> dict[str, str]:
     return {"Authorization": "Bearer " + made.output.splitlines()[0]}
 
 
-def keeper_of(service: Any, data_dir: Path, bounds: Bounds) -> Housekeeper:
+def keeper_of(service: Any, data_dir: Path, bounds: MaintenanceThresholds) -> Maintenance:
     state = service.app.state.placecell
-    return Housekeeper(state.maps, state.changes, MapCache(data_dir), bounds)
+    return Maintenance(state.maps, state.sync, MapCache(data_dir), bounds)
 
 
 def traced(make: Any) -> tuple[Any, int, int]:
@@ -158,7 +158,7 @@ def grow(service: Any, manifest: Manifest, step: int, name: str = "yard") -> Any
 def test_A17_history_counts_and_deletion_is_always_possible(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    monkeypatch.setattr(Maintenance, "_work", lambda _: None)
     with start(limits={"map_stored_bytes": 50_000}) as service:
         file = encode(map_of(random_codes(200), manifest.model_id))
         assert service.put("/maps/yard", content=file).status_code == 201
@@ -176,7 +176,7 @@ def test_A17_history_counts_and_deletion_is_always_possible(
         assert service.post("/maps/yard/segments?robot=ann", content=less).status_code == 200
         assert service.post("/maps/yard/age?unseen_since=0").status_code == 200
         # The service lets go of old versions of a map that was refused.
-        keeper_of(service, data_dir, Bounds(map_bytes=50_000)).look()
+        keeper_of(service, data_dir, MaintenanceThresholds(map_bytes=50_000)).run_once()
         assert grow(service, manifest, 999).status_code == 200
         assert service.get("/maps/yard/versions").json()["oldest"] > 1
         # By hand there is room at once.
@@ -191,7 +191,7 @@ def test_A17_history_counts_and_deletion_is_always_possible(
 def test_A17_all_maps_together_have_a_quota(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    monkeypatch.setattr(Maintenance, "_work", lambda _: None)
     with start(limits={"stored_bytes": 60_000}) as service:
         file = encode(map_of(random_codes(200), manifest.model_id))
         for name in ("yard", "hall"):
@@ -201,7 +201,7 @@ def test_A17_all_maps_together_have_a_quota(
             assert step < 100
         assert_problem(response, 507, "quota-exceeded", "the limit is 60000 bytes")
         assert_problem(service.put("/maps/new", content=file), 507, "quota-exceeded")
-        keeper_of(service, data_dir, Bounds(all_bytes=60_000)).look()
+        keeper_of(service, data_dir, MaintenanceThresholds(all_bytes=60_000)).run_once()
         assert sum(each["bytes"] for each in service.get("/maps").json()["maps"]) < 45_000
         assert service.put("/maps/new", content=file).status_code == 201
         for name in ("yard", "hall", "new"):
@@ -220,7 +220,7 @@ def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir:
         assert service.post("/maps/a/segments", content=other).status_code == 200
         assert service.post("/maps/a/versions/1/restore").status_code == 200
         assert service.post("/maps/b/compact?keep=2").status_code == 200
-        keeper_of(service, data_dir, Bounds(recent=3, share=0.0)).look()
+        keeper_of(service, data_dir, MaintenanceThresholds(recent=3, share=0.0)).run_once()
         assert service.delete("/maps/b").status_code == 204
         counted = service.app.state.placecell.maps._usage
         told = service.get("/maps").json()["maps"]
@@ -236,14 +236,14 @@ def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir:
 def test_B19_a_fold_leaves_one_copy(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    monkeypatch.setattr(Maintenance, "_work", lambda _: None)
     released: list[float] = []
     monkeypatch.setattr(maintenance, "release", lambda: released.append(time.monotonic()))
-    layers: weakref.WeakSet[Layers] = weakref.WeakSet()
+    layers: weakref.WeakSet[MapLayers] = weakref.WeakSet()
     indexes: weakref.WeakSet[MapIndex] = weakref.WeakSet()
-    made_layers, made_index = Layers.__init__, MapIndex.__init__
+    made_layers, made_index = MapLayers.__init__, MapIndex.__init__
 
-    def noted_layers(self: Layers, *values: Any, **named: Any) -> None:
+    def noted_layers(self: MapLayers, *values: Any, **named: Any) -> None:
         made_layers(self, *values, **named)
         layers.add(self)
 
@@ -251,7 +251,7 @@ def test_B19_a_fold_leaves_one_copy(
         made_index(self, *values)
         indexes.add(self)
 
-    monkeypatch.setattr(Layers, "__init__", noted_layers)
+    monkeypatch.setattr(MapLayers, "__init__", noted_layers)
     monkeypatch.setattr(MapIndex, "__init__", noted_index)
     while_saved: list[int] = []
     save = MapCache.save
@@ -264,14 +264,14 @@ def test_B19_a_fold_leaves_one_copy(
     with start() as service:
         file = encode(map_of(random_codes(300), manifest.model_id))
         assert service.put("/maps/yard", content=file).status_code == 201
-        keeper = keeper_of(service, data_dir, Bounds(recent=10, share=0.0))
+        keeper = keeper_of(service, data_dir, MaintenanceThresholds(recent=10, share=0.0))
         maps = service.app.state.placecell.maps
         for step in range(1, 9):
             # Not over HTTP: a thread that has answered holds the map for a moment longer.
             changed = map_of(random_codes(200, step), manifest.model_id)
             delta = maps.get("yard").layers.effect_of(Delta(changed, np.zeros(0, np.uint32)))[1]
             maps.commit(maps.get("yard"), delta, "ann", "edit")
-            keeper.look()
+            keeper.run_once()
         assert len(while_saved) == 8
         # The old copy is gone before the new one's file is made.
         assert while_saved == [1] * 8
@@ -284,22 +284,22 @@ def test_B19_a_fold_leaves_one_copy(
 def test_B19_free_memory_goes_back_after_many_writes(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Housekeeper, "_work", lambda _: None)
+    monkeypatch.setattr(Maintenance, "_work", lambda _: None)
     released: list[int] = []
     monkeypatch.setattr(maintenance, "release", lambda: released.append(1))
     with start() as service:
-        keeper = keeper_of(service, data_dir, Bounds(handled=1_000))
+        keeper = keeper_of(service, data_dir, MaintenanceThresholds(handled=1_000))
         file = encode(map_of(random_codes(900), manifest.model_id))
         assert service.put("/maps/yard", content=file).status_code == 201
-        keeper.look()
+        keeper.run_once()
         assert not released
         assert grow(service, manifest, 1).status_code == 200
         for _ in range(3):
-            keeper.look()
+            keeper.run_once()
         assert len(released) == 1
         assert service.delete("/maps/yard").status_code == 204
         assert service.put("/maps/yard", content=file).status_code == 201
-        keeper.look()
+        keeper.run_once()
         assert len(released) == 2
 
 

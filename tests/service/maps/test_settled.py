@@ -12,14 +12,16 @@ from placecell.descriptors.quantizer import Quantiser
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from service.maps.deduplication import RADIUS, VIEWS, SameView
-from service.merging.join import ROUNDED, Part, Share, join, join_settled, laid_before
+from service.merging.join import ROUNDED, MergePart, PartOutcome, join, join_settled, known_pose
 
 PARAMETERS = AlignmentParameters()
 SAME = SameView(Quantiser(0.01), 40.0)
 NAMES = ("a", "b", "c")
 
 
-def drawn(random: np.random.Generator, name: str, things: np.ndarray, looks: np.ndarray) -> Part:
+def drawn(
+    random: np.random.Generator, name: str, things: np.ndarray, looks: np.ndarray
+) -> MergePart:
     """Return a map of things seen from more sides than a map keeps, one moment per position."""
     count = int(random.integers(40, 120))
     which = random.integers(0, len(things), count)
@@ -41,10 +43,10 @@ def drawn(random: np.random.Generator, name: str, things: np.ndarray, looks: np.
         frame_positions=back.apply(stands),
         frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (30, 1)),
     )
-    return Part(name, originated(canonical(content), name), pose, RADIUS)
+    return MergePart(name, originated(canonical(content), name), pose, RADIUS)
 
 
-def parts_of(seed: int) -> list[Part]:
+def parts_of(seed: int) -> list[MergePart]:
     random = np.random.default_rng(seed)
     things = random.uniform(-8, 8, (12, 3)) * (1, 1, 0.1)
     things[6:] = things[:6] + random.uniform(-0.4, 0.4, (6, 3))  # some stand close together
@@ -53,17 +55,17 @@ def parts_of(seed: int) -> list[Part]:
 
 
 def merged(
-    parts: Sequence[Part], same: SameView | None, site: CompactMap | None = None
-) -> tuple[CompactMap, list[Share]]:
+    parts: Sequence[MergePart], same: SameView | None, site: CompactMap | None = None
+) -> tuple[CompactMap, list[PartOutcome]]:
     """Merge as a request does: parts already in the map keep their alignment."""
     if site is None:
         site = empty("tiny-0123456789abcdef", "1", "site", 16)
     first_id = int(site.ids.max()) + 1 if len(site) else 0
     laid = []
     for part in parts:
-        pose = laid_before(site, part.content, PARAMETERS)
+        pose = known_pose(site, part.content, PARAMETERS)
         slack = RADIUS if pose is None else ROUNDED
-        laid.append(Part(part.name, part.content, pose or part.pose, slack))
+        laid.append(MergePart(part.name, part.content, pose or part.pose, slack))
     return join_settled(site, laid, first_id, same, PARAMETERS)
 
 
@@ -93,10 +95,14 @@ def test_B6_joining_once_would_add_more_the_next_time() -> None:
         parts = parts_of(seed)
         site, _ = join(empty("tiny-0123456789abcdef", "1", "site", 16), parts, 0, SAME)
         laid = [
-            Part(part.name, part.content, laid_before(site, part.content, PARAMETERS) or part.pose,
-                 ROUNDED)
+            MergePart(
+                name=part.name,
+                content=part.content,
+                pose=known_pose(site, part.content, PARAMETERS) or part.pose,
+                slack=ROUNDED,
+            )
             for part in parts
-        ]  # fmt: skip
+        ]
         _, shares = join(site, laid, int(site.ids.max()) + 1, SAME)
         added += sum(share.added for share in shares)
     assert added  # else the test above would test nothing

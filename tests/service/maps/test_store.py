@@ -16,7 +16,7 @@ from service.maps.sqlite.database import ADVICE, VACUUM_PAGES
 from service.maps.sqlite.id_ledger import SKIPPED
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.sqlite.tables import PART_BYTES
-from service.maps.store import IDS, Head, Ids, Note, OutOfIdsError, StoreError, StoreLockedError
+from service.maps.store import IDS, Ids, MapHead, Note, OutOfIdsError, StoreError, StoreLockedError
 
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"
@@ -41,14 +41,14 @@ def behind(folder: Path) -> Iterator[sqlite3.Connection]:
         connection.commit()
 
 
-def all_of(store: SqliteMapStore, uid: str) -> tuple[Head, bytes, list[tuple[int, bytes]]]:
+def all_of(store: SqliteMapStore, uid: str) -> tuple[MapHead, bytes, list[tuple[int, bytes]]]:
     """What the store has of a map."""
     with store.read(uid) as history:
         blobs = history.blobs(history.head.oldest, history.head.sequence)
         return history.head, history.base(), [(commit.sequence, blob) for commit, blob in blobs]
 
 
-def grown(store: SqliteMapStore, name: str = "yard", commits: int = 4) -> Head:
+def grown(store: SqliteMapStore, name: str = "yard", commits: int = 4) -> MapHead:
     head = store.create(name, LARGE, replace(NOTE, operation="put"), 7)
     for count in range(commits):
         head = store.append(head, bytes([count]) * (count + 1) * 3_000, NOTE, 0)
@@ -192,7 +192,7 @@ def test_a_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
 
 def test_what_a_power_cut_leaves_is_a_state_that_was(folder: Path, tmp_path: Path) -> None:
     """Of the log only a part may have come to the disk: all of each call, or nothing."""
-    states: list[list[Head]] = []
+    states: list[list[MapHead]] = []
     copy = tmp_path / "copy"
     copy.mkdir()
     with SqliteMapStore.owned(folder) as store:
@@ -238,7 +238,7 @@ def test_a_disk_that_takes_no_more_leaves_all_as_it_was(folder: Path, kind: str)
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         setting = f"max_page_count = {pages + 2}" if kind == "full" else "query_only = ON"
         connection.execute(f"PRAGMA {setting}")
-        writes: list[Callable[[], Head]] = [
+        writes: list[Callable[[], MapHead]] = [
             lambda: store.create("other", LARGE, NOTE, 0),
             lambda: store.append(head, LARGE, NOTE, 0),
             lambda: store.compact(head.uid, 4, LARGE * 3),
@@ -376,7 +376,7 @@ def test_room_is_given_back(store: SqliteMapStore, folder: Path) -> None:
     before = pages()
     store.delete(head.uid)
     assert pages() == before
-    store.give_back()
+    store.release_space()
     # A little is kept, to be written to again.
     assert pages() <= VACUUM_PAGES + 20
 

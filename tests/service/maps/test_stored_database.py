@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from placecell_client import encode
 
-from service.maps.replay import version_of
+from service.maps.history import replay
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import Note
 from tests.fixtures.killed_service import EXPECTED
@@ -50,7 +50,7 @@ def test_all_versions_are_there(folder: Path) -> None:
         assert yard.mark.startswith("52ce06127c563fa6")
         with store.read(yard.uid) as history:
             for sequence, file in FILES.items():
-                content = version_of(history, sequence).content()
+                content = replay(history, sequence).content()
                 assert content.ids.tolist() == IDS[sequence]
                 assert content.optional == ("seen",)
                 assert hashlib.sha256(encode(content)).hexdigest() == file

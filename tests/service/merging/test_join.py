@@ -10,7 +10,7 @@ from placecell_client.maps.edit import take
 
 from placecell.localization import LocalisationParameters, Pose
 from placecell.map_alignment import AlignmentParameters
-from service.merging.join import laid_before
+from service.merging.join import known_pose
 from tests.service.merging.merged_map_builders import driven
 
 TRUTH = Pose.of_yaw(2.5, np.array([300.0, -800.0, 4.0]))
@@ -22,7 +22,7 @@ def part() -> CompactMap:
     return originated(driven("tiny-0123456789abcdef", "west", 0, 60), "west")
 
 
-def site_of(part: CompactMap, rows: np.ndarray) -> CompactMap:
+def empty_merged_map(part: CompactMap, rows: np.ndarray) -> CompactMap:
     """A site that holds these segments, as a merge lays them and a file rounds them."""
     return canonical(moved(take(part, rows), TRUTH.rotation, TRUTH.translation, "site"))
 
@@ -39,7 +39,7 @@ def turned(part: CompactMap) -> CompactMap:
 
 def assert_laid(part: CompactMap, site: CompactMap, motion: str = "yaw") -> None:
     local = LocalisationParameters(model="se3" if motion == "se3" else "yaw")
-    pose = laid_before(site, part, AlignmentParameters(local=local))
+    pose = known_pose(site, part, AlignmentParameters(local=local))
     assert pose is not None
     off = pose.apply(part.centroids) - TRUTH.apply(part.centroids)
     assert np.abs(off).max() < 1e-3
@@ -53,32 +53,32 @@ def test_few_segments_tell_it(part: CompactMap, motion: str) -> None:
         np.array([seen_from(part, 0)[0], seen_from(part, 3)[0]]),
         np.arange(len(part)),
     ):
-        assert_laid(part, site_of(part, rows), motion)
+        assert_laid(part, empty_merged_map(part, rows), motion)
 
 
 def test_stands_tell_it_whatever_the_orientations(part: CompactMap) -> None:
     two = np.array([seen_from(part, 0)[0], seen_from(part, 3)[0]])
-    assert_laid(turned(part), site_of(part, two))
-    assert laid_before(site_of(part, two[:1]), turned(part), PARAMETERS) is None
+    assert_laid(turned(part), empty_merged_map(part, two))
+    assert known_pose(empty_merged_map(part, two[:1]), turned(part), PARAMETERS) is None
 
 
 def test_where_they_lie_otherwise_it_is_unclear(part: CompactMap) -> None:
     rows = np.array([0, 1, 2])
-    site = site_of(part, rows)
+    site = empty_merged_map(part, rows)
     off = replace(part, centroids=part.centroids + (0.0, 0.1, 0.0))
-    assert laid_before(site, off, PARAMETERS) is None
+    assert known_pose(site, off, PARAMETERS) is None
     positions = part.frame_positions + np.arange(len(part.frame_times))[:, None]
     both = np.array([seen_from(part, 0)[0], seen_from(part, 3)[0]])
     bent = replace(part, frame_positions=positions)
-    assert laid_before(site_of(part, both), bent, PARAMETERS) is None
+    assert known_pose(empty_merged_map(part, both), bent, PARAMETERS) is None
 
 
 def test_of_what_the_site_has_not_or_has_from_another_moment_it_tells_nothing(
     part: CompactMap,
 ) -> None:
     few = np.arange(3)
-    site = site_of(part, few)
-    assert laid_before(site, take(part, np.arange(3, 30)), PARAMETERS) is None
+    site = empty_merged_map(part, few)
+    assert known_pose(site, take(part, np.arange(3, 30)), PARAMETERS) is None
     later = replace(part, frame_times=part.frame_times + 60.0)
-    assert laid_before(site, later, PARAMETERS) is None
-    assert laid_before(site_of(part, few[:0]), part, PARAMETERS) is None
+    assert known_pose(site, later, PARAMETERS) is None
+    assert known_pose(empty_merged_map(part, few[:0]), part, PARAMETERS) is None

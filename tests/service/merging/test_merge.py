@@ -18,7 +18,7 @@ from placecell.localization import Pose
 from placecell.localization.registration import register_yaw
 from placecell.map_alignment import MapAlignment
 from service.maps.index import index_of
-from service.maps.layers import Layers
+from service.maps.layers import MapLayers
 from service.maps.sqlite.owners import Owners
 from service.maps.sqlite.tables import row_of, save_head
 from service.merging import alignment
@@ -580,9 +580,9 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
     for name, each in maps.items():  # so that none has an index over all of it
         edited(stocked, name, take(each, np.arange(0)), [3])
     joined, indexed = [], []
-    content = Layers.content
+    content = MapLayers.content
 
-    def counted(layers: Layers) -> CompactMap:
+    def counted(layers: MapLayers) -> CompactMap:
         joined.append(layers)
         return content(layers)
 
@@ -590,7 +590,7 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
         indexed.append(len(codes))
         return index_of(codes, quantiser)
 
-    monkeypatch.setattr(Layers, "content", counted)
+    monkeypatch.setattr(MapLayers, "content", counted)
     monkeypatch.setattr("service.merging.alignment.index_of", indexing)
     told = merge(stocked, "site", names)
     assert told.status_code == 201, told.text
