@@ -87,7 +87,9 @@ def test_compaction_keeps_the_newest(start: Any, manifest: Manifest, keep: int) 
         for sequence, file in enumerate(files, 1):
             response = service.get(f"/maps/yard?version={sequence}")
             if sequence < oldest:
-                assert_problem(response, 410, "version-gone", f"The oldest available version is {oldest}")
+                assert_problem(
+                    response, 410, "version-gone", f"The oldest available version is {oldest}"
+                )
                 refused = service.post(f"/maps/yard/versions/{sequence}/restore")
                 assert_problem(refused, 410, "version-gone")
             else:

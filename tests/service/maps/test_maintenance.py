@@ -230,7 +230,7 @@ def test_it_works_by_itself_and_ends(
     with site(start, manifest) as (_, state):
         before = threading.active_count()
         looked = threading.Event()
-        monkeypatch.setattr(state.sync, "forget", looked.set)
+        monkeypatch.setattr(state.sync, "expire", looked.set)
         bounds = MaintenanceThresholds(recent=3, share=0.0, seconds=0.01)
         with keeper_of(state, data_dir, bounds).running():
             assert threading.active_count() == before + 1

@@ -213,7 +213,7 @@ def test_a_path_is_not_a_maps_name(
     content = yard if method == "PUT" else None
     response = service.request(method, f"/maps/{name}", content=content)
     if name in PATHS:
-        assert_problem(response, 404, "not-found", "holds no slash")
+        assert_problem(response, 404, "not-found", "contains no slash")
     else:
         assert_problem(response, 422, "invalid-map-name", "letters, digits")
     assert sorted(path for path in data_dir.parent.rglob("*")) == before

@@ -169,17 +169,17 @@ def test_a_cursor_that_was_made_up_does_no_harm(service: Any, site: str, cursor:
 def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
     service: Any, site: str, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    changes = service.app.state.placecell.changes
+    sync = service.app.state.placecell.sync
     for step in range(20):
         data = edit_of(random_codes(1, step), manifest.model_id, 900)
         service.post(f"{site}/segments", content=data)
         service.get(f"{site}/changes?since=1&limit=1")
-    assert len(changes._pinned) == 8
-    changes.forget()
-    assert len(changes._pinned) == 8
+    assert len(sync._pinned) == 8
+    sync.expire()
+    assert len(sync._pinned) == 8
     monkeypatch.setattr("service.maps.sync.PIN_SECONDS", -1.0)
-    changes.forget()
-    assert not changes._pinned
+    sync.expire()
+    assert not sync._pinned
 
 
 def test_the_whole_map_comes_in_parts_too(service: Any, site: str, manifest: Manifest) -> None:
