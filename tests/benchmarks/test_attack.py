@@ -30,6 +30,7 @@ def test_every_row_has_a_case() -> None:
     assert all(case.expected.endswith(".") for case in CASES)
 
 
+@pytest.mark.slow
 def test_the_short_form_holds(tmp_path: Path) -> None:
     file = tmp_path / "attack.json"
     # Other work on the machine makes a victim wait longer; a fault makes it wait far longer still.

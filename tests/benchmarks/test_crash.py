@@ -27,6 +27,7 @@ def report_of(file: Path, *words: str | float) -> dict[str, Any]:
     return content
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("tiny")
 def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
     report = report_of(tmp_path / "crash.json", "crash", "--kills", 5, "--seed", 1)
@@ -40,6 +41,7 @@ def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
     assert report["restart_seconds"]["max"] >= report["restart_seconds"]["p50"] > 0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("tiny")
 def test_robots_that_share_a_map_end_with_the_same(tmp_path: Path) -> None:
     words = ("fleet", "--minutes", 0.05, "--clients", 8, "--seed", 1)
@@ -66,6 +68,7 @@ def recorded(tiny: None, tmp_path_factory: pytest.TempPathFactory) -> RecordedRu
 PLAN = PowerLossPlan(cuts=30)
 
 
+@pytest.mark.slow
 def test_nothing_is_lost_when_the_power_fails(recorded: RecordedRun, tmp_path: Path) -> None:
     tally = replay_power_cuts(recorded, PLAN, random.Random(0), tmp_path / "left")
     assert tally.told == []

@@ -23,6 +23,8 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from tests.placecell.segment_builders import many_segments
 
+pytestmark = pytest.mark.slow
+
 TINY = DescribePlan(batches=(1, 2), threads=(1, 2), repeats=1, seconds=0.0, segments=6, latencies=3)
 SOME = [many_segments([20, 300, 80]), many_segments([50])]
 

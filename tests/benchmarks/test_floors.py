@@ -14,6 +14,8 @@ from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.inference.model_registry import Model
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
+pytestmark = pytest.mark.slow
+
 NAMES = (DEFAULT_MODEL, "group")
 
 

@@ -22,6 +22,8 @@ from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS
 from placecell.segmentation.recording import Recording
 from tests.training_sets import make_shapes
 
+pytestmark = pytest.mark.slow
+
 EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)
 
 

@@ -14,6 +14,8 @@ from benchmarks.load.generator import Load, LoadResult, encode_request, send_loa
 from benchmarks.load.rates import measure_rate
 from placecell.core.segments import Segments
 
+pytestmark = [pytest.mark.integration, pytest.mark.slow]
+
 
 def scans(count: int) -> list[Segments]:
     """Boxes of points about the sensor, ten a scan."""

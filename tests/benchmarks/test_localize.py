@@ -16,6 +16,8 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
+pytestmark = [pytest.mark.integration, pytest.mark.slow]
+
 
 @pytest.mark.integration
 def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,6 +12,8 @@ from benchmarks.storage.map_writers import MapsPlan
 from cli import app
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
+pytestmark = [pytest.mark.integration, pytest.mark.slow]
+
 ROW = {
     "segments", "disk_bytes_per_segment", "memory_mb", "match_50_p50_ms", "match_50_p99_ms",
     "recall_at_25_of_exact", "start_cache_s", "start_rebuild_s",

@@ -21,6 +21,8 @@ from placecell.segmentation.recording import Recording
 from tests.placecell.datasets.test_kitti_raw import record, unit_at_the_sensor
 from tests.placecell.segment_builders import pose, write_odometry, write_raw
 
+pytestmark = pytest.mark.slow
+
 FIGURES = {
     "model_id",
     "top1",
@@ -230,6 +232,7 @@ def test_an_altered_model_is_refused(workshop: Path, tmp_path: Path) -> None:
     assert "SHA-256" in result.output
 
 
+@pytest.mark.integration
 def test_the_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> None:
     result = run("demo", "--drive", workshop / "drives" / "robot_b", "--output", tmp_path)
     figures = json.loads((tmp_path / "figures.json").read_text())

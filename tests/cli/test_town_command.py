@@ -11,6 +11,8 @@ from cli import app
 from placecell.datasets import open_drive
 from town import ODOMETRY_FILE, read_origin
 
+pytestmark = pytest.mark.slow
+
 
 def run(*words: str | Path | float, status: int = 0) -> Result:
     result = CliRunner().invoke(app, ["town", *(str(word) for word in words)])

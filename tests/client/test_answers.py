@@ -192,6 +192,7 @@ def test_a_file_that_is_no_map_is_told() -> None:
         client.get_map("yard")
 
 
+@pytest.mark.slow
 @given(
     st.recursive(
         st.none() | st.integers(-9, 9) | st.text(max_size=3) | st.binary(max_size=9),

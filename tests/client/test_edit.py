@@ -117,6 +117,7 @@ def test_equal_maps_do_not_differ(compact_map: CompactMap) -> None:
     assert (len(changed), len(removed)) == (0, 0)
 
 
+@pytest.mark.slow
 @given(maps(), deltas(since=1), deltas(since=2), deltas(since=3))
 def test_composed_deltas_do_what_they_do_in_turn(
     compact_map: CompactMap, first: Delta, second: Delta, third: Delta

@@ -14,6 +14,8 @@ from tests.benchmarks.drive_builders import trip
 from tests.placecell.segment_builders import many_segments
 from tests.service.service_builders import write_eigenvalue_model
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def local(tmp_path: Path) -> Iterator[Local]:

@@ -83,6 +83,7 @@ def test_pair_sampler_ends_when_non_matches_run_out() -> None:
         siamese.sample_pairs(np.zeros(5, dtype=np.int64), 10, np.random.default_rng(0))
 
 
+@pytest.mark.slow
 def test_a_checkpoint_of_other_data_is_refused(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
@@ -105,6 +106,7 @@ def test_third_network_does_not_depend_on_the_order() -> None:
     assert match(a, b).detach().numpy() == pytest.approx(match(b, a).detach().numpy(), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_group_based_training_learns(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
@@ -115,6 +117,7 @@ def test_group_based_training_learns(
     assert run.history[-1]["accuracy"] > run.history[0]["accuracy"]
 
 
+@pytest.mark.slow
 def test_siamese_training_learns(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
@@ -124,6 +127,7 @@ def test_siamese_training_learns(
     assert run.history[-1]["validation_accuracy"] > 0.85
 
 
+@pytest.mark.slow
 def test_contrastive_training_learns(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
@@ -132,6 +136,7 @@ def test_contrastive_training_learns(
     assert top1(describe(network, other_views), other_views.groups) > 0.85
 
 
+@pytest.mark.slow
 def test_a_resumed_run_ends_as_one_that_was_never_stopped(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:

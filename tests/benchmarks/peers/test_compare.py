@@ -18,6 +18,8 @@ from cli import app
 from tests.placecell.segment_builders import pose, write_odometry
 from town import two_robots
 
+pytestmark = pytest.mark.integration
+
 ENVIRONMENT = Path(benchmarks.__file__).parents[1] / ".venv-peers" / "bin" / "python"
 HERE = Path(sys.executable)
 

@@ -152,6 +152,7 @@ REAL_FILES = {
 }
 
 
+@pytest.mark.recorded
 @pytest.mark.parametrize("name", REAL_FILES)
 def test_B4_files_of_real_sensors(name: str) -> None:
     if not (REAL / name).is_file():
@@ -159,6 +160,7 @@ def test_B4_files_of_real_sensors(name: str) -> None:
     assert len(found([REAL / name]).columns) == REAL_FILES[name]
 
 
+@pytest.mark.recorded
 def test_B4_six_real_points_of_five_columns_are_not_sure() -> None:
     file = REAL / "lyft_5col_tiny.bin"
     if not file.is_file():

@@ -20,6 +20,8 @@ from placecell.segmentation.local_map import Accumulator, in_range, transform
 from placecell.segmentation.pipeline import record
 from placecell.segmentation.recording import Recording
 
+pytestmark = pytest.mark.recorded
+
 NAME = "kitti_odometry_00"
 UNPACK = Path(placecell.__file__).resolve().parents[2] / "shared" / "data" / "unpack.py"
 

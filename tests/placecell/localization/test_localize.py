@@ -301,6 +301,7 @@ def test_what_is_no_number_is_left_out() -> None:
     assert localize(nothing).reason == "too-few-segments"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [25, 100])
 def test_ten_thousand_candidates(k: int) -> None:
     made = scene(7, segments=10_000 // k, found=0.3, k=k, rows=20_000)

@@ -110,6 +110,7 @@ def heap(
 ALIKE = np.ones(DIMENSION)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("count", "box"),
     [
@@ -134,6 +135,7 @@ def test_one_segment_a_thousand_times_is_nowhere(count: int, box: tuple[float, .
         assert degrees < 10.0
 
 
+@pytest.mark.slow
 def test_what_lies_densely_agrees_by_chance_and_is_told() -> None:
     # Of five kinds; wherever one is laid on the other, something of the kind is near.
     random = np.random.default_rng(0)
@@ -185,6 +187,7 @@ def test_ten_thousand_segments_in_a_square_metre_are_not_all_compared() -> None:
     assert found.reason is not None
 
 
+@pytest.mark.slow
 def test_ten_thousand_segments_in_a_yard_are_aligned() -> None:
     made = heap(10_000, (20.0, 20.0, 2.0))
     truth = Pose.of_yaw(-2.0, np.array([3_000.0, 20.0, 1.0]))

@@ -154,6 +154,7 @@ def test_a_disk_that_takes_no_writes_stops_the_start(
             pass
 
 
+@pytest.mark.slow
 def test_whatever_is_flipped_no_map_is_other_than_it_was(
     start: Any, data_dir: Path, manifest: Manifest
 ) -> None:
@@ -189,6 +190,7 @@ def test_whatever_is_flipped_no_map_is_other_than_it_was(
     assert results == {True, 200, 500}
 
 
+@pytest.mark.slow
 def test_a_log_that_was_cut_or_flipped_leaves_an_earlier_version_whole(
     start: Any, data_dir: Path, tmp_path: Path, manifest: Manifest
 ) -> None:

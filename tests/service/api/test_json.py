@@ -186,6 +186,7 @@ def test_bodies_that_are_cut_short_are_refused(length: int) -> None:
     assert read(DescribeRequest, body)[0] in (400, 422)
 
 
+@pytest.mark.slow
 def test_B18_json_takes_as_many_points_as_info_says(start: Any) -> None:
     with start(limits={"segments": 4000}) as service:
         limit = service.get("/info").json()["limits"]["points"]

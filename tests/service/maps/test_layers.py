@@ -4,6 +4,7 @@ from collections import Counter
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, encode, originated
@@ -50,6 +51,7 @@ EDITS = st.lists(
 STARTS = IDS.map(sorted).map(segments)
 
 
+@pytest.mark.slow
 @given(STARTS, EDITS)
 @settings(max_examples=200, deadline=None)
 def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[Delta]) -> None:
@@ -70,6 +72,7 @@ def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[
     assert found.codes.tolist() == expected.codes[rows].tolist()
 
 
+@pytest.mark.slow
 @given(STARTS, EDITS, EDITS)
 @settings(max_examples=200, deadline=None)
 def test_a_new_base_changes_nothing(
@@ -86,6 +89,7 @@ def test_a_new_base_changes_nothing(
     assert len(folded) == len(after)
 
 
+@pytest.mark.slow
 @given(STARTS, EDITS, EDITS.filter(len))
 @settings(max_examples=200, deadline=None)
 def test_the_effect_of_an_edit_is_all_that_it_changes(
