@@ -28,7 +28,7 @@ serve: .venv/demo.stamp  ## Keep a service running on http://127.0.0.1:8000
 test: install  ## Run all tests, with coverage; JOBS=N sets the parallel workers
 	$(PYTEST) --hypothesis-profile=ci --cov --cov-report=term
 
-FAST := tests/segments tests/client tests/service
+FAST := tests/placecell tests/client tests/service
 test-fast: install  ## Run the tests that take a minute together: core, client, HTTP routes
 	$(PYTEST) --hypothesis-profile=ci -m "not slow and not integration and not recorded" $(FAST)
 

@@ -202,6 +202,7 @@ def test_A28_a_database_of_version_1_is_migrated_and_verifies_as_before(
         assert "was altered or lost" in wrong
 
 
+@pytest.mark.integration
 @pytest.mark.parametrize("statement", range(1, 12, 2))
 def test_A28_a_migration_that_is_killed_leaves_version_1(
     data_dir: Path, monkeypatch: pytest.MonkeyPatch, statement: int
@@ -418,6 +419,7 @@ def test_A23_what_came_from_elsewhere_skips_ids(folder: Path, tmp_path: Path, ho
         assert store.reserve(head.uid, 1, "zoe") == first + 1
 
 
+@pytest.mark.integration
 def test_A23_a_kill_skips_few_ids(folder: Path) -> None:
     child = os.fork()
     if not child:  # pragma: no cover -- it is killed
