@@ -227,6 +227,7 @@ def test_any_answer_is_read_or_is_an_error(content: object) -> None:
             CALLS[call][0](client)
 
 
+@pytest.mark.slow
 @given(st.binary(max_size=50), st.sampled_from([MSGPACK, "application/json", "text/html", ""]))
 def test_any_bytes_are_an_error(content: bytes, media_type: str) -> None:
     response = httpx.Response(200, content=content, headers={"Content-Type": media_type})

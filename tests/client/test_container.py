@@ -65,6 +65,7 @@ def little_memory() -> Iterator[None]:
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 @each_kind
 def test_every_flipped_bit_is_found(kind: Kind) -> None:
     for bit in range(len(kind.data) * 8):
@@ -245,6 +246,7 @@ def test_optional_columns_of_a_wrong_shape_are_refused(name: str) -> None:
 SHAPES = st.lists(st.integers(0, 4), max_size=3).map(tuple)
 
 
+@pytest.mark.slow
 @each_kind
 @given(
     changes=st.dictionaries(

@@ -23,6 +23,7 @@ def test_a_delta_comes_back() -> None:
     assert len(back) == 22
 
 
+@pytest.mark.slow
 @given(deltas())
 def test_encoding_what_was_decoded_changes_nothing(given_delta: Delta) -> None:
     data = encode_delta(given_delta)

@@ -73,6 +73,7 @@ def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
     return segments
 
 
+@pytest.mark.slow
 @given(maps(), deltas())
 def test_apply_is_what_it_is_by_hand(compact_map: CompactMap, delta: Delta) -> None:
     after = apply(compact_map, delta)
@@ -81,12 +82,14 @@ def test_apply_is_what_it_is_by_hand(compact_map: CompactMap, delta: Delta) -> N
     assert set(after.optional) == {*compact_map.optional, *delta.changed.optional}
 
 
+@pytest.mark.slow
 @given(maps(), deltas())
 def test_a_delta_twice_is_a_delta_once(compact_map: CompactMap, delta: Delta) -> None:
     once = apply(compact_map, delta)
     assert encode(apply(once, delta)) == encode(once)
 
 
+@pytest.mark.slow
 @given(maps(NARROW), maps(WIDE))
 def test_a_difference_leads_to_the_new_map(old: CompactMap, new: CompactMap) -> None:
     changed, removed = difference(old, new)
@@ -98,6 +101,7 @@ def test_a_difference_leads_to_the_new_map(old: CompactMap, new: CompactMap) -> 
     assert removed.tolist() == sorted(set(before) - set(after))
 
 
+@pytest.mark.slow
 @given(maps(), maps(), st.booleans(), st.integers(0, 2))
 def test_a_delta_between_any_maps_leads_to_the_new_one(
     old: CompactMap, new: CompactMap, is_other_model: bool, since: int
@@ -111,6 +115,7 @@ def test_a_delta_between_any_maps_leads_to_the_new_one(
     assert delta.until == since + 1
 
 
+@pytest.mark.slow
 @given(maps())
 def test_equal_maps_do_not_differ(compact_map: CompactMap) -> None:
     changed, removed = difference(compact_map, decode(encode(compact_map)))
@@ -130,6 +135,7 @@ def test_composed_deltas_do_what_they_do_in_turn(
     assert (left.since, left.until) == (1, 4)
 
 
+@pytest.mark.slow
 @given(maps(), maps(), deltas(since=5))
 def test_what_follows_a_delta_from_nothing_is_from_nothing(
     compact_map: CompactMap, other: CompactMap, delta: Delta
@@ -148,6 +154,7 @@ def test_deltas_that_do_not_follow_are_not_composed() -> None:
         compose(one, replace(one, since=3, until=4))
 
 
+@pytest.mark.slow
 @given(maps(COLUMN_SETS), st.integers(1, 4))
 def test_a_delta_in_parts_is_joined(compact_map: CompactMap, count: int) -> None:
     removed = np.arange(20, 30, dtype=np.uint32)

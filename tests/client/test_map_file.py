@@ -89,6 +89,7 @@ def test_encoding_what_was_decoded_changes_nothing(
     assert encode(decode(data)) == data
 
 
+@pytest.mark.slow
 @given(maps())
 def test_small_maps_that_decode_again_are_equal_files(given_map: CompactMap) -> None:
     data = encode(given_map)
@@ -97,6 +98,7 @@ def test_small_maps_that_decode_again_are_equal_files(given_map: CompactMap) -> 
     assert back.optional == given_map.optional
 
 
+@pytest.mark.slow
 @given(maps(st.just(set(OPTIONAL))), st.randoms(use_true_random=False))
 def test_the_order_of_rows_and_tables_makes_no_difference(
     one: CompactMap, random: random_module.Random

@@ -86,6 +86,7 @@ def test_two_moves_are_one(first: Moves, second: Moves, seed: int) -> None:
     assert_same_place(in_turn, at_once)
 
 
+@pytest.mark.slow
 @given(maps(), moves())
 def test_nothing_else_changes(one: CompactMap, move: Moves) -> None:
     other = moved(one, *move, "site")
@@ -132,6 +133,7 @@ def told(compact_map: CompactMap) -> dict[int, tuple[str, int]]:
     return dict(zip(compact_map.ids.tolist(), whence, strict=True))
 
 
+@pytest.mark.slow
 @given(maps(), st.sampled_from(["yard", "east"]))
 def test_a_segment_keeps_where_it_first_was(one: CompactMap, name: str) -> None:
     before = told(one) if one.source is not None else {}

@@ -119,6 +119,7 @@ def test_B4_what_is_not_sure_is_refused_with_what_was_found(
     assert "--" in str(caught.value) or "Convert" in str(caught.value)
 
 
+@pytest.mark.slow
 def test_B4_what_is_stated_is_used(scans: list[Float32], tmp_path: Path) -> None:
     files = written(
         tmp_path, scans, lambda s: f4(ring(s), s).astype("<f8").T * [[1], *[[1000]] * 4]

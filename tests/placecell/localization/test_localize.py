@@ -37,6 +37,7 @@ def assert_right(found: Localisation, truth: Pose) -> None:
     assert degrees < 1.0
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(seeds)
 def test_a_robot_in_the_map_is_found(seed: int) -> None:
@@ -46,6 +47,7 @@ def test_a_robot_in_the_map_is_found(seed: int) -> None:
     assert found.detail == ""
 
 
+@pytest.mark.slow
 def test_a_robot_in_the_map_is_nearly_always_sure() -> None:
     told = [localize(scene(seed).candidates).probability for seed in range(50)]
     assert np.mean(np.array(told) > 0.9) > 0.9
@@ -111,6 +113,7 @@ def test_the_order_of_the_segments_changes_nothing(seed: int) -> None:
     assert other.probability == pytest.approx(one.probability)
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(seeds, st.integers(0, 150))
 def test_outliers_leave_the_pose_where_it_is(seed: int, outliers: int) -> None:

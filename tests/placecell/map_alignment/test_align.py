@@ -31,6 +31,7 @@ def aligned(made: Pair, parameters: AlignmentParameters | None = None) -> MapAli
     return align(made.a.view, made.b.view, made.looks, parameters or AlignmentParameters())
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(seeds, st.floats(60, 150))
 def test_maps_that_overlap_are_aligned(seed: int, shared: float) -> None:
@@ -54,6 +55,7 @@ def test_maps_that_overlap_are_aligned(seed: int, shared: float) -> None:
     assert best.parts == pytest.approx((shared / 150 + 0.07,) * 2, abs=0.1)
 
 
+@pytest.mark.slow
 def test_maps_of_kilometres_are_aligned() -> None:
     random = np.random.default_rng(5)
     along = street(random, 5_000.0)
@@ -63,6 +65,7 @@ def test_maps_of_kilometres_are_aligned() -> None:
     assert_right(aligned(Pair(a, moved, truth)), truth, metres=0.3)
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(seeds)
 def test_guesses_are_poses_of_submaps(seed: int) -> None:
@@ -77,6 +80,7 @@ def test_guesses_are_poses_of_submaps(seed: int) -> None:
     assert right >= 4
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds)
 def test_if_either_map_moves_the_pose_moves_along(seed: int) -> None:
@@ -98,6 +102,7 @@ def pose_of(made: Pair) -> Pose:
     return pose
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds)
 def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
@@ -116,6 +121,7 @@ def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
     assert other.best.score == pytest.approx(one.best.score, rel=0.1)
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds)
 def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
@@ -142,6 +148,7 @@ def strange(view: MapView, count: int, random: np.random.Generator) -> MadeMap:
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds, st.integers(1, 300))
 def test_segments_like_nothing_leave_the_pose_where_it_is(seed: int, count: int) -> None:
@@ -161,6 +168,7 @@ def test_segments_like_nothing_leave_the_pose_where_it_is(seed: int, count: int)
     assert found.reason is None, found.detail
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(seeds)
 def test_a_tilted_map_is_aligned_with_six_degrees(seed: int) -> None:

@@ -102,6 +102,7 @@ def test_a_wrong_one_is_outvoted_whatever_its_weight() -> None:
     assert_laid(poses_from(0, edges, checked), truth, range(4))
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10_000), st.sets(st.integers(0, 14), min_size=1, max_size=2))
 def test_two_wrong_ones_among_six_maps_are_found_out(seed: int, wrong: set[int]) -> None:

@@ -41,6 +41,7 @@ def houses(count: int, begin: float, pitch: float = 12.0, mirrored: bool = True)
     return Street(np.concatenate(places), np.tile(looks, (len(places), 1)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_a_street_of_identical_houses_is_ambiguous_or_right(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -52,6 +53,7 @@ def test_a_street_of_identical_houses_is_ambiguous_or_right(seed: int) -> None:
         assert_right_or_none(aligned(a, b.moved(truth.inverse())), truth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_two_streets_of_the_same_houses_are_not_one(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -225,6 +227,7 @@ def laid_by_truth(a: MadeMap, b: MadeMap, things: Int64) -> Pose:
     return register_yaw(means[0], means[1], np.ones(len(things)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shared", [60.0, 120.0, 250.0])
 def test_maps_that_drift_are_right_at_the_overlap_or_not_aligned(shared: float) -> None:
     told = 0

@@ -73,6 +73,7 @@ def recording(drive: Drive) -> Recording:
     return record(drive, EVERY_SCAN)
 
 
+@pytest.mark.slow
 def test_boxes_are_the_segments_of_every_frame(recording: Recording) -> None:
     frames, counts = np.unique(recording.frames, return_counts=True)
     assert frames.tolist() == list(range(14))
@@ -99,6 +100,7 @@ def test_groups_persist_over_the_frames(recording: Recording) -> None:
         assert np.ptp(centroids[members], axis=0).max() < 1.5
 
 
+@pytest.mark.slow
 def test_group_ends_when_its_box_is_gone(tmp_path: Path) -> None:
     # From one place; the nearest box, the first of each frame, is missing from scans 2 and 3.
     ground = plane(30, step=0.4)
@@ -155,17 +157,20 @@ def test_recording_survives_its_file(recording: Recording, tmp_path: Path) -> No
     assert np.array_equal(loaded.distinct, recording.distinct)
 
 
+@pytest.mark.slow
 def test_made_twice_it_is_the_same(recording: Recording, drive: Drive) -> None:
     again = record(drive, EVERY_SCAN)
     assert np.array_equal(again.segments.points, recording.segments.points)
     assert np.array_equal(again.groups, recording.groups)
 
 
+@pytest.mark.slow
 def test_every_second_scan(drive: Drive) -> None:
     frames = [frame for frame, _ in segment_frames(drive, replace(PROTOCOL_V1, frame_step=2))]
     assert frames == [0, 2, 4, 6, 8, 10, 12]
 
 
+@pytest.mark.slow
 def test_no_scan_outside_the_range_given_feeds_it() -> None:
     scans, poses = street()
     nonsense = (np.random.default_rng(0).normal(size=(5000, 3)) * [5, 5, 1]).astype(np.float32)

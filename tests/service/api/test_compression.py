@@ -26,6 +26,7 @@ def test_a_compressed_body_means_the_same(service: Any, coding: str, manifest: M
     assert service.get("/maps/yard").content == data
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coding", CODERS)
 def test_bombs_are_refused(start: Any, coding: str) -> None:
     headers = {"Content-Encoding": coding}

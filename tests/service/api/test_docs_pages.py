@@ -58,6 +58,7 @@ def test_A20_no_script_asks_another_host(service: Any) -> None:
     assert_problem(service.get("/docs/..%2Fcore.py"), 404, "not-found")
 
 
+@pytest.mark.slow
 def test_A20_the_description_says_which_routes_need_a_key(start: Any, tmp_path: Path) -> None:
     file = tmp_path / "keys.toml"
     file.write_text("[a]\nsha256 = '" + "0" * 64 + "'\n")

@@ -117,6 +117,7 @@ def test_the_description_is_complete(service: Any) -> None:
     assert service.get("/docs").status_code == 200
 
 
+@pytest.mark.slow
 def test_the_examples_of_the_description_run(service: Any) -> None:
     document = service.get("/openapi.json").json()
     for path in ("/describe", "/match", "/localize"):

@@ -70,6 +70,7 @@ PIECES = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @settings(max_examples=400, deadline=None)
 @given(
     body=st.sampled_from(BODIES),
@@ -211,6 +212,7 @@ def test_B18_too_many_segments_are_told_by_their_number(service: Any) -> None:
     assert_problem(told, 413, "too-many-segments", "5000 queries in a request; the limit is 1000")
 
 
+@pytest.mark.slow
 def test_other_threads_run_while_a_body_is_read() -> None:
     points = np.random.default_rng(0).normal(0, 40, (200_000, 3)).tolist()
     body = json.dumps({"segments": [{"points": points, "sensor": [0, 0, 0]}]}).encode()

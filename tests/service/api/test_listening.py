@@ -107,6 +107,7 @@ def test_B11_head_leaves_the_connection_usable(models_dir: Path, data_dir: Path)
             assert client.get("/livez").json() == {"status": "alive"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("prefix", ["", "/robots/placecell"])
 def test_B11_the_service_works_under_a_path_prefix(
     start: Any, manifest: Manifest, prefix: str

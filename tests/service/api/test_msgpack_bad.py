@@ -198,12 +198,14 @@ def test_no_bytes_break_the_decoder(body: bytes) -> None:
     read(body)
 
 
+@pytest.mark.slow
 @given(REQUESTS.map(msgpack.packb))
 @settings(max_examples=300, deadline=None)
 def test_no_values_break_the_decoder(body: bytes) -> None:
     read(body)
 
 
+@pytest.mark.slow
 @given(st.data())
 @settings(max_examples=300, deadline=None)
 def test_no_damage_breaks_the_decoder(data: st.DataObject) -> None:

@@ -112,6 +112,7 @@ def test_so_is_one_whose_request_at_work_had_been_sent_ahead() -> None:
     asyncio.run(run())
 
 
+@pytest.mark.slow
 def test_all_that_was_sent_ahead_is_answered() -> None:
     count = 4 * AHEAD_BYTES // len(REQUEST)
 

@@ -313,6 +313,7 @@ def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
             assert service.get("/info", headers=headers).status_code == 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "path", "status"),
     [("GET", "/maps", 401), ("GET", "/maps/hall", 403), ("DELETE", "/maps/yard", 403)],

@@ -179,6 +179,7 @@ MOMENTS = st.lists(
 )
 
 
+@pytest.mark.slow
 @given(MOMENTS, MOMENTS)
 @settings(max_examples=100, deadline=None)
 def test_what_was_taken_in_is_known_from_then_on(

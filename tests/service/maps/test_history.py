@@ -44,6 +44,7 @@ def test_every_version_is_told_and_given_out(service: Any, files: list[bytes]) -
     assert few == listed["versions"][:2]
 
 
+@pytest.mark.slow
 def test_a_restored_version_is_a_new_one_and_can_be_undone(
     service: Any, files: list[bytes]
 ) -> None:
@@ -131,6 +132,7 @@ def test_what_cannot_be_is_told(
     assert service.get("/maps/yard").content == files[-1]
 
 
+@pytest.mark.slow
 def test_a_clock_that_jumps_changes_only_what_is_told(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -67,6 +67,7 @@ def test_A8_one_id_takes_no_others_with_it(service: Any, manifest: Manifest) -> 
     assert reserved(service, 1).json()["first"] == 1_000_009
 
 
+@pytest.mark.slow
 def test_A8_ids_are_found_between_those_in_use(service: Any, manifest: Manifest) -> None:
     """When the free ids at hand are too few, others are looked for, and never given twice."""
     assert edited(service, edit_of(random_codes(1), manifest.model_id, 0)).is_success

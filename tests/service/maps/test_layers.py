@@ -108,6 +108,7 @@ def test_the_effect_of_an_edit_is_all_that_it_changes(
     assert not after.is_changed_by(again)
 
 
+@pytest.mark.slow
 @given(STARTS, EDITS, st.integers(1, 15))
 @settings(max_examples=100, deadline=None)
 def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], k: int) -> None:

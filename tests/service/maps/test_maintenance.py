@@ -65,6 +65,7 @@ def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir
         assert (stored.base_sequence, len(stored.layers.recent)) == (6, 0)
 
 
+@pytest.mark.slow
 def test_what_is_written_during_a_fold_stays(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -118,6 +119,7 @@ def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_
         assert state.maps.get("site").base_sequence == 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "bounds",
     [MaintenanceThresholds(log_bytes=100, log_share=0), MaintenanceThresholds(log_commits=4)],

@@ -303,6 +303,7 @@ def test_a_failing_disk_leaves_the_map_as_it_was(
     assert service.post("/maps/yard/segments", content=edit).json()["sequence"] == 2
 
 
+@pytest.mark.slow
 def test_a_robot_has_a_quota_over_all_maps(start: Any, yard: bytes, manifest: Manifest) -> None:
     with start(limits={"robot_segments": 50, "map_segments": 60}) as service:
         assert service.put("/maps/a", content=yard).status_code == 201

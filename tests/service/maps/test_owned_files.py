@@ -91,6 +91,7 @@ def told_by(folder: Path) -> Any:
         return told
 
 
+@pytest.mark.slow
 def test_A28_whatever_is_flipped_in_a_row_is_noticed_or_changes_nothing(
     start: Any,
     data_dir: Path,
@@ -314,6 +315,7 @@ def test_A10_a_log_that_is_removed_is_told_and_nothing_is_lost(
             assert service.get("/maps/shed").status_code == 404
 
 
+@pytest.mark.slow
 def test_A10_a_directory_that_is_moved_and_replaced_is_told(
     start: Any, data_dir: Path, file: bytes
 ) -> None:

@@ -50,6 +50,7 @@ def traced(make: Any) -> tuple[Any, int, int]:
 # A2: a map costs what it holds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 def test_A2_an_index_of_nothing_takes_no_memory(per_byte: int) -> None:
     codes, quantiser = np.zeros((0, 32), np.int8), Quantiser(0.01, per_byte)
@@ -66,6 +67,7 @@ def test_A2_indexes_of_one_code_share_their_tables() -> None:
     assert Nibbles.of(2) is not Nibbles.of(4)
 
 
+@pytest.mark.slow
 def test_A2_an_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> None:
     empty = encode(map_of(random_codes(0), manifest.model_id))
     with start() as service:
@@ -233,6 +235,7 @@ def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir:
 # B19: a rebuild leaves nothing behind
 
 
+@pytest.mark.slow
 def test_B19_a_fold_leaves_one_copy(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -303,6 +306,7 @@ def test_B19_free_memory_goes_back_after_many_writes(
         assert len(released) == 2
 
 
+@pytest.mark.slow
 def test_B19_an_index_is_made_in_pieces() -> None:
     codes = random_codes(100_000, dimension=8)
     for kind, quantiser in ((NibbleIndex, Quantiser(1.0, 4)), (FlatIndex, Quantiser(1.0))):

@@ -189,6 +189,7 @@ def test_an_edit_is_limited_as_other_requests_are(start: Any, edit: Edit) -> Non
         assert_problem(refused, 413, "body-too-large", "1000")
 
 
+@pytest.mark.slow
 def test_ids_are_given_once_whatever_happens(start: Any, edit: Edit) -> None:
     with start() as service:
         service.post("/maps/yard/segments?create=true", content=edit(10))
@@ -209,6 +210,7 @@ def test_ids_are_given_once_whatever_happens(start: Any, edit: Edit) -> None:
         assert service.post("/maps/yard/ids?count=3").json() == {"first": 202, "count": 3}
 
 
+@pytest.mark.slow
 def test_robots_that_write_at_once_lose_nothing(service: Any, edit: Edit) -> None:
     robots = [f"robot-{number}" for number in range(6)]
 

@@ -45,6 +45,7 @@ def robot_at(service: Any, seed: int) -> Client:
     )
 
 
+@pytest.mark.slow
 def test_all_end_with_the_same_map(service: Any, manifest: Manifest) -> None:
     def drive(number: int) -> MapCopy:
         name, chance = f"robot-{number}", np.random.default_rng(number)

@@ -190,6 +190,7 @@ def test_a_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
     assert pragma("auto_vacuum") == 2  # incremental
 
 
+@pytest.mark.slow
 def test_what_a_power_cut_leaves_is_a_state_that_was(folder: Path, tmp_path: Path) -> None:
     """Of the log only a part may have come to the disk: all of each call, or nothing."""
     states: list[list[MapHead]] = []

@@ -154,6 +154,7 @@ def test_nonsense_is_told(service: Any, site: str, query: str) -> None:
     assert_problem(service.get(f"{site}/changes?{query}"), 422, "invalid-request")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "cursor", ["1.0123456789abcdef-2.0", "9.{}.0", "1.{}.4294967296", "9999999999999999.{}.1"]
 )
@@ -166,6 +167,7 @@ def test_a_cursor_that_was_made_up_does_no_harm(service: Any, site: str, cursor:
         assert_problem(response, 410, "version-gone")
 
 
+@pytest.mark.slow
 def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
     service: Any, site: str, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -68,6 +68,7 @@ def hall(start: Any, tmp_path: Path, manifest: Manifest) -> Iterator[Any]:
 DIGEST = hashlib.sha256(b"part").hexdigest()
 
 
+@pytest.mark.slow
 def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     document = service.get("/openapi.json").json()

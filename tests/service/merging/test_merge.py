@@ -188,6 +188,7 @@ def test_what_two_robots_saw_at_the_same_time_is_the_same_all_the_same(
     assert told["parts"][1]["repeats"] > 50
 
 
+@pytest.mark.slow
 def test_a_dry_run_tells_what_would_be_and_changes_nothing(stocked: Any) -> None:
     before = stocked.get("/maps").json()
     response = merge(stocked, "site", ["east", "west"], dry_run=True)
@@ -231,6 +232,7 @@ def test_a_merge_is_undone_byte_for_byte(stocked: Any) -> None:
     assert stocked.get("/maps/site").status_code == 404
 
 
+@pytest.mark.slow
 def test_merged_again_nothing_changes(stocked: Any) -> None:
     names = ["east", "west", "north"]
     merge(stocked, "site", names)
@@ -266,6 +268,7 @@ def next_id(service: Any, name: str = "site") -> int:
     return int(service.post(f"/maps/{name}/ids?count=1").json()["first"])
 
 
+@pytest.mark.slow
 def test_as_many_ids_are_taken_as_there_are_new_segments(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
@@ -479,6 +482,7 @@ def test_what_was_replaced_and_another_map_shows_is_left_out(
     assert (again["changed"], again["removed"]) == (0, 0)
 
 
+@pytest.mark.slow
 def test_a_map_put_anew_under_its_name_is_taken_anew(
     stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
 ) -> None:
@@ -514,6 +518,7 @@ def test_a_map_that_was_corrected_is_laid_anew_where_it_moved(
     assert [part[key] for key in ("added", "known", "removed")] == [0, len(west), 0]
 
 
+@pytest.mark.slow
 def test_only_the_map_that_a_segment_was_written_to_replaces_it(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
@@ -775,6 +780,7 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
     monkeypatch.setattr("service.merging.merge.plan_merge", then)
 
 
+@pytest.mark.slow
 def test_a_site_that_was_replaced_meanwhile_is_not_written(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -68,6 +68,7 @@ def test_what_is_put_comes_back_and_is_told(service: Any, stored: str, site: byt
     assert whence(decode(site))[20] == ("west", 100)
 
 
+@pytest.mark.slow
 def test_it_is_there_after_a_restart(start: Any, site: bytes, manifest: Manifest) -> None:
     with start() as service:
         service.put("/maps/site", content=site)

@@ -424,6 +424,7 @@ def test_a_key_sees_its_own_maps_and_sessions(
         assert len(sessions) == 1
 
 
+@pytest.mark.slow
 def test_many_robots_at_once_do_not_disturb_each_other(stocked: Any, body: Any) -> None:
     expected = stocked.post("/localize", json=body).json()
     answers: list[Any] = []

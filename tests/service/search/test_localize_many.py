@@ -355,6 +355,7 @@ def test_B13_maps_of_other_keys_do_not_crowd_out_one_s_own(
                 assert len({names[uid] for uid, *_ in index.keys}) == 1
 
 
+@pytest.mark.slow
 def test_B13_a_shared_index_is_kept_while_little_changes(stocked: Any, manifest: Manifest) -> None:
     body = by_codes(manifest, *seen_in(many(manifest)["map-007"]))
     assert ask(stocked, body)[0]["map"] == "map-007"
