@@ -58,7 +58,7 @@ def test_a_reading_key_does_not_write(start: Any, file: Path, manifest: Manifest
     data = encode(map_of(random_codes(3), manifest.model_id))
     with start(keys_file=file) as service:
         assert_problem(
-            service.put("/maps/yard", content=data, headers=reads), 403, "forbidden", "read maps, but not write"
+            service.put("/maps/yard", content=data, headers=reads), 403, "forbidden", "may read"
         )
         assert service.put("/maps/yard", content=data, headers=writes).status_code == 201
         assert_problem(service.delete("/maps/yard", headers=reads), 403, "forbidden")
