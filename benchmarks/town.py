@@ -14,7 +14,7 @@ from town import City, write_drive
 
 def measure_town(
     folder: Path,
-    metres: float,
+    meters: float,
     scans: int,
     spacing: float = 1.0,
     seed: int = 7,
@@ -24,7 +24,7 @@ def measure_town(
 
     Args:
         folder: gets the drive.
-        metres: of streets in the town.
+        meters: of streets in the town.
         scans: that are driven and measured.
         spacing: metres between them.
 
@@ -36,7 +36,7 @@ def measure_town(
         ValueError: no such town, or too many scans for it.
     """
     started = time.process_time()
-    city = City.build(seed, metres)
+    city = City.build(seed, meters)
     route = city.route(city.planner.every_street())
     planned = time.process_time()
     write_drive(
@@ -56,7 +56,7 @@ def measure_town(
     a_frame = (ended - begun) / max(1, len(segments))
     size = sum(file.stat().st_size for file in drive.scan_files) / scans
     return {
-        "street_metres": round(city.network.metres(), 1),
+        "street_metres": round(city.network.meters(), 1),
         "route_metres": round(route.length(), 1),
         "seed": seed,
         "spacing_m": spacing,

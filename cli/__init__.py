@@ -22,8 +22,18 @@ from cli.study import study
 from cli.town import town
 from cli.train import train
 
+OLD_SPELLINGS = {"metres": "meters", "pair-metres": "pair-meters", "licence": "license"}
+"""Options that were spelled the British way, and are still accepted so."""
+
+
+def current_spelling(word: str) -> str:
+    """Return the present name of an option."""
+    return OLD_SPELLINGS.get(word, word)
+
+
 app = typer.Typer(
     name="placecell",
+    context_settings={"token_normalize_func": current_spelling},
     cls=Commands,
     help="Place recognition for robot teams: learned 3D segment descriptors, served over HTTP.",
     no_args_is_help=True,

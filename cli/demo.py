@@ -67,7 +67,7 @@ def demo(
     typer.echo(f"pictures: {output / 'matches.png'}, {output / 'site.png'}")
     if not outcome.score.findable:
         fail("no segment of robot B lies in robot A's map; nothing could be recognised")
-    if not outcome.score.recognised:
+    if not outcome.score.recognized:
         fail("robot B was not recognised: its candidates are hardly better than chance")
     meeting = outcome.meeting
     assert meeting is not None  # it was asked for
@@ -95,8 +95,8 @@ def conclude(meeting: "Meeting") -> list[tuple[str, str]]:
     if meeting.laid is None:
         merged = f"the two maps could not be laid on each other ({meeting.refusal})"
     elif not meeting.is_merged:
-        metres, degrees = meeting.off
-        merged = f"the two maps were laid on each other {metres:.1f} m and {degrees:.1f} deg off"
+        meters, degrees = meeting.off
+        merged = f"the two maps were laid on each other {meters:.1f} m and {degrees:.1f} deg off"
     return [
         ("robot B knows where it is in robot A's map", poses),
         ("both robots share one map", merged),

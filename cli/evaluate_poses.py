@@ -70,13 +70,13 @@ def evaluate_poses(
     from evaluation.poses.evaluate import draw, evaluate
     from evaluation.poses.queries import Pair
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
-    from placecell.localization import LocalisationParameters
+    from placecell.localization import LocalizationParameters
 
     with clear_errors():
         if motion not in {"yaw", "se3"}:
             raise ValueError(f"--motion is yaw or se3, not {motion!r}")
         pair = Pair.of(map_drive, query_drive, every, (map_recording, query_recording), show)
-        parameters = LocalisationParameters(model="se3" if motion == "se3" else "yaw")
+        parameters = LocalizationParameters(model="se3" if motion == "se3" else "yaw")
         folder = model_folder(model or DEFAULT_MODEL)
         report, rows = evaluate(pair, folder, k, parameters, session, queries, seed, progress=show)
         write_json(report, json_file)

@@ -47,8 +47,8 @@ def experiments(
         bool,
         typer.Option("--quick", help="A smoke run: few epochs, one seed, the fast network alone."),
     ] = False,
-    licence: Annotated[
-        str, typer.Option(help="Licence of the drives, for the models' cards.")
+    license_name: Annotated[
+        str, typer.Option("--license", help="License of the drives, for the models' cards.")
     ] = "not stated",
 ) -> None:
     """Train the paper's three methods, compare them with the baseline, and write the report.
@@ -88,7 +88,7 @@ def experiments(
             training_sources, test_source = [a], b
         with Progress(console=progress_console()) as progress:
             report = run_experiments(
-                training_sources, test_source, plan, folder, licence, command, progress
+                training_sources, test_source, plan, folder, license_name, command, progress
             )
         file = write_report(report, folder)
     typer.echo(f"report: {file}")

@@ -32,13 +32,13 @@ def study(
         from evaluation.plots import studies
         from evaluation.recognition.evaluate import open_models
         from evaluation.recognition.study import study as study_of
-        from placecell.core.parameters import SURROUNDINGS_V1
+        from placecell.core.parameters import NEIGHBORHOOD_V1
         from training.data.training_set import TrainingSet
 
         output.mkdir(parents=True, exist_ok=True)
         models = open_models(model or ())
         part = source(drive)
-        test = TrainingSet.of([part], SURROUNDINGS_V1)
+        test = TrainingSet.of([part], NEIGHBORHOOD_V1)
         curves = {
             name: {"model_id": extractor.manifest.model_id} | study_of(extractor, test)
             for name, (extractor, _) in track(

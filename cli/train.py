@@ -51,8 +51,8 @@ def train(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on from this run's last checkpoint.")
     ] = False,
-    licence: Annotated[
-        str, typer.Option(help="Licence of the drives, for the model's card.")
+    license_name: Annotated[
+        str, typer.Option("--license", help="License of the drives, for the model's card.")
     ] = "not stated",
 ) -> None:
     """Train an extractor and write it as a model's folder: ONNX, manifest, card.
@@ -62,7 +62,7 @@ def train(
     (III-E). context: the group-based network, and what stands around each segment. eigenvalue:
     SegMatch's features, standardised on the drives; the baseline.
     """
-    from placecell.core.parameters import SURROUNDINGS_V1
+    from placecell.core.parameters import NEIGHBORHOOD_V1
     from placecell.descriptors.shipped_models import MODELS_FOLDER
 
     own = "wide" if method is Method.CONTEXT else "fast"
@@ -73,9 +73,9 @@ def train(
         from training.export.publishing import collect, publish_eigenvalue, retraining
 
         parts = sources(drives)
-        command = retraining(method, parts, licence, seed, *options)
-        around = SURROUNDINGS_V1 if method is Method.CONTEXT else None
-        data = collect(parts, licence, around).stating(seed=seed, command=command)
+        command = retraining(method, parts, license_name, seed, *options)
+        around = NEIGHBORHOOD_V1 if method is Method.CONTEXT else None
+        data = collect(parts, license_name, around).stating(seed=seed, command=command)
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
         else:

@@ -49,14 +49,14 @@ def draw_matches(
     axes.scatter(
         asked[:, 0], asked[:, 1], s=3, color="0.8", label=f"{asker.name}: segments it sent"
     )
-    for robot, shift, colour in ((mapper, 0 * aside, "#1f5fa8"), (asker, aside, "#7a3fa0")):
+    for robot, shift, color in ((mapper, 0 * aside, "#1f5fa8"), (asker, aside, "#7a3fa0")):
         for recording in robot.recordings:
             scans = np.unique(recording.frames)
             path = robot.in_common(robot.drive.poses[scans, :3, 3])[:, :2] + shift
-            axes.plot(*path.T, color=colour, linewidth=2.5)
+            axes.plot(*path.T, color=color, linewidth=2.5)
     answered = [index for index, answer in enumerate(answers) if len(answer.candidates)]
     shown = np.random.default_rng(0).permutation(answered)[:MOST_LINES]
-    for is_right, colour, width in ((False, WRONG, 0.4), (True, RIGHT, 0.9)):
+    for is_right, color, width in ((False, WRONG, 0.4), (True, RIGHT, 0.9)):
         lines = [
             (
                 in_frame(mapper.to_common, answers[index].candidates[:1])[0, :2],
@@ -65,7 +65,7 @@ def draw_matches(
             for index in shown
             if right[index] == is_right
         ]
-        axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, alpha=0.7))
+        axes.add_collection(LineCollection(lines, colors=color, linewidths=width, alpha=0.7))
     handles = [
         Line2D([], [], color="#1f5fa8", linewidth=2.5, label=f"path of {mapper.name}, the map"),
         Line2D([], [], color="#7a3fa0", linewidth=2.5, label=f"path of {asker.name}, moved aside"),

@@ -33,14 +33,14 @@ class PoseAnswer:
 
     sensor: Float64
     place: Float64 | None
-    metres: float
+    meters: float
     degrees: float
     milliseconds: float
 
     @property
     def is_right(self) -> bool:
         """Whether the pose is as near to the truth as a right one must be."""
-        return self.metres <= RIGHT[0] and self.degrees <= RIGHT[1]
+        return self.meters <= RIGHT[0] and self.degrees <= RIGHT[1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ class Meeting:
             "poses_right": len(right),
             "poses_wrong": told - len(right),
             "not_localised": len(self.told) - told,
-            "pose_median_m": _median([each.metres for each in right]),
+            "pose_median_m": _median([each.meters for each in right]),
             "pose_median_deg": _median([each.degrees for each in right]),
             "localize_p50_ms": round(float(np.median(milliseconds)), 1),
             "maps_merged": self.laid is not None,
@@ -122,8 +122,8 @@ def localize_and_merge(
     assert part.pose is not None  # else the answer would be that error
     laid = Pose.of_matrix(part.pose.matrix)
     middle = asker.drive.poses[:, :3, 3].mean(axis=0)
-    metres, angle = laid.difference(truth, middle)
-    off = metres, float(np.degrees(angle))
+    meters, angle = laid.difference(truth, middle)
+    off = meters, float(np.degrees(angle))
     return Meeting(told, laid, off, merge.segments, part.repeats)
 
 
@@ -138,8 +138,8 @@ def _ask(
     if answer.best is None or answer.best.pose is None:
         return PoseAnswer(here, None, np.inf, np.inf, milliseconds)
     pose = Pose.of_matrix(answer.best.pose.matrix)
-    metres, angle = pose.difference(truth, sensor)
-    return PoseAnswer(here, pose.apply(sensor), metres, float(np.degrees(angle)), milliseconds)
+    meters, angle = pose.difference(truth, sensor)
+    return PoseAnswer(here, pose.apply(sensor), meters, float(np.degrees(angle)), milliseconds)
 
 
 def in_own_frame(robot: Robot, frame: Pose) -> Robot:

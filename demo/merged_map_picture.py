@@ -37,11 +37,11 @@ def draw_site(
         label = f"segments of {asker.name}, aligned"
         axes.plot([], [], "o", color=ASKER, markersize=4, label=label)
     told = [each for each in meeting.told if each.place is not None]
-    for right, colour, what in ((True, RIGHT, "right"), (False, WRONG, "wrong")):
+    for right, color, what in ((True, RIGHT, "right"), (False, WRONG, "wrong")):
         places = np.array([each.place for each in told if each.is_right == right]).reshape(-1, 3)
         label = f"pose of {asker.name}, {what}: {len(places)}"
         axes.plot(
-            *places[:, :2].T, "o", color=colour, markersize=7, markeredgecolor="black", label=label
+            *places[:, :2].T, "o", color=color, markersize=7, markeredgecolor="black", label=label
         )
     unknown = np.array([each.sensor for each in meeting.told if each.place is None]).reshape(-1, 3)
     label = f"not localized: {len(unknown)}"

@@ -18,7 +18,7 @@ K = 25
 REQUESTS = 60
 """Frames that robot B asks about: enough for percentiles, few enough to wait for."""
 
-SHORT_METRES = 24.0
+SHORT_METERS = 24.0
 """Below two blocks of 12 m a drive is short."""
 
 
@@ -96,4 +96,4 @@ def run_demo(
 
 def is_short(drive: Drive) -> bool:
     """Whether a drive has less than two whole blocks."""
-    return drive.path_length() < SHORT_METRES
+    return drive.path_length() < SHORT_METERS

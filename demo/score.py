@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from evaluation.poses.robot import Answer
 from placecell.core.types import Bool, Float64
 
-RIGHT_METRES = 1.5
+RIGHT_METERS = 1.5
 CUTS = (1, 5, 25)
 BETTER_THAN_CHANCE = 3.0
 
@@ -34,7 +34,7 @@ class Score:
     first_is_right: Bool
 
     @property
-    def recognised(self) -> bool:
+    def recognized(self) -> bool:
         """Whether first candidates are right far more often than by chance."""
         return bool(self.right) and self.right[1] > BETTER_THAN_CHANCE * self.chance
 
@@ -48,7 +48,7 @@ def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64)
     """
     truth = cKDTree(in_frame(to_common, map_centroids))
     around = np.array(
-        [len(truth.query_ball_point(answer.centroid, RIGHT_METRES)) for answer in answers]
+        [len(truth.query_ball_point(answer.centroid, RIGHT_METERS)) for answer in answers]
     )
     findable = around > 0
     chance = float(around[findable].mean() / len(map_centroids)) if findable.any() else 0.0
@@ -60,7 +60,7 @@ def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64)
 def first_right(answer: Answer, to_common: Float64) -> float:
     """Rank of the first right candidate, from 0; infinite if there is none."""
     offsets = in_frame(to_common, answer.candidates) - answer.centroid
-    right = np.flatnonzero(np.linalg.norm(offsets, axis=1) <= RIGHT_METRES)
+    right = np.flatnonzero(np.linalg.norm(offsets, axis=1) <= RIGHT_METERS)
     return float(right[0]) if len(right) else np.inf
 
 

@@ -27,14 +27,14 @@ def training_curves(models: Models, network: str, file: Path) -> None:
                 if (model["method"], model["network"], model["ablation"]) != (method, network, ""):
                     continue
                 epochs = range(1, len(model["history"]) + 1)
-                for key, colour, name in (
+                for key, color, name in (
                     (training, "C0", "training"),
                     (validation, "C1", "validation"),
                 ):
                     # Where no group was large enough, no segment could be held out.
                     values = [epoch.get(key, np.nan) for epoch in model["history"]]
                     shown = name if model["seed"] == 0 else None
-                    place.plot(epochs, values, color=colour, label=shown, linewidth=1)
+                    place.plot(epochs, values, color=color, label=shown, linewidth=1)
             place.set(title=method, xlabel="epoch", ylabel=label, ylim=(0, 1))
             place.legend(loc="lower right")
             place.grid(alpha=0.3)
@@ -73,13 +73,13 @@ def distance_distributions(models: Models, names: list[str], file: Path) -> None
     with figure(file, len(names)) as axes:
         for place, name in zip(axes, names, strict=True):
             distances = models[name]["distances"]
-            for kind, colour in (("positive", "C2"), ("negative", "C3")):
+            for kind, color in (("positive", "C2"), ("negative", "C3")):
                 place.stairs(
                     distances[kind],
                     distances["edges"],
                     fill=True,
                     alpha=0.5,
-                    color=colour,
+                    color=color,
                     label=kind,
                 )
             place.set(title=name, xlabel="distance", ylabel="density")

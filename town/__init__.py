@@ -11,7 +11,7 @@ writes two drives along the same streets in opposite directions, in the KITTI od
     route = Route.wander(town.plan, town.terrain, length=400.0)
     write_drive(Path("out/drive"), town, route, traffic_seed=1, scans=350)
 
-writes one. A large town has tens of kilometres of streets, of which only what is near is built:
+writes one. A large town has tens of kilometers of streets, of which only what is near is built:
 
     city = City.build(seed=7, metres=20_000.0)
     route = city.route(city.planner.every_street())

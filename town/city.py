@@ -1,4 +1,4 @@
-"""A large town: tens of kilometres of streets, of which only what is near the sensor is built."""
+"""A large town: tens of kilometers of streets, of which only what is near the sensor is built."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class City:
     """What does not change between two drives, in tiles: a block and two of its streets each.
 
     Each tile follows from the seed and its place alone, whatever was built before it. Town frame:
-    metres, x and y level, z up.
+    meters, x and y level, z up.
 
     Attributes:
         seed: it follows from.
@@ -40,18 +40,18 @@ class City:
     terraces: tuple[Terrace, ...]
 
     @classmethod
-    def build(cls, seed: int, metres: float, look_alikes: float = 0.25) -> Self:
+    def build(cls, seed: int, meters: float, look_alikes: float = 0.25) -> Self:
         """The large town of this seed.
 
         Args:
-            metres: of streets in all; there are up to a street's length more, and half a kilometre
+            meters: of streets in all; there are up to a street's length more, and half a kilometer
                 at least.
             look_alikes: the share of the streets that identical houses line.
 
         Raises:
-            ValueError: no number of metres that a town can have, or no share.
+            ValueError: no number of meters that a town can have, or no share.
         """
-        network = Network.draw(seed, metres, look_alikes)
+        network = Network.draw(seed, meters, look_alikes)
         designs = [Terrace.draw(np.random.default_rng([seed, 5, n])) for n in range(DESIGNS)]
         return cls(seed, network, tuple(designs))
 
@@ -62,7 +62,7 @@ class City:
 
     @cached_property
     def ground(self) -> Ground:
-        """Carriageways, kerbs and blocks."""
+        """Carriageways, curbs and blocks."""
         return Ground.of(self.network.plan, self.network.terrain, self.network.raised())
 
     def route(self, way: Sequence[Crossing], lane_offset: float = 1.6) -> Route:
@@ -91,7 +91,7 @@ class City:
         """What a sensor can see on one day, built as it comes near.
 
         Args:
-            reach: how far the sensor sees, metres.
+            reach: how far the sensor sees, meters.
         """
         return Tiles(
             self.ground.boxes(), lambda column, row: self.tile(column, row, traffic_seed), reach
@@ -101,7 +101,7 @@ class City:
         """Which identical houses stand in the street at each place of the town frame: (n,).
 
         Args:
-            places: (n, 2), metres.
+            places: (n, 2), meters.
         """
         lines = list(self.network.lines())
         street = np.repeat(np.arange(len(lines)), [len(line) for line in lines])

@@ -10,10 +10,10 @@ from town.geometry.mesh import Mesh
 from town.geometry.scene import Scene
 
 CELL = 80.0
-"""A scene serves a square of this edge, metres."""
+"""A scene serves a square of this edge, meters."""
 
 SLACK = 15.0
-"""What stands in a tile may jut out of it, and a sensor moves while it sweeps: metres."""
+"""What stands in a tile may jut out of it, and a sensor moves while it sweeps: meters."""
 
 KEPT_TILES = 96
 KEPT_SCENES = 3
@@ -32,7 +32,7 @@ class Tiles:
         Args:
             boxes: (columns, rows, 2, 2): lowest and highest x and y of each tile, town frame.
             build: makes the tile of a column and row.
-            reach: how far the sensor sees, metres.
+            reach: how far the sensor sees, meters.
         """
         self._tile = lru_cache(KEPT_TILES)(build)
         self._scene = lru_cache(KEPT_SCENES)(partial(scene_of_cell, boxes, self._tile, reach))

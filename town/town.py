@@ -18,13 +18,13 @@ from town.streets.terrain import Terrain
 class Town:
     """What does not change between two drives.
 
-    Town frame: metres, x and y level, z up.
+    Town frame: meters, x and y level, z up.
 
     Attributes:
         seed: it follows from.
         plan: the streets.
         terrain: bends the plan and lifts the ground.
-        ground: carriageways, kerbs and blocks, in the town frame.
+        ground: carriageways, curbs and blocks, in the town frame.
         objects: houses, trees, fences and so on.
     """
 

@@ -22,10 +22,10 @@ from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import Extractor, load_extractor, one_thread_session
 from placecell.descriptors.manifest import PAIR_FILE, Manifest
-from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.neighborhood import describe_neighborhood
 from placecell.descriptors.pair_classifier import PairClassifier
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.pipeline import Progress, silent
 
 PAIRS = 1_250
@@ -83,8 +83,8 @@ def measure_inference(
         networks += paper_network(folder, parameters, extractor.manifest.dimension, seed)
 
     works: dict[Any, tuple[Work, int]] = {}
-    occupancy, extents = voxelise(drawn, parameters)
-    around = np.concatenate([describe_surroundings(scan) for scan in scans])
+    occupancy, extents = voxelize(drawn, parameters)
+    around = np.concatenate([describe_neighborhood(scan) for scan in scans])
     inputs: dict[str, np.ndarray[Any, Any]]
     inputs = {"occupancy": occupancy, "extents": extents, "surroundings": around}
     for network in networks:
@@ -96,7 +96,7 @@ def measure_inference(
                 works[network, batch, threads] = (work, threads)
     for threads in plan.threads:
         works["preprocessing", threads] = (preprocessing_work(drawn, parameters), threads)
-        works["surroundings", threads] = (work_of(scans, describe_surroundings), threads)
+        works["surroundings", threads] = (work_of(scans, describe_neighborhood), threads)
     works["points in"] = (work_of(scans, extractor.describe), max(plan.threads))
     rates = measure_rates(works, plan.repeats, plan.seconds, progress)
 
@@ -172,7 +172,7 @@ def preprocessing_work(segments: Segments, parameters: Parameters, batch: int = 
         segments.take(np.arange(first, min(first + batch, len(segments))))
         for first in range(0, len(segments), batch)
     ]
-    return work_of(parts, lambda part: voxelise(part, parameters))
+    return work_of(parts, lambda part: voxelize(part, parameters))
 
 
 def measure_latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:

@@ -14,7 +14,7 @@ from typing import Any
 
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
-from placecell_client import Client, CompactMap, Description, Localisation, encode
+from placecell_client import Client, CompactMap, Description, Localization, encode
 from placecell_client.maps.edit import take
 
 from benchmarks.load.generator import Load, encode_request, send_from_process
@@ -175,12 +175,12 @@ def _is_right(client: Client, asked: Description, k: int, frame: Pose) -> bool:
     return _is_right_pose(asked, found, frame)
 
 
-def _is_right_pose(asked: Description, found: Localisation | None, frame: Pose) -> bool:
+def _is_right_pose(asked: Description, found: Localization | None, frame: Pose) -> bool:
     if found is None or found.pose is None:
         return False
     middle = asked.centroids.mean(axis=0)
-    metres, angle = Pose.of_matrix(found.pose.matrix).difference(frame.inverse(), middle)
-    return metres <= 1.0 and bool(np.degrees(angle) <= 3.0)
+    meters, angle = Pose.of_matrix(found.pose.matrix).difference(frame.inverse(), middle)
+    return meters <= 1.0 and bool(np.degrees(angle) <= 3.0)
 
 
 def _body(asked: Description, k: int, *, named: bool = True) -> bytes:

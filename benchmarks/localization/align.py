@@ -95,7 +95,7 @@ def measure_alignment(
     """
     file = folder / "pairs.json"
     if not file.is_file():
-        raise ValueError(f"{file}: is not there; 'placecell town --metres M --pairs N' makes it")
+        raise ValueError(f"{file}: is not there; 'placecell town --meters M --pairs N' makes it")
     drawn = json.loads(file.read_text())
     with Local.open(model) as local:
         folders = [folder / name for name in drawn["drives"]]
@@ -127,10 +127,10 @@ def row_of(
     kind: str, pair: dict[str, Any], found: MapAlignment, milliseconds: float
 ) -> dict[str, Any]:
     """What became of a pair, against the truth."""
-    metres = degrees = None
+    meters = degrees = None
     if found.best is not None and found.pose is not None:
         truth, middle = Pose.of_matrix(np.array(pair["b_to_a"])), found.best.source.mean(axis=0)
-        metres, angle = found.pose.difference(truth, middle)
+        meters, angle = found.pose.difference(truth, middle)
         degrees = float(np.degrees(angle))
     best = found.best
     return {
@@ -139,12 +139,12 @@ def row_of(
         "look_alike": pair["look_alike"],
         "aligned": found.pose is not None,
         "reason": found.reason,
-        "metres": metres,
+        "metres": meters,
         "degrees": degrees,
-        "right": metres is not None
+        "right": meters is not None
         and degrees is not None
         and kind == "overlapping"
-        and metres <= RIGHT[0]
+        and meters <= RIGHT[0]
         and degrees <= RIGHT[1],
         "pairs": 0 if best is None else len(best),
         "agreement": 0.0 if best is None else best.agreement,
@@ -188,7 +188,7 @@ def summarize(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
 def draw_alignment(report: dict[str, Any], file: Path) -> None:
     """How much agrees, against how much the maps overlap, as a PNG."""
     with figure(file, 1) as (axes,):
-        for label, colour, aligned, right in (
+        for label, color, aligned, right in (
             ("aligned rightly", "tab:green", True, True),
             ("aligned wrongly", "tab:red", True, False),
             ("not aligned", "0.6", False, False),
@@ -196,7 +196,7 @@ def draw_alignment(report: dict[str, Any], file: Path) -> None:
             wanted = {"aligned": aligned, "right": right}
             rows = [row for row in report["rows"] if wanted.items() <= row.items()]
             overlap, agreement = ([row[name] for row in rows] for name in ("overlap", "agreement"))
-            axes.scatter(overlap, agreement, color=colour, s=12, label=f"{label}: {len(rows)}")
+            axes.scatter(overlap, agreement, color=color, s=12, label=f"{label}: {len(rows)}")
         axes.set(xlabel="overlap of the maps", ylabel="agreement where they overlap")
         axes.legend()
         axes.grid(alpha=0.3)

@@ -21,7 +21,7 @@ from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
 from placecell.core.types import Float32, Float64, Int8, Int64
-from placecell.localization import LocalisationParameters, Pose
+from placecell.localization import LocalizationParameters, Pose
 from placecell.segmentation.pipeline import Progress, silent
 from service.core.metrics import Metrics
 from service.core.settings import Settings
@@ -32,7 +32,7 @@ from service.maps.layers import MapLayers
 from service.maps.shared_index import SharedIndexes
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import MapHead
-from service.search.localization import Group, InMap, localise_among
+from service.search.localization import Group, InMap, localize_among
 
 SIZE = np.array([90.0, 40.0, 4.0])
 """Size of a floor along x, y, z, meters."""
@@ -258,8 +258,8 @@ def run_trial(
             codes = each.sample_views(looks[number], true.things[seen], random)
             groups.append(Group(model, own, codes, here))
     shared = _Shared()
-    answers = localise_among(
-        groups, K, LocalisationParameters(), Timing(), shared.parts, lambda _: None
+    answers = localize_among(
+        groups, K, LocalizationParameters(), Timing(), shared.parts, lambda _: None
     )
     return _outcome(answers, case, share, differs, names[0], frame.inverse(), here)
 
@@ -275,7 +275,7 @@ def _outcome(
 ) -> Trial:
     """Return what the robot makes of the answer."""
     best = answers[0]
-    pose, probability = best.judged.localisation.pose, best.judged.localisation.probability
+    pose, probability = best.judged.localization.pose, best.judged.localization.probability
     is_told = pose is not None
     right = is_told and best.stored.name == name and _near(pose, truth, here)
     told = {each.stored.name for each in answers[:1]} | {
@@ -288,15 +288,15 @@ def _outcome(
         right,
         is_told and not right and probability >= SURE,
         is_told and not right,
-        not is_told and best.judged.localisation.reason == "ambiguous",
+        not is_told and best.judged.localization.reason == "ambiguous",
         not is_told and name in told and len(told) == 2,
     )
 
 
 def _near(pose: Pose | None, truth: Pose, here: Float64) -> bool:
     assert pose is not None
-    metres, angle = pose.difference(truth, here.mean(axis=0))
-    return metres <= NEAR[0] and bool(np.degrees(angle) <= NEAR[1])
+    meters, angle = pose.difference(truth, here.mean(axis=0))
+    return meters <= NEAR[0] and bool(np.degrees(angle) <= NEAR[1])
 
 
 def _extended(floor: Floor, count: int, first: int, random: np.random.Generator) -> Floor:
@@ -329,7 +329,7 @@ def _mapped(
 def _stored(content: CompactMap, model: Model, name: str) -> MapSnapshot:
     layers = MapLayers.of(take(content, np.arange(len(content))))
     head = MapHead(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
-    index = LayeredIndex.of(layers, model.manifest.quantiser)
+    index = LayeredIndex.of(layers, model.manifest.quantizer)
     return MapSnapshot(head, layers, 1, 1, index)
 
 
@@ -340,8 +340,8 @@ class _Shared:
         self.shared = SharedIndexes()
 
     def parts(self, group: Group) -> Any:
-        quantiser = group.model.manifest.quantiser
-        return self.shared.parts(group.searched, group.searched, group.model.id, quantiser, ())
+        quantizer = group.model.manifest.quantizer
+        return self.shared.parts(group.searched, group.searched, group.model.id, quantizer, ())
 
 
 def load_models(folder: Path, names: Sequence[str]) -> list[Model]:

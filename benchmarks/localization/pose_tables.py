@@ -38,7 +38,7 @@ def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
     """
     yield from head(["", *OWN])
     for name, report in cases.items():
-        metres, degrees = report["median_position_error_m"], report["median_yaw_error_deg"]
+        meters, degrees = report["median_position_error_m"], report["median_yaw_error_deg"]
         # Peers have none: which of their poses are sure is for their own rule to say.
         until = report.get("metres_until_localised", {"p95": None})
         yield line(
@@ -46,7 +46,7 @@ def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
                 name,
                 f"{report['queries']:,}",
                 *(bounded(report, key) for key in report["bounds_95"]),
-                "-" if metres is None else f"{metres:.2f} m, {degrees:.2f} deg",
+                "-" if meters is None else f"{meters:.2f} m, {degrees:.2f} deg",
                 "-"
                 if until["p95"] is None
                 else f"{until['median']:.0f} m; 95%: {until['p95']:.0f}",

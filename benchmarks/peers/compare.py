@@ -14,7 +14,7 @@ from benchmarks.peers.frames import Stretch, map_poses, near_map, query_poses
 from benchmarks.peers.runner import REFINED
 from benchmarks.peers.score import score_peer
 from evaluation.machine import machine
-from evaluation.poses.queries import MAPPED_METRES
+from evaluation.poses.queries import MAPPED_METERS
 from placecell.segmentation.pipeline import Progress, silent
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -68,7 +68,7 @@ def compare_peers(
         "query_drive": asking[0].drive.folder.name,
         "map_frames": len(poses),
         "blocks": blocks,
-        "mapped_metres": None if blocks else MAPPED_METRES,
+        "mapped_metres": None if blocks else MAPPED_METERS,
         "protocol": parameters.protocol,
         "every": parameters.frame_step,
         "accumulated_scans": parameters.accumulated_scans,

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from benchmarks.peers.exchange import MAP, POSES, QUERIES, cloud_file
-from evaluation.poses.queries import MAPPED_METRES, spread
+from evaluation.poses.queries import MAPPED_METERS, spread
 from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.types import Bool, Float64
 from placecell.datasets import Drive
@@ -96,7 +96,7 @@ def protocol_with_radius(radius: float | None) -> Parameters:
 def near_map(poses: Float64, truth: Float64) -> Bool:
     """Which queries stand within 10 m of a frame of the map, bool (queries,)."""
     apart, _ = cKDTree(poses[:, :3, 3]).query(truth[:, :3, 3])
-    return np.asarray(apart <= MAPPED_METRES)
+    return np.asarray(apart <= MAPPED_METERS)
 
 
 def map_poses(stretches: Sequence[Stretch]) -> Float64:

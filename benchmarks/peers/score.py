@@ -25,8 +25,8 @@ class Scored:
     @property
     def wrong(self) -> bool:
         """Whether the pose, if there is one, would mislead; accepted or not."""
-        off = self.outcome.metres > OFF[0] or self.outcome.degrees > OFF[1]
-        return off and bool(np.isfinite(self.outcome.metres))
+        off = self.outcome.meters > OFF[0] or self.outcome.degrees > OFF[1]
+        return off and bool(np.isfinite(self.outcome.meters))
 
 
 def score_peer(
@@ -44,12 +44,12 @@ def score_peer(
     ]
     within = [each for each in scored if each.outcome.mapped]
     beyond = [each.outcome for each in scored if not each.outcome.mapped]
-    told = [each.outcome for each in within if each.outcome.localised]
+    told = [each.outcome for each in within if each.outcome.localized]
     p50, p99 = np.percentile([answer.milliseconds for answer in answers], [50, 99])
     return {
         "name": peer.name,
         **shares([each.outcome for each in within]),
-        "median_position_error_m": median([each.metres for each in told]),
+        "median_position_error_m": median([each.meters for each in told]),
         "median_yaw_error_deg": median([each.degrees for each in told]),
         "p50_ms": round(float(p50), 1),
         "p99_ms": round(float(p99), 1),
@@ -67,18 +67,18 @@ def outcome_of(answer: PeerAnswer, true: Float64, *, mapped: bool) -> Outcome:
 
     What a peer's own rule accepts is as good as certain, all else not localised.
     """
-    metres = degrees = float("inf")
+    meters = degrees = float("inf")
     if answer.estimate.pose is not None:
         pose = Pose.of_matrix(answer.estimate.pose)
         # The query's frame has its origin at the sensor.
-        metres, angle = pose.difference(Pose.of_matrix(true), np.zeros(3))
+        meters, angle = pose.difference(Pose.of_matrix(true), np.zeros(3))
         degrees = float(np.degrees(angle))
     return Outcome(
         reason="" if answer.estimate.sure else "not accepted",
         probability=1.0 if answer.estimate.sure else 0.0,
-        metres=metres,
+        meters=meters,
         degrees=degrees,
-        normalised=float("nan"),
+        normalized=float("nan"),
         milliseconds=answer.milliseconds,
         driven=0.0,
         mapped=mapped,

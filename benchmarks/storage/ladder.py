@@ -12,7 +12,7 @@ from evaluation.machine import machine
 from evaluation.recognition.evaluate import retrieval
 from placecell.core.types import Bool, Float32
 from placecell.descriptors.extractor import Extractor
-from placecell.descriptors.quantizer import LEVELS, Quantiser
+from placecell.descriptors.quantizer import LEVELS, Quantizer
 from placecell.segmentation.recording import Recording
 
 PRODUCT_BYTES = (8, 16, 32, 64)
@@ -36,12 +36,12 @@ def measure_compression(
             f"{recording.name}: {int(tested.sum())} segments in scans {scans[0]} to {scans[1]} and "
             f"{int(fitted.sum())} in others; 100 and 1,000 are needed"
         )
-    around = extractor.manifest.surroundings
-    seen = None if around is None else recording.surroundings(around)
+    around = extractor.manifest.neighborhood
+    seen = None if around is None else recording.neighborhood(around)
     found = extractor.describe(recording.segments, seen)
     chosen = np.flatnonzero(tested)
     segments, groups = recording.segments.take(chosen), recording.groups[chosen]
-    shipped = extractor.manifest.quantiser
+    shipped = extractor.manifest.quantizer
     rows = [
         {"storage": name, "bytes": size, "shipped": name == "as shipped"}
         | retrieval(stored, segments, groups)
@@ -60,7 +60,7 @@ def measure_compression(
 
 
 def storage_formats(
-    found: Float32, tested: Bool, fitted: Bool, shipped: Quantiser
+    found: Float32, tested: Bool, fitted: Bool, shipped: Quantizer
 ) -> Iterator[tuple[str, float, Float32]]:
     """Each way's name, its bytes a segment, and the tested descriptors as it gives them back."""
     asked, known = found[tested], found[fitted]
@@ -69,11 +69,11 @@ def storage_formats(
     yield "float16", 2.0 * dimension, asked.astype(np.float16).astype(np.float32)
     for per_byte, levels in LEVELS.items():
         if dimension % per_byte == 0:
-            quantiser = Quantiser.fit(known, per_byte)
+            quantizer = Quantizer.fit(known, per_byte)
             yield (
                 f"{levels} levels",
                 dimension / per_byte,
-                quantiser.decode(quantiser.encode(asked)),
+                quantizer.decode(quantizer.encode(asked)),
             )
     yield "as shipped", shipped.code_bytes(dimension), shipped.decode(shipped.encode(asked))
     for size in PRODUCT_BYTES:

@@ -25,7 +25,7 @@ from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.figure import figure
 from evaluation.machine import machine
 from placecell.core.types import Int64
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
 from placecell.segmentation.pipeline import Progress, silent
 from service.api.body.body import MSGPACK
@@ -66,7 +66,7 @@ def _row(
         client.put_map(MAP, file)
         spent = time.perf_counter() - started
         row["upload_segments_per_second"] = round(len(content.codes) / spent)
-        row |= _recognised(client, content)
+        row |= _recognized(client, content)
         idle = asyncio.run(_asked(address, content, plan, data))
         row |= {f"idle_match_50_{key}_ms": idle[key] for key in ("p50", "p99")}
         row["memory_mb"] = round(read_process_metrics(address)["resident_mb"] - empty, 1)
@@ -108,10 +108,10 @@ def _written_to(
     return row
 
 
-def _recognised(client: Client, content: SampledMap) -> dict[str, float]:
+def _recognized(client: Client, content: SampledMap) -> dict[str, float]:
     """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
     model = client.info().model
-    exact = _by_comparing_all(content, Quantiser(model["step"], model["per_byte"]))
+    exact = _by_comparing_all(content, Quantizer(model["step"], model["per_byte"]))
     found = []
     for start in range(0, len(content.query_codes), 500):
         codes = content.query_codes[start : start + 500]
@@ -130,12 +130,12 @@ def _recognised(client: Client, content: SampledMap) -> dict[str, float]:
     }
 
 
-def _by_comparing_all(content: SampledMap, quantiser: Quantiser) -> Int64:
+def _by_comparing_all(content: SampledMap, quantizer: Quantizer) -> Int64:
     """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
     nearest = faiss.ResultHeap(len(content.query_codes), 25)
-    asked = quantiser.levels(content.query_codes).astype(np.float32)
+    asked = quantizer.levels(content.query_codes).astype(np.float32)
     for start in range(0, len(content.codes), 100_000):
-        some = quantiser.levels(content.codes[start : start + 100_000]).astype(np.float32)
+        some = quantizer.levels(content.codes[start : start + 100_000]).astype(np.float32)
         distances, rows = faiss.knn(asked, some, 25)
         nearest.add_result(distances, rows + start)
     nearest.finalize()

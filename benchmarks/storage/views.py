@@ -7,7 +7,7 @@ from placecell_client import CompactMap
 from placecell_client.maps.edit import empty
 
 from evaluation.machine import machine
-from evaluation.recognition.retrieval import CANDIDATES, CROSS_VIEW_METRES, distance_rows
+from evaluation.recognition.retrieval import CANDIDATES, CROSS_VIEW_METERS, distance_rows
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
@@ -36,18 +36,18 @@ def measure_views(
     Raises:
         ValueError: there is nothing to ask for.
     """
-    around = extractor.manifest.surroundings
-    seen = None if around is None else recording.surroundings(around)
+    around = extractor.manifest.neighborhood
+    seen = None if around is None else recording.neighborhood(around)
     rows = np.flatnonzero(recording.within(*scans))
     segments, groups = recording.segments.take(rows), recording.groups[rows]
     manifest = extractor.manifest
     found = extractor.describe(segments, None if seen is None else seen[rows])
-    codes = manifest.quantiser.encode(found)
+    codes = manifest.quantizer.encode(found)
     content = _map_of(codes, segments, recording.frames[rows], manifest.model_id)
     nothing = empty(content.model_id, content.preprocessing, content.frame, content.code_bytes)
     same = SameView.of(manifest)
 
-    asked = _Asked(manifest.quantiser.levels(codes).astype(np.float32), groups, segments.sensors)
+    asked = _Asked(manifest.quantizer.levels(codes).astype(np.float32), groups, segments.sensors)
     if not len(asked.queries):
         raise ValueError(f"{recording.name}: no segment has a mate seen from more than 10 m away")
     random = np.random.default_rng(seed)
@@ -112,7 +112,7 @@ class _Asked:
 
     def _is_close(self, row: int) -> Bool:
         offsets = self._sensors - self._sensors[row]
-        return np.asarray((offsets**2).sum(axis=1) <= CROSS_VIEW_METRES**2)
+        return np.asarray((offsets**2).sum(axis=1) <= CROSS_VIEW_METERS**2)
 
     def with_stored(self, stored: Bool) -> dict[str, float]:
         """How many of the queries find a mate among these segments."""

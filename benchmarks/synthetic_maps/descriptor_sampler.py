@@ -64,9 +64,9 @@ class DescriptorSampler:
         Raises:
             ValueError: no group was seen from places far enough apart.
         """
-        around = extractor.manifest.surroundings
+        around = extractor.manifest.neighborhood
         chosen = np.flatnonzero(recording.distinct)
-        seen = None if around is None else recording.surroundings(around)[chosen]
+        seen = None if around is None else recording.neighborhood(around)[chosen]
         found = extractor.describe(recording.segments.take(chosen), seen)
         groups = recording.groups[chosen]
         # In random order within their groups: each with the next of its group.
@@ -110,4 +110,4 @@ class DescriptorSampler:
     def sample_views(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
         """Draw a view of each of these things, int8 (n, code bytes)."""
         apart = self.apart[random.integers(len(self.apart), size=len(things))]
-        return self.manifest.quantiser.encode(base[things] + apart)
+        return self.manifest.quantizer.encode(base[things] + apart)

@@ -11,7 +11,7 @@ from cli.tables import new_table, print_tables
 
 
 def align(
-    town: Annotated[Path, typer.Argument(help="Folder of 'placecell town --metres M --pairs N'.")],
+    town: Annotated[Path, typer.Argument(help="Folder of 'placecell town --meters M --pairs N'.")],
     model: Annotated[
         str | None,
         typer.Option(help="A model's name or folder. (default: the one that is served)"),

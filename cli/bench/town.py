@@ -11,7 +11,7 @@ from cli.sources import clear_errors, show
 
 
 def town(
-    metres: Annotated[float, typer.Option(help="Of streets in the town.")] = 5000.0,
+    meters: Annotated[float, typer.Option(help="Of streets in the town.")] = 5000.0,
     scans: Annotated[int, typer.Option(min=2, help="Scans that are driven and measured.")] = 400,
     spacing: Annotated[float, typer.Option(min=0.05, help="Metres between scans.")] = 1.0,
     json_file: JsonFile = None,
@@ -25,6 +25,6 @@ def town(
     from benchmarks.town import measure_town
 
     with clear_errors():
-        report = measure_town(output / "streets", metres, scans, spacing, seed, show)
+        report = measure_town(output / "streets", meters, scans, spacing, seed, show)
         write_json(report, json_file)
     typer.echo(json.dumps(report, indent=2))

@@ -21,7 +21,7 @@ def town(
     spacing: options.Spacing = 1.0,
     columns: options.Columns = 1000,
     overwrite: options.Overwrite = False,
-    metres: options.Metres = None,
+    meters: options.Meters = None,
     look_alikes: options.LookAlikes = 0.25,
     route: options.RouteText = "all",
     start: options.Start = 0.0,
@@ -32,7 +32,7 @@ def town(
     yaw_drift: options.YawDrift = 0.05,
     scale_drift: options.ScaleDrift = 0.01,
     pairs: options.Pairs = 0,
-    pair_metres: options.PairMetres = 300.0,
+    pair_meters: options.PairMeters = 300.0,
     picture: options.Picture = None,
     json_file: options.JsonFile = None,
 ) -> None:
@@ -41,15 +41,15 @@ def town(
     Writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout: 64 beams, parked cars
     changed between the drives. The same seed gives the same files.
 
-    With --metres the town is large, and the drives have a second file of poses, poses_odometry.txt,
+    With --meters the town is large, and the drives have a second file of poses, poses_odometry.txt,
     in which the robots' odometry drifts. Five kilometres of streets, all of them driven both ways:
 
-        placecell town out/town5 --metres 5000 --picture out/town5.png
+        placecell town out/town5 --meters 5000 --picture out/town5.png
 
     A scan takes about a megabyte and a fortieth of a second: see docs/explanation/town.md.
     """
     with clear_errors():
-        if metres is None:
+        if meters is None:
             refuse_options_of_large_towns(context)
             small_town(output, seed, scans or options.SCANS, spacing, columns, overwrite)
             return
@@ -57,10 +57,10 @@ def town(
             raise ValueError("--pairs needs two robots or more")
         from town import HDL_64E, City, Odometry, several_robots
 
-        city = City.build(seed, metres, look_alikes)
+        city = City.build(seed, meters, look_alikes)
         way = city.route(planned(city, route), lane)
         # Before anything is driven, for there may be none.
-        drawn = pairs_of(city, way, scans, spacing, start, pairs, pair_metres) if pairs else None
+        drawn = pairs_of(city, way, scans, spacing, start, pairs, pair_meters) if pairs else None
         started = time.perf_counter()
         drives = several_robots(
             output,
@@ -78,7 +78,7 @@ def town(
         )
         figures = {
             "seed": seed,
-            "street_metres": round(city.network.metres(), 1),
+            "street_metres": round(city.network.meters(), 1),
             "streets": len(city.network.streets),
             "route_metres": round(way.length(), 1),
             "scans": {drive.name: len(list((drive / "velodyne").iterdir())) for drive in drives},
@@ -104,7 +104,7 @@ def refuse_options_of_large_towns(context: typer.Context) -> None:
         source = context.get_parameter_source(str(parameter.name))
         given = source is not None and source.name == "COMMANDLINE"
         if given and getattr(parameter, "rich_help_panel", None) == options.LARGE:
-            raise ValueError(f"{parameter.opts[0]} needs a large town: give --metres too")
+            raise ValueError(f"{parameter.opts[0]} needs a large town: give --meters too")
 
 
 def small_town(

@@ -39,18 +39,18 @@ def pairs_of(
     spacing: float,
     start: float,
     count: int,
-    metres: float,
+    meters: float,
 ) -> dict[str, Any]:
     """Pairs of stretches of the first two robots' drives along a route."""
     from town import Traversal, draw_pairs, way_of
 
     ways = [way_of(number, route, scans, spacing, start) for number in (0, 1)]
     a, b = (Traversal.of(*way, spacing) for way in ways)
-    overlapping, apart = draw_pairs(city, a, b, count, metres, city.seed)
+    overlapping, apart = draw_pairs(city, a, b, count, meters, city.seed)
     return {
         "seed": city.seed,
-        "street_metres": round(city.network.metres(), 1),
-        "metres": metres,
+        "street_metres": round(city.network.meters(), 1),
+        "metres": meters,
         "drives": ["robot_a", "robot_b"],
         "overlapping": [pair.as_dict() for pair in overlapping],
         "apart": [pair.as_dict() for pair in apart],

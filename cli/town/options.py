@@ -8,7 +8,7 @@ import typer
 SCANS = 120
 """Of a drive through the small town."""
 
-LARGE = "Large town (with --metres)"
+LARGE = "Large town (with --meters)"
 
 Output = Annotated[Path, typer.Argument(help="Folder for the drives.")]
 Seed = Annotated[
@@ -23,7 +23,7 @@ Scans = Annotated[
 Spacing = Annotated[float, typer.Option(min=0.05, help="Metres between scans.")]
 Columns = Annotated[int, typer.Option(min=16, help="Azimuth steps a turn of the sensor.")]
 Overwrite = Annotated[bool, typer.Option(help="Replace drives that are there.")]
-Metres = Annotated[
+Meters = Annotated[
     float | None,
     typer.Option(
         help="Of streets, up to 200,000: a large town; only what is near the sensor is built.",
@@ -123,7 +123,7 @@ Pairs = Annotated[
         rich_help_panel=LARGE,
     ),
 ]
-PairMetres = Annotated[
+PairMeters = Annotated[
     float, typer.Option(min=1.0, help="Of each such stretch.", rich_help_panel=LARGE)
 ]
 Picture = Annotated[

@@ -26,8 +26,8 @@ from placecell_client.results.core import (
 from placecell_client.results.localization import (
     Hypothesis,
     Inliers,
-    Localisation,
-    Localisations,
+    Localization,
+    Localizations,
     Pose,
     Rival,
 )
@@ -45,8 +45,8 @@ __all__ = [
     "Info",
     "Inliers",
     "ItemError",
-    "Localisation",
-    "Localisations",
+    "Localization",
+    "Localizations",
     "MapAlignment",
     "MapCopy",
     "MapFileError",

@@ -34,7 +34,7 @@ from placecell_client.results.core import (
     PartialUpload,
     Written,
 )
-from placecell_client.results.localization import Localisations, Motion
+from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 
 T = TypeVar("T")
@@ -112,7 +112,7 @@ class AsyncClient(Caller):
         k: int = 25,
         motion: Motion = "yaw",
         session: str | None = None,
-    ) -> Localisations:
+    ) -> Localizations:
         """`Client.localize`."""
         return await self._send(
             self._calls.localize(description, segments, sensors, maps, k, motion, session)

@@ -32,7 +32,7 @@ from placecell_client.results.core import (
     PartialUpload,
     Written,
 )
-from placecell_client.results.localization import Localisations, Motion
+from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 
 T = TypeVar("T")
@@ -146,7 +146,7 @@ class Client(Caller):
         k: int = 25,
         motion: Motion = "yaw",
         session: str | None = None,
-    ) -> Localisations:
+    ) -> Localizations:
         """Where in the maps the robot is; in each that can be said of, with how sure that is.
 
         Args:

@@ -20,7 +20,7 @@ from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame
 from evaluation.poses.report import RIGHT, reliability_of
 from placecell.core.types import Bool, Float64, Int64
-from placecell.localization import Confidence, LocalisationParameters, Pose
+from placecell.localization import Confidence, LocalizationParameters, Pose
 from placecell.localization.confidence import FEATURES
 from placecell.segmentation.pipeline import Progress, silent
 
@@ -169,8 +169,8 @@ def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> C
                 *((each, f"joined-{way}", there) for each in (query, *parts(query, random, (12,)))),
             ]
             for each, name, truth in asked:
-                found, _ = local.localise(
-                    each.codes, each.centroids, name, K, LocalisationParameters()
+                found, _ = local.localize(
+                    each.codes, each.centroids, name, K, LocalizationParameters()
                 )
                 if found.best is not None and found.features is not None:
                     features.append(found.features)
@@ -190,5 +190,5 @@ def parts(
 
 def near(pose: Pose, truth: Pose, sensor: Float64) -> bool:
     """Whether a pose is right."""
-    metres, angle = pose.difference(truth, sensor)
-    return metres <= RIGHT[0] and bool(np.degrees(angle) <= RIGHT[1])
+    meters, angle = pose.difference(truth, sensor)
+    return meters <= RIGHT[0] and bool(np.degrees(angle) <= RIGHT[1])

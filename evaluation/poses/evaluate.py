@@ -9,9 +9,9 @@ import numpy as np
 from evaluation.figure import figure
 from evaluation.machine import machine
 from evaluation.poses.local_service import Local
-from evaluation.poses.queries import MAPPED_METRES, Pair, PoseQuery, random_frame
+from evaluation.poses.queries import MAPPED_METERS, Pair, PoseQuery, random_frame
 from evaluation.poses.report import Outcome, report
-from placecell.localization import Localisation, LocalisationParameters
+from placecell.localization import Localization, LocalizationParameters
 from placecell.localization.covariance import at_point
 from placecell.localization.evidence import History, middle_of
 from placecell.segmentation.pipeline import Progress, silent
@@ -23,7 +23,7 @@ def evaluate(
     pair: Pair,
     model: Path,
     k: int = 25,
-    parameters: LocalisationParameters | None = None,
+    parameters: LocalizationParameters | None = None,
     session: bool = False,
     most: int | None = None,
     seed: int = 0,
@@ -45,7 +45,7 @@ def evaluate(
     Raises:
         ValueError: a drive gives no segments.
     """
-    parameters = parameters or LocalisationParameters()
+    parameters = parameters or LocalizationParameters()
     for robot in (pair.mapper, pair.asker):
         robot.check_segments()
     with Local.open(model) as local:
@@ -56,14 +56,14 @@ def evaluate(
         fullest = max(queries, key=lambda each: len(each.codes))
         manifest = local.model.manifest
         # What compiles at its first use does so now.
-        local.localise(fullest.codes, fullest.centroids, MAP, k, parameters)
+        local.localize(fullest.codes, fullest.centroids, MAP, k, parameters)
         history = History(parameters)
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):
             query = queries[number]
             middle = middle_of(query.centroids)
             evidence = history.at(query.time, middle) if session else None
-            found, milliseconds = local.localise(
+            found, milliseconds = local.localize(
                 query.codes, query.centroids, MAP, k, parameters, evidence
             )
             history.add(query.time, middle, found.hypotheses)
@@ -90,15 +90,19 @@ def evaluate(
         "map_segments": len(compact),
         "map_bytes": size,
         "query_segments_mean": round(float(np.mean([len(each.codes) for each in queries])), 1),
-        "mapped_metres": None if pair.blocks else MAPPED_METRES,
+        "mapped_metres": None if pair.blocks else MAPPED_METERS,
     }
     rows = [row_of(*each) for each in zip(queries, outcomes, strict=True)]
     return told | report(outcomes), rows
 
 
+JSON_KEYS = {"meters": "metres", "normalized": "normalised"}
+"""Keys of a row that differ from the attribute's name; recorded rows have them."""
+
+
 def row_of(query: PoseQuery, outcome: Outcome) -> dict[str, Any]:
     """A query and what became of it, as JSON has it: what is infinite or no number is null."""
-    values = asdict(outcome)
+    values = {JSON_KEYS.get(name, name): value for name, value in asdict(outcome).items()}
     return {
         "scan": query.scan,
         "segments": len(query.codes),
@@ -109,13 +113,13 @@ def row_of(query: PoseQuery, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def outcome_of(found: Localisation, query: PoseQuery, milliseconds: float) -> Outcome:
+def outcome_of(found: Localization, query: PoseQuery, milliseconds: float) -> Outcome:
     """Compare with the truth."""
-    metres = degrees = np.inf
-    normalised = np.nan
+    meters = degrees = np.inf
+    normalized = np.nan
     if found.best is not None:
         pose = found.best.pose
-        metres, angle = pose.difference(query.truth, query.sensor)
+        meters, angle = pose.difference(query.truth, query.sensor)
         degrees = float(np.degrees(angle))
         if found.pose is not None:
             covariance = at_point(found.best.covariance, pose, query.sensor)
@@ -126,15 +130,15 @@ def outcome_of(found: Localisation, query: PoseQuery, milliseconds: float) -> Ou
                 query.truth.apply(query.sensor) - pose.apply(query.sensor),
                 np.arctan2(turn[1, 0], turn[0, 0]),
             )
-            normalised = float(error @ np.linalg.solve(covariance[compared], error))
+            normalized = float(error @ np.linalg.solve(covariance[compared], error))
     return Outcome(
         found.reason or "",
         found.probability,
-        metres,
+        meters,
         degrees,
-        normalised,
+        normalized,
         milliseconds,
-        query.metres,
+        query.meters,
         query.mapped,
     )
 

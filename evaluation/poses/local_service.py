@@ -13,7 +13,7 @@ from placecell_client import CompactMap, Description, Info, ItemError, encode
 
 from placecell.core.types import Float64, Int8
 from placecell.descriptors.manifest import Manifest
-from placecell.localization import Localisation, LocalisationParameters
+from placecell.localization import Localization, LocalizationParameters
 from placecell.localization.evidence import Evidence
 from placecell.map_alignment import AlignmentParameters, MapAlignment
 from service.api.state import State, open_state
@@ -25,7 +25,7 @@ from service.inference.model_registry import Model
 from service.inference.scan import Scan
 from service.maps.writes.writer import MapWriter
 from service.merging.alignment import MapSide, align_maps
-from service.search.localization import localise_in
+from service.search.localization import localize_in
 
 
 class Local:
@@ -99,19 +99,19 @@ class Local:
             self._state.maps.delete(name)
         self.put_map(name, compact_map)
 
-    def localise(
+    def localize(
         self,
         codes: Int8,
         centroids: Float64,
         name: str,
         k: int,
-        parameters: LocalisationParameters,
+        parameters: LocalizationParameters,
         evidence: Evidence | None = None,
-    ) -> tuple[Localisation, float]:
+    ) -> tuple[Localization, float]:
         """As `/localize` from codes in one map; and the milliseconds that it took."""
         started = perf_counter()
         stored = self._state.maps.get(name)
-        found = localise_in(codes, centroids, self.model, stored, k, parameters, Timing(), evidence)
+        found = localize_in(codes, centroids, self.model, stored, k, parameters, Timing(), evidence)
         return found, 1e3 * (perf_counter() - started)
 
     def align(self, name: str, other: str) -> tuple[MapAlignment, float]:

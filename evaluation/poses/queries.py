@@ -19,7 +19,7 @@ from placecell.datasets import open_drive
 from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
 
-MAPPED_METRES = 10.0
+MAPPED_METERS = 10.0
 """A query is within the map if the mapping robot was as near as this."""
 
 
@@ -30,7 +30,7 @@ class PoseQuery:
     Attributes:
         scan: of the asking drive.
         time: seconds.
-        metres: driven so far.
+        meters: driven so far.
         codes: int8 (n, code bytes), of all segments that it sees.
         centroids: float64 (n, 3), theirs, metres, in the robot's frame.
         sensor: float64 (3,), where it is, in its own frame.
@@ -40,7 +40,7 @@ class PoseQuery:
 
     scan: int
     time: float
-    metres: float
+    meters: float
     codes: Int8
     centroids: Float64
     sensor: Float64
@@ -113,7 +113,7 @@ class Pair:
         """
         drive = self.asker.drive
         steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
-        metres = np.concatenate([[0.0], np.cumsum(steps)])
+        meters = np.concatenate([[0.0], np.cumsum(steps)])
         to_map = (
             Pose.of_matrix(self.mapper.to_common)
             .inverse()
@@ -130,12 +130,12 @@ class Pair:
             yield PoseQuery(
                 scan=scan,
                 time=float(drive.times[scan]),
-                metres=float(metres[scan]),
+                meters=float(meters[scan]),
                 codes=codes,
                 centroids=frame.apply(centroids),
                 sensor=frame.apply(where),
                 truth=to_map.after(frame.inverse()),
-                mapped=self.blocks or bool(near <= MAPPED_METRES),
+                mapped=self.blocks or bool(near <= MAPPED_METERS),
             )
 
 

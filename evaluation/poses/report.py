@@ -28,7 +28,7 @@ class Outcome:
         reason: why it was not localised; empty if it was.
         probability: of the best hypothesis, localised or not.
         metres, degrees: that its pose is off at the sensor; infinite without one.
-        normalised: squared error of position and yaw by the stated covariance, a chi-square of
+        normalized: squared error of position and yaw by the stated covariance, a chi-square of
             four degrees of freedom were it exact; NaN if it was not localised.
         milliseconds: from descriptors to the pose.
         driven: metres on the way so far.
@@ -37,59 +37,59 @@ class Outcome:
 
     reason: str
     probability: float
-    metres: float
+    meters: float
     degrees: float
-    normalised: float
+    normalized: float
     milliseconds: float
     driven: float
     mapped: bool
 
     @property
-    def localised(self) -> bool:
+    def localized(self) -> bool:
         """Whether a pose was told."""
         return not self.reason
 
     @property
     def right(self) -> bool:
         """Whether the best hypothesis is right, told or not."""
-        return self.metres <= RIGHT[0] and self.degrees <= RIGHT[1]
+        return self.meters <= RIGHT[0] and self.degrees <= RIGHT[1]
 
     @property
     def wrong_but_sure(self) -> bool:
         """Whether the robot was misled."""
-        off = self.metres > OFF[0] or self.degrees > OFF[1]
-        return self.localised and off and self.probability >= SURE
+        off = self.meters > OFF[0] or self.degrees > OFF[1]
+        return self.localized and off and self.probability >= SURE
 
 
 def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """All figures. Shares are of the queries within the map; those beyond it stand apart."""
     within = [each for each in outcomes if each.mapped]
     beyond = [each for each in outcomes if not each.mapped]
-    told = [each for each in within if each.localised]
+    told = [each for each in within if each.localized]
     milliseconds = [each.milliseconds for each in outcomes]
-    normalised = [each.normalised for each in told if each.right]
+    normalized = [each.normalized for each in told if each.right]
     p50, p99 = (round(float(np.percentile(milliseconds, at)), 2) for at in (50, 99))
     return {
         **shares(within),
         "reasons": reasons(within),
-        "median_position_error_m": median([each.metres for each in told]),
+        "median_position_error_m": median([each.meters for each in told]),
         "median_yaw_error_deg": median([each.degrees for each in told]),
         "p50_ms": p50,
         "p99_ms": p99,
         "beyond_the_map": shares(beyond) | {"reasons": reasons(beyond)},
         "precision_recall": precision_recall(within),
         "reliability": reliability(outcomes),
-        "covariance_ratio": median(normalised, stats.chi2.median(4)),
-        "metres_until_localised": until_localised(within),
+        "covariance_ratio": median(normalized, stats.chi2.median(4)),
+        "metres_until_localised": until_localized(within),
     }
 
 
 def shares(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """How many were right, wrong and unknown, with 95% bounds (Clopper and Pearson)."""
     counts = {
-        "localised_right": sum(each.localised and each.right for each in outcomes),
+        "localised_right": sum(each.localized and each.right for each in outcomes),
         "wrong_but_sure": sum(each.wrong_but_sure for each in outcomes),
-        "not_localised": sum(not each.localised for each in outcomes),
+        "not_localised": sum(not each.localized for each in outcomes),
     }
     n = len(outcomes)
     return {
@@ -117,7 +117,7 @@ def precision_recall(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
     """Of those told with a probability or more: how many are right, and of all, how many so."""
     rows = []
     for at in (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995):
-        told = [each for each in outcomes if each.localised and each.probability >= at]
+        told = [each for each in outcomes if each.localized and each.probability >= at]
         right = sum(each.right for each in told)
         if told:
             rows.append(
@@ -151,18 +151,18 @@ def reliability_of(stated: Float64, right: Bool) -> list[dict[str, float]]:
     ]
 
 
-def until_localised(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
+def until_localized(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
     """Metres driven until a pose is right and sure, switched on at each query in turn."""
-    good = [each.localised and each.right and each.probability >= SURE for each in outcomes]
-    metres = []
+    good = [each.localized and each.right and each.probability >= SURE for each in outcomes]
+    meters = []
     for start, first in enumerate(outcomes):
         later = next((i for i in range(start, len(good)) if good[i]), None)
         if later is not None:
-            metres.append(outcomes[later].driven - first.driven)
+            meters.append(outcomes[later].driven - first.driven)
     return {
-        "median": median(metres),
-        "p95": round(float(np.percentile(metres, 95)), 2) if metres else None,
-        "never": len(outcomes) - len(metres),
+        "median": median(meters),
+        "p95": round(float(np.percentile(meters, 95)), 2) if meters else None,
+        "never": len(outcomes) - len(meters),
     }
 
 

@@ -30,7 +30,7 @@ def measure(
     segments: Segments,
     groups: Int64,
     seed: int,
-    surroundings: Float32 | None = None,
+    neighborhood: Float32 | None = None,
 ) -> dict[str, Any]:
     """All figures of one model; None where nothing is there to be measured.
 
@@ -41,13 +41,13 @@ def measure(
     by distance stand beside them in any case.
     """
     manifest = extractor.manifest
-    codes = manifest.quantiser.encode(extractor.describe(segments, surroundings))
-    stored = manifest.quantiser.decode(codes)
-    steps = manifest.quantiser.levels(codes).astype(np.float32)
+    codes = manifest.quantizer.encode(extractor.describe(segments, neighborhood))
+    stored = manifest.quantizer.decode(codes)
+    steps = manifest.quantizer.levels(codes).astype(np.float32)
     figures = {"model_id": manifest.model_id} | retrieval(steps, segments, groups)
-    if manifest.surroundings is not None:
-        nothing = np.zeros((len(segments), manifest.surroundings.size), dtype=np.float32)
-        alone = manifest.quantiser.rounded(extractor.describe(segments, nothing))
+    if manifest.neighborhood is not None:
+        nothing = np.zeros((len(segments), manifest.neighborhood.size), dtype=np.float32)
+        alone = manifest.quantizer.rounded(extractor.describe(segments, nothing))
         in_map = recognition.retrieve(steps, groups, queries=alone)
         figures["alone"] = retrieval(alone, segments, groups) | {"top1_in_map": mean(in_map.right)}
     if classifier is not None:
@@ -82,7 +82,7 @@ def measure(
 def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
     """The figures of nearest neighbours, in whole steps: exact, as the service compares them."""
     found = recognition.retrieve(steps, groups)
-    too_easy = recognition.seen_within(segments.sensors, recognition.CROSS_VIEW_METRES)
+    too_easy = recognition.seen_within(segments.sensors, recognition.CROSS_VIEW_METERS)
     crossed = recognition.retrieve(steps, groups, too_easy)
     return {
         "top1": mean(found.right),
@@ -178,8 +178,8 @@ def evaluate(
     segments, groups = recording.segments.take(chosen), recording.groups[chosen]
     extractors = {}
     for name, (extractor, classifier) in models.items():
-        around = extractor.manifest.surroundings
-        seen = None if around is None else recording.surroundings(around)[chosen]
+        around = extractor.manifest.neighborhood
+        seen = None if around is None else recording.neighborhood(around)[chosen]
         figures = measure(extractor, classifier, segments, groups, seed, seen)
         figures["seen"] = extractor.manifest.has_seen(recording.scan_hashes[first : last + 1])
         extractors[name] = figures

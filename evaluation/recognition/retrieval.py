@@ -14,7 +14,7 @@ from placecell.core.types import Bool, Float32, Float64, Int64
 PAIRS = 20_000
 """Positive pairs, and as many negative."""
 
-CROSS_VIEW_METRES = 10.0
+CROSS_VIEW_METERS = 10.0
 CANDIDATES = 25
 
 
@@ -58,12 +58,12 @@ TooEasy = Callable[[Int64], Bool]
 """For rows (r,): bool (r, segments), of which of them these would be too easy a match."""
 
 
-def seen_within(sensors: Float32, metres: float) -> TooEasy:
+def seen_within(sensors: Float32, meters: float) -> TooEasy:
     """Views from hardly another place: sensors, (segments, 3), within so many metres."""
 
     def too_easy(rows: Int64) -> Bool:
         offsets = sensors[rows, None] - sensors[None]
-        return np.asarray(np.einsum("ijk,ijk->ij", offsets, offsets) <= metres**2)
+        return np.asarray(np.einsum("ijk,ijk->ij", offsets, offsets) <= meters**2)
 
     return too_easy
 

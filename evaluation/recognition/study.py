@@ -17,7 +17,7 @@ from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
 
 SIZES = (100, 150, 250, 400, 700, 1500, 15_001)
-METRES = (0.0, 2.0, 5.0, 10.0, 15.0, 20.0)
+METERS = (0.0, 2.0, 5.0, 10.0, 15.0, 20.0)
 DEGREES = (0.0, 5.0, 10.0, 20.0, 40.0, 60.0)
 SHARES = (0.0, 0.2, 0.4, 0.6, 0.8)
 DIMENSIONS = (8, 16, 24, 32, 48, 64, 96, 128)
@@ -31,17 +31,17 @@ Curve = list[dict[str, Any]]
 
 def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
     """All curves of one model."""
-    quantiser = extractor.manifest.quantiser
-    described = extractor.describe(test.segments, test.surroundings)
-    stored = quantiser.rounded(described)
+    quantizer = extractor.manifest.quantizer
+    described = extractor.describe(test.segments, test.neighborhood)
+    stored = quantizer.rounded(described)
     sensors = test.segments.sensors
     centroids = test.segments.centroids()
     bearings = sensor_bearings(test.segments)
     return {
         "by_points": by_points(test, stored),
         "by_metres": [
-            {"metres": metres} | share(stored, test, retrieval.seen_within(sensors, metres))
-            for metres in METRES
+            {"metres": meters} | share(stored, test, retrieval.seen_within(sensors, meters))
+            for meters in METERS
         ],
         "by_degrees": [
             {"degrees": degrees} | share(stored, test, retrieval.seen_from_angle(bearings, degrees))
@@ -94,8 +94,8 @@ def altered(
     asked = stored
     if lost:
         segments = change.segments(test.segments, np.random.default_rng(0), exactly=True)
-        described = extractor.describe(segments, test.surroundings)
-        asked = extractor.manifest.quantiser.rounded(described)
+        described = extractor.describe(segments, test.neighborhood)
+        asked = extractor.manifest.quantizer.rounded(described)
     found = retrieval.retrieve(stored, test.groups, queries=asked)
     return {"top1": mean(found.right[found.has_mate])}
 
@@ -105,11 +105,11 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
 
     Axes and steps are the test segments' own: what is lost is lost to rounding alone.
     """
-    centre = described.mean(axis=0)
-    axes = np.linalg.svd((described - centre).T @ (described - centre))[2]
+    center = described.mean(axis=0)
+    axes = np.linalg.svd((described - center).T @ (described - center))[2]
     curve = []
     for dimension in sorted({min(d, described.shape[1]) for d in DIMENSIONS}):
-        projected = (described - centre) @ axes[:dimension].T
+        projected = (described - center) @ axes[:dimension].T
         # Spread evenly over the dimensions, as few bits want it.
         turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]
         turned = np.asarray(projected @ turn, dtype=np.float32)

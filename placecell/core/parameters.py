@@ -15,7 +15,7 @@ from placecell.core.types import Int64
 class Parameters:
     """Constants from scans to the network's input (paper, sections III-A and IV).
 
-    Lengths are metres, frames are scans of a drive.
+    Lengths are meters, frames are scans of a drive.
     """
 
     protocol: str = "v1"
@@ -80,13 +80,13 @@ PROTOCOL_V1 = Parameters()
 
 
 @dataclass(frozen=True, slots=True)
-class SurroundingsParameters:
-    """Constants of what is counted around a segment. Lengths are metres."""
+class NeighborhoodParameters:
+    """Constants of what is counted around a segment. Lengths are meters."""
 
     voxel: float = 0.6
     """Edge of the voxels that are counted."""
     rings: tuple[int, ...] = (*range(1, 21), 22, 24, 26, 28, 30, 33, 36, 40)
-    """Outer radii, horizontal, whole metres."""
+    """Outer radii, horizontal, whole meters."""
     heights: tuple[float, ...] = (-2.0, -1.0, -0.3, 0.3, 1.0, 2.0, 4.0)
     """Limits between the layers, above the segment's centroid; the outer ones are open."""
     sectors: int = 16
@@ -101,7 +101,7 @@ class SurroundingsParameters:
         if self.sectors != 16:
             raise ValueError(f"{self.sectors} sectors; the compass is counted in 16")
 
-    def ring_of_metre(self) -> Int64:
+    def ring_of_meter(self) -> Int64:
         """Of each whole metre's distance the ring that it begins in, int64 (reach,)."""
         return np.searchsorted(self.rings, np.arange(self.rings[-1]), side="right")
 
@@ -117,7 +117,7 @@ class SurroundingsParameters:
         return rings * layers
 
 
-SURROUNDINGS_V1 = SurroundingsParameters()
+NEIGHBORHOOD_V1 = NeighborhoodParameters()
 
 PREPROCESSING_VERSION = "1"
 """Version of the steps from a segment's points to the network's input; part of a model's id."""

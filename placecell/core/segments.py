@@ -31,9 +31,9 @@ class Segments:
     """Point clouds of segments, one after the other.
 
     Attributes:
-        points: float32 (points, 3), metres, one common z-up frame.
+        points: float32 (points, 3), meters, one common z-up frame.
         ends: int64 (segments,): segment i holds points ends[i - 1] to ends[i].
-        sensors: float32 (segments, 3), metres, the same frame: where the sensor was at capture.
+        sensors: float32 (segments, 3), meters, the same frame: where the sensor was at capture.
     """
 
     points: Float32
@@ -108,7 +108,7 @@ class Segments:
             raise ValueError(f"ends do not divide the {len(self.points)} points into segments")
 
     def centroids(self) -> Float64:
-        """Mean of each segment's points, float64 (segments, 3), metres."""
+        """Mean of each segment's points, float64 (segments, 3), meters."""
         centroids = np.empty((len(self), 3))
         self.check_ends()
         _centroids(np.ascontiguousarray(self.points), self.ends, centroids)

@@ -20,38 +20,38 @@ CELL, CELLS = 10.0, 1_000
 """Metres a side of the cells of a longer one, at least; and how many are along it, at most."""
 
 
-def within(points: Float64, places: Float64, metres: float) -> Int64:
+def within(points: Float64, places: Float64, meters: float) -> Int64:
     """Indices of the points about places: of all that are near one of them, and of some around.
 
     Args:
-        points: float64 (n, 3), metres.
-        places: float64 (m, 3), metres; m > 0.
-        metres: along each axis, up to which a point is near.
+        points: float64 (n, 3), meters.
+        places: float64 (m, 3), meters; m > 0.
+        meters: along each axis, up to which a point is near.
     """
-    low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
+    low, high = places.min(axis=0) - meters, places.max(axis=0) + meters
     # One place far from the rest makes it a box of half the map.
     is_wide = (high - low)[:2].max() > WHOLE
     # Axis by axis: nearly all of a large map is gone after the first.
     inside = np.flatnonzero((points[:, 0] >= low[0]) & (points[:, 0] <= high[0]))
     if is_wide:
-        inside = inside[_beside(points[inside, :1], places[:, :1], metres)]
+        inside = inside[_beside(points[inside, :1], places[:, :1], meters)]
     for axis in (1, 2):
         along = points[inside, axis]
         inside = inside[(along >= low[axis]) & (along <= high[axis])]
     if is_wide:
-        inside = inside[_beside(points[inside, :2], places[:, :2], metres)]
+        inside = inside[_beside(points[inside, :2], places[:, :2], meters)]
     return inside
 
 
-def _beside(points: Float64, places: Float64, metres: float) -> Bool:
+def _beside(points: Float64, places: Float64, meters: float) -> Bool:
     """Which points (n, d) are in a cell that holds a place (m, d), or in one next to it, bool (n,).
 
     Args:
-        points: none farther than so many metres beyond the places, along each axis.
+        points: none farther than so many meters beyond the places, along each axis.
     """
-    low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
-    # Of twice the metres at least, so that rounding puts nothing that is near two cells away.
-    cell = max(CELL, 2 * metres, (high - low).max() / CELLS)
+    low, high = places.min(axis=0) - meters, places.max(axis=0) + meters
+    # Of twice the meters at least, so that rounding puts nothing that is near two cells away.
+    cell = max(CELL, 2 * meters, (high - low).max() / CELLS)
     near = np.zeros((CELLS + 3,) * len(low), dtype=bool)
     of_places, of_points = (((each - low) / cell).astype(np.int64) for each in (places, points))
     for step in np.ndindex((3,) * len(low)):

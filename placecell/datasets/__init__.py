@@ -33,7 +33,7 @@ def open_drive(folder: Path) -> Drive:
     if not folder.is_dir():
         raise DriveError(f"{folder}: no such folder")
     for reader in FORMATS:
-        if reader.recognises(folder):
+        if reader.recognizes(folder):
             return reader(folder)
     layouts = "; ".join(f"{reader.name}: {reader.layout}" for reader in FORMATS)
     raise DriveError(f"{folder}: not a drive in a known layout ({layouts})")

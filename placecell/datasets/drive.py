@@ -43,7 +43,7 @@ class Drive(ABC):
         folder: where the drive lies.
         scan_files: one file of points a scan, laid out as `point_layout` says.
         poses: sensor-to-world transforms, float64 (scans, 4, 4); the world is z-up, and its origin
-            is the sensor at the first scan: clouds are float32, which is half a metre coarse at
+            is the sensor at the first scan: clouds are float32, which is half a meter coarse at
             map coordinates of 5,000 km.
         origin: where the world's origin lies in the frame of the file's poses, float64 (3,).
         times: seconds, float64 (scans,).
@@ -63,7 +63,7 @@ class Drive(ABC):
 
     @classmethod
     @abstractmethod
-    def recognises(cls, folder: Path) -> bool:
+    def recognizes(cls, folder: Path) -> bool:
         """Whether the folder has this layout."""
 
     def __len__(self) -> int:
@@ -208,7 +208,7 @@ def usable_points(points: Float32, file: Path) -> Float32:
 
 
 def read_velodyne(file: Path) -> Float32:
-    """Read a KITTI Velodyne file: float32 (n, 3), metres, sensor frame.
+    """Read a KITTI Velodyne file: float32 (n, 3), meters, sensor frame.
 
     Raises:
         DriveError: missing, empty, cut short, or with values that are not finite.

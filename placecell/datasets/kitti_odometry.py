@@ -69,7 +69,7 @@ class KittiOdometry(Drive):
         self.examine()
 
     @classmethod
-    def recognises(cls, folder: Path) -> bool:
+    def recognizes(cls, folder: Path) -> bool:
         return (folder / "velodyne").is_dir()
 
 

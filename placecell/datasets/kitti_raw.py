@@ -70,7 +70,7 @@ class KittiRaw(Drive):
         self.examine()
 
     @classmethod
-    def recognises(cls, folder: Path) -> bool:
+    def recognizes(cls, folder: Path) -> bool:
         return (folder / "velodyne_points" / "data").is_dir()
 
 

@@ -25,8 +25,8 @@ def eigenvalues(segments: Segments) -> Float64:
     """Variances along the principal axes, m^2, largest first: float64 (segments, 3)."""
     if not len(segments):
         return np.zeros((0, 3))
-    centred = segments.points - np.repeat(segments.centroids(), segments.counts, axis=0)
-    products = centred[:, :, None] * centred[:, None, :]
+    centered = segments.points - np.repeat(segments.centroids(), segments.counts, axis=0)
+    products = centered[:, :, None] * centered[:, None, :]
     covariance = np.add.reduceat(products, segments.starts, axis=0) / segments.counts[:, None, None]
     return np.asarray(np.linalg.eigvalsh(covariance)[:, ::-1].clip(min=0.0))
 
@@ -34,7 +34,7 @@ def eigenvalues(segments: Segments) -> Float64:
 def eigenvalue_features(values: Float64) -> Float64:
     """The seven features of eigenvalues l1 >= l2 >= l3, float64 (n, 3) -> (n, 7).
 
-    Omnivariance and eigenentropy use the eigenvalues normalised to sum one. All points on one
+    Omnivariance and eigenentropy use the eigenvalues normalized to sum one. All points on one
     spot (l1 = 0) give zeros.
     """
     largest = np.where(values[:, :1] > 0, values[:, :1], 1.0)
@@ -49,5 +49,5 @@ def eigenvalue_features(values: Float64) -> Float64:
 
 
 def eigenvalue_descriptors(segments: Segments) -> Float32:
-    """The seven features of each segment, not yet standardised: float32 (segments, 7)."""
+    """The seven features of each segment, not yet standardized: float32 (segments, 7)."""
     return eigenvalue_features(eigenvalues(segments)).astype(np.float32)

@@ -16,9 +16,9 @@ from placecell.core.segments import Segments
 from placecell.core.types import Float32
 from placecell.descriptors.eigenvalue import FEATURES, eigenvalue_descriptors
 from placecell.descriptors.manifest import FILE, Manifest, ModelError
-from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.neighborhood import describe_neighborhood
 from placecell.descriptors.orientation import align
-from placecell.descriptors.voxels import voxelise_aligned
+from placecell.descriptors.voxels import voxelize_aligned
 
 MODEL_FILE = "model.onnx"
 BATCH = 16
@@ -44,7 +44,7 @@ class Extractor(ABC):
 
     @abstractmethod
     def prepare(
-        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
         """The model's inputs. The arguments are those of `describe`."""
 
@@ -52,29 +52,29 @@ class Extractor(ABC):
     def infer(self, inputs: Inputs) -> Float32:
         """Descriptors, float32 (rows, dimension); of a row the same whatever the others are."""
 
-    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
+    def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, dimension).
 
         Args:
-            surroundings: of each segment (`describe_surroundings`); None: the segments were seen
+            neighborhood: of each segment (`describe_neighborhood`); None: the segments were seen
                 together, and surround one another. Of no matter to a model that does not look.
         """
-        return self.infer(self.prepare(segments, surroundings))
+        return self.infer(self.prepare(segments, neighborhood))
 
 
 class EigenvalueExtractor(Extractor):
-    """The baseline: seven features, standardised on the training statistics."""
+    """The baseline: seven features, standardized on the training statistics."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest
-        self._mean = np.array(manifest.standardisation["mean"], dtype=np.float32)
-        self._deviation = np.array(manifest.standardisation["deviation"], dtype=np.float32)
+        self._mean = np.array(manifest.standardization["mean"], dtype=np.float32)
+        self._deviation = np.array(manifest.standardization["deviation"], dtype=np.float32)
 
     def prepare(
-        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
         """The features, float32 (segments, 7)."""
-        del surroundings, lap  # of no matter to these features
+        del neighborhood, lap  # of no matter to these features
         return {"features": eigenvalue_descriptors(segments)}
 
     def infer(self, inputs: Inputs) -> Float32:
@@ -83,7 +83,7 @@ class EigenvalueExtractor(Extractor):
 
 
 class OnnxExtractor(Extractor):
-    """A learned extractor: align, voxelise, and run the exported network.
+    """A learned extractor: align, voxelize, and run the exported network.
 
     The batches of a call are spread over the cores. Each core has a session of one thread: threads
     within an inference wait for one another at every layer, and inferences within a session for
@@ -108,21 +108,21 @@ class OnnxExtractor(Extractor):
             raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
 
     def prepare(
-        self, segments: Segments, surroundings: Float32 | None = None, lap: Lap = unwatched
+        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
         """Occupancy grids, extents and, of a model that looks around, surroundings."""
         inputs: Inputs = {}
-        looks = self.manifest.surroundings
+        looks = self.manifest.neighborhood
         if looks is not None:
             inputs["surroundings"] = (
-                describe_surroundings(segments, None, looks)
-                if surroundings is None
-                else surroundings
+                describe_neighborhood(segments, None, looks)
+                if neighborhood is None
+                else neighborhood
             )
             lap("look")
         aligned = align(segments)
         lap("align")
-        inputs["occupancy"], inputs["extents"] = voxelise_aligned(
+        inputs["occupancy"], inputs["extents"] = voxelize_aligned(
             aligned, segments.ends, self.manifest.parameters
         )
         lap("voxelise")
@@ -136,15 +136,15 @@ class OnnxExtractor(Extractor):
 
         return self._in_batches(some, len(inputs["extents"]))
 
-    def describe(self, segments: Segments, surroundings: Float32 | None = None) -> Float32:
+    def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, dimension), a batch at a time: grids are large."""
-        looks = self.manifest.surroundings
-        if looks is not None and surroundings is None:
-            surroundings = describe_surroundings(segments, None, looks)
+        looks = self.manifest.neighborhood
+        if looks is not None and neighborhood is None:
+            neighborhood = describe_neighborhood(segments, None, looks)
 
         def some(first: int, end: int) -> Float32:
             rows = np.arange(first, end)
-            around = None if surroundings is None else surroundings[rows]
+            around = None if neighborhood is None else neighborhood[rows]
             return self._run(self.prepare(segments.take(rows), around))
 
         return self._in_batches(some, len(segments))
@@ -187,10 +187,10 @@ def load_extractor(folder: Path, threads: int = 0) -> Extractor:
     """
     manifest = Manifest.load(folder)
     if manifest.method == "eigenvalue":
-        lengths = [len(manifest.standardisation.get(name, ())) for name in ("mean", "deviation")]
+        lengths = [len(manifest.standardization.get(name, ())) for name in ("mean", "deviation")]
         if lengths != [len(FEATURES)] * 2:
             raise ModelError(
-                f"{folder / FILE}: its standardisation needs 'mean' and 'deviation', "
+                f"{folder / FILE}: its 'standardisation' needs 'mean' and 'deviation', "
                 f"{len(FEATURES)} numbers each"
             )
         return EigenvalueExtractor(manifest)

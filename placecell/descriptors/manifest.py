@@ -11,8 +11,8 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from placecell.core.parameters import PREPROCESSING_VERSION, Parameters, SurroundingsParameters
-from placecell.descriptors.quantizer import Quantiser
+from placecell.core.parameters import PREPROCESSING_VERSION, NeighborhoodParameters, Parameters
+from placecell.descriptors.quantizer import Quantizer
 
 FILE = "manifest.json"
 
@@ -21,6 +21,10 @@ PAIR_FILE = "pair.onnx"
 
 FULL_FILE = "model-fp32.onnx"
 """Of a model that is served in 8-bit integers: what these were made from. No part of the id."""
+
+
+JSON_KEYS = {"quantizer": "quantiser", "standardization": "standardisation"}
+"""Keys of `manifest.json` that differ from the attribute's name; published models have them."""
 
 
 class ModelError(ValueError):
@@ -36,14 +40,14 @@ class Manifest:
         method: how it was trained (`group`, ...), or `eigenvalue`.
         network: the network's name; empty for `eigenvalue`.
         dimension: of the descriptor.
-        quantiser: to the stored form.
+        quantizer: to the stored form.
         preprocessing: the constants from points to the network's input.
         files: SHA-256 of each of the model's files, by name.
-        standardisation: mean and standard deviation of the eigenvalue features in training.
+        standardization: mean and standard deviation of the eigenvalue features in training.
         pair_threshold: distance of stored descriptors below which a pair is called a match.
         pair: the pair classifier: its `kind`, the `threshold` of its probability, and how the
             kinds compared on validation; empty if there is none. Not part of the id.
-        training: drives, scans and their hashes, seed, time, licences: not part of the id.
+        training: drives, scans and their hashes, seed, time, licenses: not part of the id.
         figures: measured; not part of the id.
     """
 
@@ -51,10 +55,10 @@ class Manifest:
     method: str
     network: str
     dimension: int
-    quantiser: Quantiser
+    quantizer: Quantizer
     preprocessing: dict[str, Any]
     files: dict[str, str] = field(default_factory=dict)
-    standardisation: dict[str, list[float]] = field(default_factory=dict)
+    standardization: dict[str, list[float]] = field(default_factory=dict)
     pair_threshold: float = 0.0
     pair: dict[str, Any] = field(default_factory=dict)
     training: dict[str, Any] = field(default_factory=dict)
@@ -66,12 +70,12 @@ class Manifest:
         decisive = {
             "method": self.method,
             "dimension": self.dimension,
-            "quantiser": self.quantiser.as_dict(),
+            "quantiser": self.quantizer.as_dict(),
             "preprocessing": self.preprocessing,
             "files": {
                 name: sha for name, sha in self.files.items() if name not in {PAIR_FILE, FULL_FILE}
             },
-            "standardisation": self.standardisation,
+            "standardisation": self.standardization,
         }
         text = json.dumps(decisive, sort_keys=True, separators=(",", ":"))
         return f"{self.name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
@@ -82,8 +86,10 @@ class Manifest:
 
     def save(self, folder: Path) -> None:
         """Write `manifest.json`."""
-        content = {"model_id": self.model_id} | asdict(self)
-        content["quantiser"] = self.quantiser.as_dict()
+        content = {"model_id": self.model_id} | {
+            JSON_KEYS.get(name, name): value for name, value in asdict(self).items()
+        }
+        content["quantiser"] = self.quantizer.as_dict()
         (folder / FILE).write_text(json.dumps(content, indent=2) + "\n")
 
     @classmethod
@@ -97,9 +103,10 @@ class Manifest:
         try:
             content = json.loads(file.read_text())
             stated_id = content.pop("model_id")
-            quantiser = Quantiser(**content.pop("quantiser"))
-            manifest = cls(quantiser=quantiser, **content)
-            if manifest.dimension % quantiser.per_byte:
+            quantizer = Quantizer(**content.pop("quantiser"))
+            standardization = content.pop("standardisation", {})
+            manifest = cls(quantizer=quantizer, standardization=standardization, **content)
+            if manifest.dimension % quantizer.per_byte:
                 raise ValueError(f"{manifest.dimension} dimensions do not fill whole bytes")
         except FileNotFoundError as error:
             raise ModelError(f"{file}: missing; {folder} is not a model's folder") from error
@@ -130,15 +137,15 @@ class Manifest:
     @property
     def code_bytes(self) -> int:
         """Bytes of a stored descriptor."""
-        return self.quantiser.code_bytes(self.dimension)
+        return self.quantizer.code_bytes(self.dimension)
 
     @property
-    def surroundings(self) -> SurroundingsParameters | None:
+    def neighborhood(self) -> NeighborhoodParameters | None:
         """How the surroundings are described; None if the model looks at each segment alone."""
         constants = self.preprocessing.get("surroundings")
         if constants is None:
             return None
-        return SurroundingsParameters(
+        return NeighborhoodParameters(
             constants["voxel"],
             tuple(constants["rings"]),
             tuple(constants["heights"]),
@@ -154,7 +161,7 @@ class Manifest:
 
 
 def preprocessing_of(
-    parameters: Parameters, surroundings: SurroundingsParameters | None = None
+    parameters: Parameters, neighborhood: NeighborhoodParameters | None = None
 ) -> dict[str, Any]:
     """The constants from a segment's points to the network's input, for a manifest."""
     constants: dict[str, Any] = {
@@ -162,9 +169,9 @@ def preprocessing_of(
         "grid": list(parameters.grid),
         "grid_voxel": parameters.grid_voxel,
     }
-    if surroundings is not None:
+    if neighborhood is not None:
         # As JSON has it, so that the id is the same before and after it was written.
-        constants["surroundings"] = json.loads(json.dumps(asdict(surroundings)))
+        constants["surroundings"] = json.loads(json.dumps(asdict(neighborhood)))
     return constants
 
 

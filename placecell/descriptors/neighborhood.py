@@ -11,7 +11,7 @@ import numpy as np
 
 from placecell.core.cancellation import current, is_cancelled
 from placecell.core.jit import compiled
-from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from placecell.core.parameters import NEIGHBORHOOD_V1, NeighborhoodParameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, Float64, Int32, Int64, UInt64
 
@@ -35,10 +35,10 @@ BLOCK = 1024
 """Voxels counted together, so that intermediate values stay in the nearest cache."""
 
 
-def describe_surroundings(
+def describe_neighborhood(
     segments: Segments,
     frames: Int64 | None = None,
-    parameters: SurroundingsParameters = SURROUNDINGS_V1,
+    parameters: NeighborhoodParameters = NEIGHBORHOOD_V1,
 ) -> Float32:
     """Histograms of what stands around each segment.
 
@@ -83,7 +83,7 @@ def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
     segments make a difference.
 
     Args:
-        voxel: edge, metres.
+        voxel: edge, meters.
 
     Raises:
         Cancelled: nobody waits for it any longer.
@@ -148,7 +148,7 @@ def _merge(
                 (points[point, 1] - low_y) / voxel,
                 (points[point, 2] - low_z) / voxel,
             ):
-                # No segment is thousands of metres long; what lies beyond shares the last cell.
+                # No segment is thousands of meters long; what lies beyond shares the last cell.
                 # As it stands, so that a coordinate that is no number is in the first.
                 key = key * CELLS + (min(int(min(cell, CELLS)), CELLS - 1) if cell > 0 else 0)
             slot = slot_of(key, seed, slots)
@@ -172,7 +172,7 @@ def count_voxels(
     voxels: Float64,
     owners: Int64,
     centroids: Float64,
-    parameters: SurroundingsParameters,
+    parameters: NeighborhoodParameters,
     found: Float32,
 ) -> None:
     """Fill `found`, (segments, rings, layers), from the voxels near each segment.
@@ -185,7 +185,7 @@ def count_voxels(
     Raises:
         Cancelled: nobody waits for it any longer.
     """
-    rings = parameters.ring_of_metre()
+    rings = parameters.ring_of_meter()
     reach = len(rings)
     # A last ring, which nobody reads, takes what is out of reach.
     rings = np.append(rings, len(parameters.rings))
@@ -240,7 +240,7 @@ def _count(
     row = 4 * STRIPS
     counts = np.zeros((found.shape[1] + 1, found.shape[2], SECTORS), dtype=np.int64)
     flat = counts.reshape(-1)
-    metres = np.empty(BLOCK, dtype=np.int64)
+    meters = np.empty(BLOCK, dtype=np.int64)
     layers = np.empty(BLOCK, dtype=np.int64)
     sectors = np.empty(BLOCK, dtype=np.int64)
     for segment in range(len(centroids)):
@@ -257,19 +257,19 @@ def _count(
                 last = min(first + BLOCK, end)
                 _place(
                     xs[first:last], ys[first:last], zs[first:last], x, y, z,
-                    len(rings) - 1, limits, metres, layers, sectors,
+                    len(rings) - 1, limits, meters, layers, sectors,
                 )  # fmt: skip
                 for place in range(last - first):
-                    ring = rings[metres[place]]
+                    ring = rings[meters[place]]
                     flat[(ring * found.shape[2] + layers[place]) * SECTORS + sectors[place]] += 1
         for first in range(bounds[segment], bounds[segment + 1], BLOCK):
             last = min(first + BLOCK, bounds[segment + 1])
             _place(
                 own_xs[first:last], own_ys[first:last], own_zs[first:last], x, y, z,
-                len(rings) - 1, limits, metres, layers, sectors,
+                len(rings) - 1, limits, meters, layers, sectors,
             )  # fmt: skip
             for place in range(last - first):
-                ring = rings[metres[place]]
+                ring = rings[meters[place]]
                 flat[(ring * found.shape[2] + layers[place]) * SECTORS + sectors[place]] -= 1
         for ring in range(found.shape[1]):
             for layer in range(found.shape[2]):
@@ -289,7 +289,7 @@ def _place(
     z: float,
     reach: int,
     limits: Float64,
-    metres: Int64,
+    meters: Int64,
     layers: Int64,
     sectors: Int64,
 ) -> None:
@@ -305,8 +305,8 @@ def _place(
         # As it stands, so that a coordinate that is no number is out of reach.
         is_near = squared < squared_reach
         # The root of what is just short of the reach may round up to it.
-        metre = min(int(np.sqrt(squared if is_near else 0.0)), reach - 1)
-        metres[place] = metre if is_near else reach
+        meter = min(int(np.sqrt(squared if is_near else 0.0)), reach - 1)
+        meters[place] = meter if is_near else reach
     for place in range(len(xs)):
         dx = abs(xs[place] - x)
         dy = abs(ys[place] - y)

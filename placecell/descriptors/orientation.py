@@ -14,7 +14,7 @@ from placecell.core.types import Float32, Float64, Int64
 def sensor_bearings(segments: Segments) -> Float64:
     """Bearing of the sensor from each segment's centroid: radians about z, float64 (segments,).
 
-    A sensor straight above or below the centroid (within a micrometre) has bearing 0.
+    A sensor straight above or below the centroid (within a micrometer) has bearing 0.
     """
     return _bearings(segments.sensors, segments.centroids())
 
@@ -27,7 +27,7 @@ def align(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
         yaw: turned further by so many radians (segments,): augmentation by rotated copies.
 
     Returns:
-        float32 (points, 3), metres.
+        float32 (points, 3), meters.
 
     Raises:
         ValueError: `ends` do not divide the points into segments.

@@ -21,7 +21,7 @@ class PairClassifier:
     """Gives the probability of a match from descriptors as they are stored."""
 
     def __init__(self, folder: Path, manifest: Manifest) -> None:
-        self._quantiser = manifest.quantiser
+        self._quantizer = manifest.quantizer
         try:
             self._session = one_thread_session(folder / PAIR_FILE)
         # onnxruntime's exceptions share no narrower base class than this.
@@ -38,7 +38,7 @@ class PairClassifier:
         for begin in range(0, len(a), PAIRS):
             current().check()
             some = slice(begin, begin + PAIRS)
-            inputs = {"a": self._quantiser.decode(a[some]), "b": self._quantiser.decode(b[some])}
+            inputs = {"a": self._quantizer.decode(a[some]), "b": self._quantizer.decode(b[some])}
             (probabilities[some],) = self._session.run(["probability"], inputs)
         return probabilities
 

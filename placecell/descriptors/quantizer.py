@@ -14,7 +14,7 @@ REACH = {1: 0.9995, 2: 0.99, 3: 0.94, 4: 0.85}
 
 
 @dataclass(frozen=True, slots=True)
-class Quantiser:
+class Quantizer:
     """Uniform levels, the same for every dimension, so that distances between levels are distances.
 
     Levels are whole numbers about 0: -127, -126, ..., 127 of a byte each; -7, -6, ..., 7 of two in
@@ -35,7 +35,7 @@ class Quantiser:
     @classmethod
     def fit(
         cls, descriptors: Float32, per_byte: int = 1, quantile: float | None = None
-    ) -> "Quantiser":
+    ) -> "Quantizer":
         """Steps that reach all but a few of the values seen in training; the rest saturate.
 
         Args:

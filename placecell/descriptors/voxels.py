@@ -1,6 +1,6 @@
 """Voxelisation: the network's input (paper III-A).
 
-A fixed grid of fixed voxels, centred on the segment; points outside are dropped. (The paper also
+A fixed grid of fixed voxels, centered on the segment; points outside are dropped. (The paper also
 says 'scaled to fit'; scaling each segment would lose its size, and 95% fit as they are.)
 """
 
@@ -13,7 +13,7 @@ from placecell.core.types import Float32, Float64, Int64, UInt8
 from placecell.descriptors.orientation import align
 
 
-def voxelise(
+def voxelize(
     segments: Segments, parameters: Parameters, yaw: Float64 | float = 0.0
 ) -> tuple[UInt8, Float32]:
     """Occupancy grids and extents of aligned segments.
@@ -24,12 +24,12 @@ def voxelise(
 
     Returns:
         occupancy, uint8 (segments, *grid), 1 where a voxel holds a point; and extents, float32
-        (segments, 3): edges in metres of each aligned segment's box, before points are dropped.
+        (segments, 3): edges in meters of each aligned segment's box, before points are dropped.
     """
-    return voxelise_aligned(align(segments, yaw), segments.ends, parameters)
+    return voxelize_aligned(align(segments, yaw), segments.ends, parameters)
 
 
-def voxelise_aligned(
+def voxelize_aligned(
     aligned: Float32, ends: Int64, parameters: Parameters
 ) -> tuple[UInt8, Float32]:
     """The same of segments that are aligned already: points, float32 (n, 3), and their ends."""

@@ -1,4 +1,4 @@
-"""What localisation starts from: segments of the robot's surroundings, and what they may be."""
+"""What localization starts from: segments of the robot's surroundings, and what they may be."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,9 +13,9 @@ class Candidates:
     """Of n segments of a robot's local map, k segments of one map that look like each.
 
     Attributes:
-        centroids: float64 (n, 3), metres, in the robot's frame.
+        centroids: float64 (n, 3), meters, in the robot's frame.
         rows: int64 (n, k): rows of the map.
-        places: float64 (n, k, 3): the rows' centroids, metres, in the map's frame.
+        places: float64 (n, k, 3): the rows' centroids, meters, in the map's frame.
         probabilities: float64 (n, k), that both are the same, 0 to 1.
     """
 

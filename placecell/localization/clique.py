@@ -2,7 +2,7 @@
 
 Finding the very heaviest is NP-hard. This is the greedy search of CLIPPER+ (Fathian and Summers
 2024): a clique is grown from every vertex, and vertices that no heavier one can hold are left out.
-Here these grow in the order of how much agrees with each vertex *among the neighbours of the first*
+Here these grow in the order of how much agrees with each vertex *among the neighbors of the first*
 (the second-order compatibility of SC2-PCR, Chen et al. 2022), which wrong ones seldom have.
 """
 
@@ -28,23 +28,23 @@ def heaviest_clique(
     """
     ends = np.zeros(len(left) + 1, dtype=np.int64)
     _count(graph, left, ends)
-    neighbours = np.empty(ends[-1], dtype=np.int64)
-    _list(graph, left, neighbours)
+    neighbors = np.empty(ends[-1], dtype=np.int64)
+    _list(graph, left, neighbors)
     bounds = np.zeros(len(left))
     heaviest = np.zeros(int(queries.max(initial=-1)) + 1)
-    _bound(neighbours, ends, weights, queries, heaviest, bounds)
+    _bound(neighbors, ends, weights, queries, heaviest, bounds)
     seeds = np.argsort(-bounds, kind="stable")
     best = np.empty(len(left), dtype=np.int64)
     size = np.zeros(1, dtype=np.int64)
     token = current()
-    _grow(graph, neighbours, ends, weights, bounds, seeds, effort, token.flag, best, size)
+    _grow(graph, neighbors, ends, weights, bounds, seeds, effort, token.flag, best, size)
     token.check()
     return np.sort(best[: size[0]])
 
 
 @compiled
 def _count(graph: Bool, left: Bool, ends: Int64) -> None:
-    """Fill ends: vertex i has ends[i + 1] - ends[i] neighbours."""
+    """Fill ends: vertex i has ends[i + 1] - ends[i] neighbors."""
     for vertex in range(len(left)):
         count = 0
         if left[vertex]:
@@ -55,20 +55,20 @@ def _count(graph: Bool, left: Bool, ends: Int64) -> None:
 
 
 @compiled
-def _list(graph: Bool, left: Bool, neighbours: Int64) -> None:
-    """Fill neighbours, of one vertex after the other."""
+def _list(graph: Bool, left: Bool, neighbors: Int64) -> None:
+    """Fill neighbors, of one vertex after the other."""
     place = 0
     for vertex in range(len(left)):
         if left[vertex]:
             for other in range(len(left)):
                 if graph[vertex, other] and left[other]:
-                    neighbours[place] = other
+                    neighbors[place] = other
                     place += 1
 
 
 @compiled
 def _bound(
-    neighbours: Int64,
+    neighbors: Int64,
     ends: Int64,
     weights: Float64,
     queries: Int64,
@@ -77,17 +77,17 @@ def _bound(
 ) -> None:
     """Fill bounds: what a clique with this vertex can weigh, at most; 0 if it stands alone.
 
-    No clique holds two vertices of one query: a neighbourhood is worth its heaviest of each.
+    No clique holds two vertices of one query: a neighborhood is worth its heaviest of each.
     """
     for vertex in range(len(bounds)):
         total = 0.0
         for place in range(ends[vertex], ends[vertex + 1]):
-            other = neighbours[place]
+            other = neighbors[place]
             if weights[other] > heaviest[queries[other]]:
                 total += weights[other] - heaviest[queries[other]]
                 heaviest[queries[other]] = weights[other]
         for place in range(ends[vertex], ends[vertex + 1]):
-            heaviest[queries[neighbours[place]]] = 0.0
+            heaviest[queries[neighbors[place]]] = 0.0
         if total > 0.0:
             bounds[vertex] = weights[vertex] + total
 
@@ -95,7 +95,7 @@ def _bound(
 @compiled
 def _grow(
     graph: Bool,
-    neighbours: Int64,
+    neighbors: Int64,
     ends: Int64,
     weights: Float64,
     bounds: Float64,
@@ -116,8 +116,8 @@ def _grow(
             break
         count = 0
         for place in range(ends[seed], ends[seed + 1]):
-            if bounds[neighbours[place]] > heaviest:
-                around[count] = neighbours[place]
+            if bounds[neighbors[place]] > heaviest:
+                around[count] = neighbors[place]
                 support[count] = weights[around[count]]
                 count += 1
         for one in range(count):

@@ -53,7 +53,7 @@ class Confidence:
     Attributes:
         means: of the features where it was fitted.
         deviations: of the features there.
-        weights: of the standardised features.
+        weights: of the standardized features.
         bias: added to their sum.
         highest: probability that is never exceeded: no more than the cases that were seen allow.
     """

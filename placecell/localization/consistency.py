@@ -11,10 +11,10 @@ import numpy as np
 from placecell.core.jit import compiled
 from placecell.core.types import Bool, Float64, Int64
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 
 
-def consistent(found: Correspondences, parameters: LocalisationParameters) -> Bool:
+def consistent(found: Correspondences, parameters: LocalizationParameters) -> Bool:
     """Whether each two correspondences agree, symmetric, bool (m, m).
 
     None agrees with itself, nor with another of the same query or of the same place.

@@ -9,7 +9,7 @@ from placecell.core.grid_cells import neighboring
 from placecell.core.jit import compiled
 from placecell.core.types import Float64, Int32, Int64
 from placecell.localization.candidates import Candidates
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,8 +20,8 @@ class Correspondences:
         queries: int64 (m,), indices of the candidates' queries.
         places: int64 (m,), numbers of places.
         rows: int64 (m,): of each place the map's row that looks most like the query.
-        source: float64 (m, 3), the query's centroid, metres, in the robot's frame.
-        target: float64 (m, 3), the row's centroid, metres, in the map's frame.
+        source: float64 (m, 3), the query's centroid, meters, in the robot's frame.
+        target: float64 (m, 3), the row's centroid, meters, in the map's frame.
         weights: float64 (m,), more than 0.
         usable: how many queries had any candidate.
     """
@@ -50,7 +50,7 @@ class Correspondences:
         )
 
 
-def correspond(candidates: Candidates, parameters: LocalisationParameters) -> Correspondences:
+def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Correspondences:
     """Pairs of queries and places, weighted, in an order that does not depend on the queries'.
 
     A map holds a segment as often as it was seen from elsewhere. Candidates of a query at one place
@@ -103,8 +103,8 @@ def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
 
     Args:
         rows: int64 (m,), may hold a row more than once.
-        centroids: float64 (m, 3), of the rows, metres.
-        radius: metres.
+        centroids: float64 (m, 3), of the rows, meters.
+        radius: meters.
 
     Raises:
         Cancelled: nobody waits for it any longer.

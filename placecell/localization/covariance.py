@@ -3,22 +3,22 @@
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import kernel
 
 
 def covariance_of(
-    pose: Pose, source: Float64, target: Float64, parameters: LocalisationParameters
+    pose: Pose, source: Float64, target: Float64, parameters: LocalizationParameters
 ) -> Float64:
     """Covariance of a registered pose: s^2 (J^T W J)^-1, the Gauss-Newton one of its residuals.
 
-    Of small changes d of the translation, metres, and w of the rotation, radians, both along the
+    Of small changes d of the translation, meters, and w of the rotation, radians, both along the
     axes of the frame that the pose leads to: `exp(w) rotation`, `translation + d`. With yaw alone,
     float64 (4, 4): dx, dy, dz, wz; otherwise float64 (6, 6): dx, dy, dz, wx, wy, wz.
 
     Args:
-        source: float64 (m, 3), of the correspondences that agree, metres.
+        source: float64 (m, 3), of the correspondences that agree, meters.
         target: float64 (m, 3).
 
     Returns:
@@ -31,7 +31,7 @@ def covariance_of(
     leftover = pose.apply(source) - target
     weights = kernel(np.linalg.norm(leftover, axis=1), parameters.kernel)
     turned = source @ pose.rotation.T
-    # About the middle of the segments first: the frame's origin may be a thousand kilometres off.
+    # About the middle of the segments first: the frame's origin may be a thousand kilometers off.
     middle = weights @ turned / weights.sum()
     jacobian = np.zeros((len(source), 3, 6))
     jacobian[:, :, :3] = np.eye(3)
@@ -42,7 +42,7 @@ def covariance_of(
     variance = weights @ (leftover**2).sum(axis=1) / freedom
     variance = max(variance, parameters.least_deviation**2) * parameters.inflation
     # About the middle, turns and shifts do not mix. Of turns nothing is known, but for rounding, if
-    # the segments lie in one point, or on the axis of one: a millimetre from it, on average.
+    # the segments lie in one point, or on the axis of one: a millimeter from it, on average.
     turns = np.linalg.eigvalsh(information[3:, 3:])
     if turns[0] < max(1e-6 * weights.sum(), 1e-12 * turns[-1]):
         return unknown
@@ -57,10 +57,10 @@ def at_point(covariance: Float64, pose: Pose, point: Float64) -> Float64:
 
     Args:
         covariance: float64 (4, 4) or (6, 6), as above.
-        point: (3,), metres, in the robot's frame.
+        point: (3,), meters, in the robot's frame.
 
     Returns:
-        Of the point's place, metres, and the rotation, in the same order.
+        Of the point's place, meters, and the rotation, in the same order.
     """
     columns = [0, 1, 2, 5] if len(covariance) == 4 else list(range(6))
     moved = np.eye(6)

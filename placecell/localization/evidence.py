@@ -12,7 +12,7 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.localization.hypothesis import Hypothesis, same_place
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 
 
@@ -22,7 +22,7 @@ class Past:
 
     Attributes:
         time: seconds, of any clock that only grows.
-        middle: (3,), of what was seen, metres, in the robot's frame.
+        middle: (3,), of what was seen, meters, in the robot's frame.
         hypotheses: poses with their scores.
     """
 
@@ -45,7 +45,7 @@ class Evidence:
     past: tuple[Past, ...]
     independent: tuple[Past, ...]
     time: float
-    parameters: LocalisationParameters
+    parameters: LocalizationParameters
 
     def support(self, hypothesis: Hypothesis) -> float:
         """Score that earlier requests add to a hypothesis.
@@ -74,7 +74,7 @@ class Evidence:
         """Places to look at again: the best ones of the past, each once, the latest first.
 
         Args:
-            at: a point (3,) in the midst of what the robot sees now, metres, in its frame.
+            at: a point (3,) in the midst of what the robot sees now, meters, in its frame.
         """
         places: list[Pose] = []
         for request in reversed(self.past):
@@ -87,7 +87,7 @@ class Evidence:
 class History:
     """The last requests of one session. Not safe to use from two threads at once."""
 
-    def __init__(self, parameters: LocalisationParameters) -> None:
+    def __init__(self, parameters: LocalizationParameters) -> None:
         self._parameters = parameters
         self._past: deque[Past] = deque(maxlen=parameters.remembered)
 
@@ -99,7 +99,7 @@ class History:
 
         Args:
             time: seconds.
-            middle: (3,), of what is seen now, metres, in the robot's frame.
+            middle: (3,), of what is seen now, meters, in the robot's frame.
         """
         oldest = time - self._parameters.memory
         past = tuple(each for each in self._past if each.time >= oldest)

@@ -17,22 +17,22 @@ from placecell.core.types import Float64, Int64
 from placecell.localization.candidates import Candidates
 from placecell.localization.correspondences import number_places
 from placecell.localization.hypothesis import Hypothesis
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.refinement import kernel
 
 
 class Surroundings(Protocol):
     """A map that what the robot sees can be compared with."""
 
-    def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
+    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Rows of the map about these places: all that are near one, and some around (`within`).
 
         Args:
-            places: float64 (n, 3), metres, in the map's frame; n > 0.
-            metres: along each axis, up to which a row is near.
+            places: float64 (n, 3), meters, in the map's frame; n > 0.
+            meters: along each axis, up to which a row is near.
 
         Returns:
-            Rows, int64 (m,), and their centroids, float64 (m, 3), metres.
+            Rows, int64 (m,), and their centroids, float64 (m, 3), meters.
         """
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
@@ -51,9 +51,9 @@ class AmongCandidates:
         self._pairs, first = np.unique(self._numbered(queries, rows), return_index=True)
         self._beliefs = beliefs[queries, columns][first]
 
-    def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
+    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Of the rows that are anyone's candidate."""
-        inside = within(self._centroids, places, metres)
+        inside = within(self._centroids, places, meters)
         return self._rows[inside], self._centroids[inside]
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
@@ -70,7 +70,7 @@ def look_again(
     hypothesis: Hypothesis,
     candidates: Candidates,
     there: Surroundings,
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     beliefs: Float64 | None = None,
 ) -> Hypothesis:
     """Score a hypothesis by all segments and all that lies where it puts them, one to one.

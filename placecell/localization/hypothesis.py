@@ -11,7 +11,7 @@ from placecell.localization.clique import heaviest_clique
 from placecell.localization.consistency import consistent
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.covariance import covariance_of, rotation_deviation
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import refine, residuals
 from placecell.localization.registration import register
@@ -27,8 +27,8 @@ class Hypothesis:
         score: sum of the weights of what agrees.
         queries: int64 (inliers,), ascending, indices of the candidates' queries.
         rows: int64 (inliers,), the map's row that each was found as.
-        source: float64 (inliers, 3), the queries' centroids, metres, in the robot's frame.
-        residuals: float64 (inliers,), metres.
+        source: float64 (inliers, 3), the queries' centroids, meters, in the robot's frame.
+        residuals: float64 (inliers,), meters.
         worth: float64 (n,), what each of the candidates' queries adds to the score (guided
             matching); None before that.
         looks: float64 (n,), how much each query's counterpart looks like it, whatever its distance,
@@ -55,7 +55,7 @@ class Hypothesis:
 
 
 def find_hypotheses(
-    found: Correspondences, parameters: LocalisationParameters, guesses: Sequence[Pose] = ()
+    found: Correspondences, parameters: LocalizationParameters, guesses: Sequence[Pose] = ()
 ) -> list[Hypothesis]:
     """Places where the robot may be, best first.
 
@@ -83,7 +83,7 @@ def find_hypotheses(
     return distinct(hypotheses, parameters)
 
 
-def _grown(pose: Pose, found: Correspondences, parameters: LocalisationParameters) -> Hypothesis:
+def _grown(pose: Pose, found: Correspondences, parameters: LocalizationParameters) -> Hypothesis:
     """The hypothesis that refinement makes of a pose."""
     pose, support = refine(pose, found, parameters)
     agreeing = found.take(support[np.argsort(found.queries[support])])
@@ -99,7 +99,7 @@ def _grown(pose: Pose, found: Correspondences, parameters: LocalisationParameter
 
 
 def distinct(
-    hypotheses: Sequence[Hypothesis], parameters: LocalisationParameters
+    hypotheses: Sequence[Hypothesis], parameters: LocalizationParameters
 ) -> list[Hypothesis]:
     """Best first, without those of too few segments, and those of a better one's place again."""
     kept: list[Hypothesis] = []
@@ -111,7 +111,7 @@ def distinct(
     return kept
 
 
-def same_place(one: Pose, other: Pose, at: Float64, parameters: LocalisationParameters) -> bool:
+def same_place(one: Pose, other: Pose, at: Float64, parameters: LocalizationParameters) -> bool:
     """Whether two poses put the robot in the same place, seen from a point (3,) of its frame."""
-    metres, angle = one.difference(other, at)
-    return metres < parameters.apart and bool(np.degrees(angle) < parameters.apart_yaw)
+    meters, angle = one.difference(other, at)
+    return meters < parameters.apart and bool(np.degrees(angle) < parameters.apart_yaw)

@@ -22,14 +22,14 @@ from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import Surroundings, look_again
 from placecell.localization.hypothesis import Hypothesis, same_place
 from placecell.localization.localize import (
-    Localisation,
+    Localization,
     Places,
     find_places,
     judge,
     totals_of,
     unknown,
 )
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 
 Link = Callable[[int, int], Pose | None]
@@ -85,19 +85,19 @@ class Judged:
     """One map's part of a joint judgment.
 
     Attributes:
-        localisation: in this map, after the hypotheses of all maps were compared.
+        localization: in this map, after the hypotheses of all maps were compared.
         total: score of the best hypothesis, with what earlier requests add; 0 without one.
         rival: the best hypothesis of the other maps; None: there is none.
     """
 
-    localisation: Localisation
+    localization: Localization
     total: float
     rival: Rival | None = None
 
 
-def localise_jointly(
+def localize_jointly(
     queries: Sequence[MapQuery],
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     link: Link = lambda *_: None,
 ) -> list[Judged]:
     """Localize the robot in several maps and judge the hypotheses of all maps together.
@@ -152,7 +152,7 @@ def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
 def judge_jointly(
     queries: Sequence[MapQuery],
     found: Sequence[Places],
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     link: Link = lambda *_: None,
     only_rivals: Collection[int] = (),
 ) -> list[Judged]:
@@ -161,7 +161,7 @@ def judge_jointly(
     Args:
         queries: one a map.
         found: of each map, with comparable scores.
-        link: as of `localise_jointly`.
+        link: as of `localize_jointly`.
         only_rivals: indices of maps whose hypotheses speak against others, but are not told.
     """
     totals = [
@@ -203,8 +203,8 @@ def _compared(
     evidence: Evidence | None,
     number: int,
     total: float,
-    alone: Localisation,
-    parameters: LocalisationParameters,
+    alone: Localization,
+    parameters: LocalizationParameters,
 ) -> Rival:
     """Compare a rival in another map with a map's best hypothesis, segment by segment."""
     assert own.looks is not None
@@ -230,13 +230,13 @@ def _compared(
 
 
 def _against(
-    own: Localisation,
+    own: Localization,
     number: int,
     usable: int,
     rivals: Sequence[Rival],
     queries: Sequence[MapQuery],
-    parameters: LocalisationParameters,
-) -> tuple[Localisation, Rival | None]:
+    parameters: LocalizationParameters,
+) -> tuple[Localization, Rival | None]:
     """Judge a map's best hypothesis against the other maps'; return also the rival to name."""
     assert own.best is not None
     query = queries[number]
@@ -303,7 +303,7 @@ def _against(
     return told, rival
 
 
-def chance_of_map(ahead: float, parameters: LocalisationParameters) -> float:
+def chance_of_map(ahead: float, parameters: LocalizationParameters) -> float:
     """Return the probability that the better fitting map is the right one.
 
     Either both maps show the robot the same, and what it is ahead by is normal about 0; or they do
@@ -336,7 +336,7 @@ ADVICE = (
 
 
 def _same_places(
-    found: Sequence[Places], parameters: LocalisationParameters, link: Link
+    found: Sequence[Places], parameters: LocalizationParameters, link: Link
 ) -> dict[tuple[int, int], int]:
     """Number the places: hypotheses of linked maps at the same place share a number.
 

@@ -14,28 +14,28 @@ from placecell.localization.correspondences import correspond
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import AmongCandidates, Surroundings, look_again
 from placecell.localization.hypothesis import Hypothesis, find_hypotheses
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.voting import most_voted
 
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
-PARAMETERS = LocalisationParameters()
+PARAMETERS = LocalizationParameters()
 
 RIGHT_DEGREES = 3.0
-"""A pose is right within a metre and this (docs/results/localization.md, Protocol)."""
+"""A pose is right within a meter and this (docs/results/localization.md, Protocol)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Localisation:
+class Localization:
     """What is known of the robot's place in a map.
 
     Attributes:
         best: the best hypothesis, also where it is not good enough; None if there is none.
         second: the best one at another place.
-        probability: that the best one is right: within a metre and three degrees.
-        reason: why the robot is not localised; None: it is.
-        detail: the reason in words; empty if it is localised.
+        probability: that the best one is right: within a meter and three degrees.
+        reason: why the robot is not localized; None: it is.
+        detail: the reason in words; empty if it is localized.
         features: that the probability follows from (`features_of`); None without a hypothesis.
         hypotheses: all, best first, for later requests to look back at.
     """
@@ -50,17 +50,17 @@ class Localisation:
 
     @property
     def pose(self) -> Pose | None:
-        """From the robot's frame to the map's; None if it is not localised."""
+        """From the robot's frame to the map's; None if it is not localized."""
         return self.best.pose if self.best is not None and self.reason is None else None
 
 
 def localize(
     candidates: Candidates,
-    parameters: LocalisationParameters = PARAMETERS,
+    parameters: LocalizationParameters = PARAMETERS,
     confidence: Confidence | None = None,
     evidence: Evidence | None = None,
     there: Surroundings | None = None,
-) -> Localisation:
+) -> Localization:
     """Find the robot's frame in the map's.
 
     Args:
@@ -91,7 +91,7 @@ class Places:
 
 
 def find_places(
-    candidates: Candidates, parameters: LocalisationParameters, evidence: Evidence | None = None
+    candidates: Candidates, parameters: LocalizationParameters, evidence: Evidence | None = None
 ) -> Places:
     """Find the places in one map that candidates agree on, and those of earlier requests."""
     correspondences = correspond(candidates, parameters)
@@ -102,7 +102,7 @@ def find_places(
     return Places(tuple(find_hypotheses(voted, parameters, guesses)), correspondences.usable)
 
 
-def unknown(usable: int, parameters: LocalisationParameters) -> Localisation:
+def unknown(usable: int, parameters: LocalizationParameters) -> Localization:
     """Return the localization of a map without any hypothesis."""
     if usable < parameters.least_segments:
         reason: Reason = "too-few-segments"
@@ -113,16 +113,16 @@ def unknown(usable: int, parameters: LocalisationParameters) -> Localisation:
     else:
         reason = "inconsistent"
         detail = "No geometrically consistent match was found in the map."
-    return Localisation(None, None, 0.0, reason, detail, None, ())
+    return Localization(None, None, 0.0, reason, detail, None, ())
 
 
 def judge(
     hypotheses: Sequence[Hypothesis],
     usable: int,
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     confidence: Confidence,
     evidence: Evidence | None = None,
-) -> Localisation:
+) -> Localization:
     """Decide whether the best hypothesis is good enough.
 
     Args:
@@ -149,7 +149,7 @@ def judge(
     elif probability < parameters.least_probability:
         reason = "inconsistent"
         detail = f"The best place, where {len(best)} of {usable} segments agree, is hardly likely."
-    return Localisation(best, second, probability, reason, detail, features, tuple(hypotheses))
+    return Localization(best, second, probability, reason, detail, features, tuple(hypotheses))
 
 
 def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Float64:

@@ -1,12 +1,12 @@
-"""Every constant of localisation, in one place."""
+"""Every constant of localization, in one place."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 
 @dataclass(frozen=True, slots=True)
-class LocalisationParameters:
-    """Constants from candidates to a pose. Lengths are metres, angles degrees."""
+class LocalizationParameters:
+    """Constants from candidates to a pose. Lengths are meters, angles degrees."""
 
     model: Literal["yaw", "se3"] = "yaw"
     """Robots know which way is up: yaw and translation, unless all six degrees are asked for."""
@@ -27,7 +27,7 @@ class LocalisationParameters:
     # Consistency of pairs, and the clique.
     distance_tolerance: float = 1.0
     """Distances between two segments, here and in the map, differ by less: two centroids are off by
-    up to half a metre each, for a segment's visible part depends on where it is seen from."""
+    up to half a meter each, for a segment's visible part depends on where it is seen from."""
     height_tolerance: float = 0.5
     tilt: float = 2.0
     """That two frames called level may be off: heights may differ by more, the farther apart."""
@@ -55,7 +55,7 @@ class LocalisationParameters:
     """Of segments here and in the map that lie near each other under a hypothesis and are compared,
     at most, of some of the segments."""
 
-    # Judgement.
+    # Judgment.
     least_segments: int = 4
     """That agree: three fit somewhere by chance."""
     apart: float = 3.0
@@ -68,7 +68,7 @@ class LocalisationParameters:
     least_probability: float = 0.5
     """A pose that is more likely wrong than right is none."""
 
-    # Judgement of several maps together.
+    # Judgment of several maps together.
     distinct: float = 0.05
     """Share of a segment's belief from which on its counterpart counts in full when two maps are
     compared: five times `unlikely`. How far beyond varies from view to view, and tells nothing."""

@@ -14,7 +14,7 @@ class Pose:
 
     Attributes:
         rotation: float64 (3, 3), proper.
-        translation: float64 (3,), metres: where the first frame's origin lies in the second.
+        translation: float64 (3,), meters: where the first frame's origin lies in the second.
     """
 
     rotation: Float64
@@ -66,11 +66,11 @@ class Pose:
                 by a small turn lie far apart where they are far from their origins.
 
         Returns:
-            Metres between the two images of the point, and the angle between the two, radians.
+            Meters between the two images of the point, and the angle between the two, radians.
         """
         turn = self.rotation.T @ other.rotation
         cosine = (np.trace(turn) - 1) / 2
         # The sine is exact for small angles, where the cosine is not.
         sine = np.linalg.norm(turn - turn.T) / np.sqrt(8)
-        metres = np.linalg.norm(self.apply(at) - other.apply(at))
-        return float(metres), float(np.arctan2(sine, cosine))
+        meters = np.linalg.norm(self.apply(at) - other.apply(at))
+        return float(meters), float(np.arctan2(sine, cosine))

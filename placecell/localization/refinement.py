@@ -4,7 +4,7 @@ import numpy as np
 
 from placecell.core.types import Float64, Int64
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.registration import register
 
@@ -14,7 +14,7 @@ NARROWING = 0.8
 
 
 def refine(
-    pose: Pose, found: Correspondences, parameters: LocalisationParameters
+    pose: Pose, found: Correspondences, parameters: LocalizationParameters
 ) -> tuple[Pose, Int64]:
     """Register anew with what lies near, until nothing changes.
 

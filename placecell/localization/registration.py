@@ -3,12 +3,12 @@
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 
 
 def register(
-    source: Float64, target: Float64, weights: Float64, parameters: LocalisationParameters
+    source: Float64, target: Float64, weights: Float64, parameters: LocalizationParameters
 ) -> Pose:
     """The transform of the wanted kind.
 

@@ -1,4 +1,4 @@
-"""Voting: which correspondences share a turn and a shift with others (generalised Hough transform).
+"""Voting: which correspondences share a turn and a shift with others (generalized Hough transform).
 
 Ballard 1981, *Generalizing the Hough transform to detect arbitrary shapes*. Linear in the number of
 correspondences, where comparing them in pairs is not.
@@ -9,10 +9,10 @@ import numpy as np
 from placecell.core.cancellation import current
 from placecell.core.types import Float64
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 
 
-def most_voted(found: Correspondences, parameters: LocalisationParameters) -> Correspondences:
+def most_voted(found: Correspondences, parameters: LocalizationParameters) -> Correspondences:
     """The correspondences in the fullest cells, `parameters.most` at most, in their old order.
 
     For each turn, a correspondence votes for the one shift that takes its query to its place. It is

@@ -2,7 +2,7 @@
 
     alignment = align(a, b, looks)
 
-goes step by step (`align.py`): the second map is cut into submaps, each is localised in the first,
+goes step by step (`align.py`): the second map is cut into submaps, each is localized in the first,
 poses that agree are one guess, and a guess is held against the whole overlap that follows from it.
 `loops.py` checks the alignments of more than two maps. No step knows of models, files or requests.
 """

@@ -49,7 +49,7 @@ def align(
 ) -> MapAlignment:
     """Find b's frame in a's.
 
-    Submaps of b are localised in a; poses of submaps that put the whole map in the same place are
+    Submaps of b are localized in a; poses of submaps that put the whole map in the same place are
     one guess; and a guess is held against all of the overlap that follows from it.
     """
     least = parameters.least_pairs
@@ -71,7 +71,7 @@ def align(
 def guess(
     submaps: Sequence[Submap], a: MapView, b: MapView, looks: Looks, parameters: AlignmentParameters
 ) -> list[Guess]:
-    """Where each submap of b may be in a: the hypotheses of localisation, not yet judged."""
+    """Where each submap of b may be in a: the hypotheses of localization, not yet judged."""
     guesses = []
     for number, submap in enumerate(submaps):
         candidates = candidates_of(submap, b, a, looks, parameters)
@@ -89,7 +89,7 @@ def turned(pose: Pose, stands: Float64) -> Pose:
     Where much lies densely and looks alike, what agrees does so by chance, and would turned, too.
 
     Args:
-        stands: float64 (n, 3), metres, from where the robot saw what agrees.
+        stands: float64 (n, 3), meters, from where the robot saw what agrees.
     """
     spot = stands.mean(axis=0)
     there = pose.after(Pose.of_yaw(np.pi, np.zeros(3)))

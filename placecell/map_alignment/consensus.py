@@ -25,7 +25,7 @@ class Guess:
 
     Attributes:
         submap: its number.
-        middle: float64 (3,), its middle, metres, in its own map's frame.
+        middle: float64 (3,), its middle, meters, in its own map's frame.
         pose: from that frame to the other map's.
         score: what speaks for it.
     """

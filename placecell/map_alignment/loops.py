@@ -19,7 +19,7 @@ from placecell.localization import Pose
 LONGEST = 4
 """Loops of up to so many maps are all looked at; of longer ones, enough for each alignment."""
 
-METRES, DEGREES = 1.0, 2.0
+METERS, DEGREES = 1.0, 2.0
 """By which a loop may miss, for each of its alignments."""
 
 
@@ -30,7 +30,7 @@ class Alignment:
     Attributes:
         one, other: numbers of the maps.
         pose: from the other's frame to the one's.
-        middle: float64 (3,), of what both have, metres, in the one's frame.
+        middle: float64 (3,), of what both have, meters, in the one's frame.
         weight: what speaks for it.
     """
 
@@ -60,20 +60,20 @@ class Loop:
     Attributes:
         maps: their numbers, in the order of the way.
         alignments: indices of the alignments on it.
-        metres: by which one misses the place where one began.
+        meters: by which one misses the place where one began.
         degrees: by which one is turned then.
     """
 
     maps: tuple[int, ...]
     alignments: tuple[int, ...]
-    metres: float
+    meters: float
     degrees: float
 
     @property
     def closes(self) -> bool:
         """Whether it leads back."""
         steps = len(self.alignments)
-        return self.metres <= METRES * steps and self.degrees <= DEGREES * steps
+        return self.meters <= METERS * steps and self.degrees <= DEGREES * steps
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,8 +163,8 @@ def measured(maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[Al
     for (number, _), index in zip(steps, indices, strict=True):
         around = around.after(alignments[index].into(number))
     start = alignments[indices[0]].middle_in(maps[0])
-    metres, angle = around.difference(Pose.of_matrix(np.eye(4)), start)
-    return Loop(tuple(maps), indices, metres, float(np.degrees(angle)))
+    meters, angle = around.difference(Pose.of_matrix(np.eye(4)), start)
+    return Loop(tuple(maps), indices, meters, float(np.degrees(angle)))
 
 
 def counted(loops: Iterable[Loop]) -> Counter[int]:

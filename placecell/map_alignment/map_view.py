@@ -16,8 +16,8 @@ class MapView:
     """Where the segments of a map are, and where they were seen from, in the map's frame.
 
     Attributes:
-        centroids: float64 (n, 3), metres.
-        stands: float64 (n, 3), the sensor's position when each was seen, metres.
+        centroids: float64 (n, 3), meters.
+        stands: float64 (n, 3), the sensor's position when each was seen, meters.
     """
 
     centroids: Float64

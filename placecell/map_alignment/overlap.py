@@ -22,8 +22,8 @@ class Overlap:
         pose: from b's frame to a's, refined with all that agrees.
         covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
         rows_a, rows_b: int64 (m,), the segments that agree, pair by pair, one to one.
-        source: float64 (m, 3), centroids of those of b, metres, in b's frame.
-        residuals: float64 (m,), metres between the two of each pair.
+        source: float64 (m, 3), centroids of those of b, meters, in b's frame.
+        residuals: float64 (m,), meters between the two of each pair.
         score: what all pairs are worth together: of each how likely the two are the same, the less,
             the farther apart they are.
         expected: of each map, how many things are where the other's robot should have seen them.

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, field
 
-from placecell.localization import LocalisationParameters
+from placecell.localization import LocalizationParameters
 
 
 @dataclass(frozen=True, slots=True)
 class AlignmentParameters:
-    """Constants from two maps to a transform. Lengths are metres, angles degrees."""
+    """Constants from two maps to a transform. Lengths are meters, angles degrees."""
 
-    local: LocalisationParameters = field(default_factory=LocalisationParameters)
+    local: LocalizationParameters = field(default_factory=LocalizationParameters)
     """Of a submap's pose, and of the refinement."""
 
     # Submaps.
@@ -29,7 +29,7 @@ class AlignmentParameters:
     apart_yaw: float = 6.0
     """Two submaps agree if each one's pose puts the other this near to where its own puts it,"""
     slack: float = 0.03
-    """and by so much more for each metre between them: small turns, and odometry that drifts."""
+    """and by so much more for each meter between them: small turns, and odometry that drifts."""
     alignments: int = 3
     """That are looked at: the best, and others to hold against it."""
 
@@ -45,7 +45,7 @@ class AlignmentParameters:
     pairs: int = 4_000_000
     """Of segments that lie near each other and are compared, at most, of some of the segments."""
 
-    # Judgement.
+    # Judgment.
     least_pairs: int = 12
     """That agree, for a guess to be one."""
     least_agreement: float = 0.1

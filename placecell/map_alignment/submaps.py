@@ -18,7 +18,7 @@ class Submap:
     """A part of a map.
 
     Attributes:
-        middle: float64 (3,), mean of the centroids, metres, in the map's frame.
+        middle: float64 (3,), mean of the centroids, meters, in the map's frame.
         rows: int64 (n,), ascending, of the map.
     """
 

@@ -9,7 +9,7 @@ import numpy as np
 from placecell.core.parameters import Parameters
 from placecell.datasets import Drive
 
-BLOCK_METRES = 12.0
+BLOCK_METERS = 12.0
 
 
 def alternate_blocks(drive: Drive) -> tuple[list[range], list[range]]:
@@ -22,7 +22,7 @@ def alternate_blocks(drive: Drive) -> tuple[list[range], list[range]]:
     along = np.concatenate([[0.0], np.cumsum(steps)])
     if along[-1] == 0:
         return [range(len(drive))], []
-    length = min(BLOCK_METRES, along[-1] / 2)
+    length = min(BLOCK_METERS, along[-1] / 2)
     # The last scan of all lies on the end of the last block, not in one of its own.
     number = np.minimum(along // length, np.ceil(along[-1] / length) - 1)
     starts = [*np.flatnonzero(np.diff(number, prepend=-1)).tolist(), len(drive)]

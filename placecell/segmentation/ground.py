@@ -16,7 +16,7 @@ def is_ground(points: Float32, parameters: Parameters) -> Bool:
     """Which points of a local map are ground: bool (n,).
 
     Args:
-        points: float32 (n, 3), metres, z up (within 5 degrees or so).
+        points: float32 (n, 3), meters, z up (within 5 degrees or so).
     """
     if not len(points):
         return np.zeros(0, dtype=bool)

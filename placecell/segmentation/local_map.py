@@ -21,8 +21,8 @@ def voxel_means(points: Float32, voxel: float) -> Float32:
     """One point a voxel, the mean of those in it, on a grid fixed to the world.
 
     Args:
-        points: float32 (n, 3), metres, world frame.
-        voxel: edge, metres.
+        points: float32 (n, 3), meters, world frame.
+        voxel: edge, meters.
 
     Returns:
         float32 (voxels, 3), ordered by voxel.
@@ -49,7 +49,7 @@ class Accumulator:
         self._moved: OrderedDict[int, Float32] = OrderedDict()
 
     def local_map(self, frame: int) -> Float32:
-        """The local map at a scan: float32 (n, 3), metres, world frame."""
+        """The local map at a scan: float32 (n, 3), meters, world frame."""
         first = max(self.first, frame - self.parameters.accumulated_scans + 1)
         scans = [self._in_world(index) for index in range(first, frame + 1)]
         points = np.concatenate(scans)

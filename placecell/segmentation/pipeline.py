@@ -8,7 +8,7 @@ from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, UInt8
 from placecell.datasets import Drive
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.deduplication import keep_distinct
 from placecell.segmentation.ground import is_ground
 from placecell.segmentation.grouping import Grouper
@@ -97,6 +97,6 @@ def packed_grids(segments: Segments, parameters: Parameters, batch: int = 1000) 
     packed = [np.zeros((0, (int(np.prod(parameters.grid)) + 7) // 8), dtype=np.uint8)]
     for first in range(0, len(segments), batch):
         some = segments.take(np.arange(first, min(first + batch, len(segments))))
-        occupancy, _ = voxelise(some, parameters)
+        occupancy, _ = voxelize(some, parameters)
         packed.append(np.packbits(occupancy.reshape(len(some), -1), axis=1))
     return np.concatenate(packed)

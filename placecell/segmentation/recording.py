@@ -15,10 +15,10 @@ import safetensors
 from numpy.typing import NDArray
 from safetensors.numpy import save_file
 
-from placecell.core.parameters import Parameters, SurroundingsParameters
+from placecell.core.parameters import NeighborhoodParameters, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int64
-from placecell.descriptors.neighborhood import describe_surroundings
+from placecell.descriptors.neighborhood import describe_neighborhood
 
 FORMAT = "placecell-recording"
 VERSION = 1
@@ -50,7 +50,7 @@ class Recording:
         distinct: bool (segments,): false for duplicates inside their group.
         scans: how many the drive has.
         scan_hashes: of each scan, to tell whether a model has seen it.
-        path_length: metres driven.
+        path_length: meters driven.
         part: scans that it was made of, where that is not the whole drive.
         skipped_scans: indices of scans that could not be used.
         dropped_points: how many points of the other scans were not finite.
@@ -84,9 +84,9 @@ class Recording:
         np.maximum.at(latest, self.groups, self.frames)
         return ((earliest >= first) & (latest <= last))[self.groups]
 
-    def surroundings(self, parameters: SurroundingsParameters) -> Float32:
+    def neighborhood(self, parameters: NeighborhoodParameters) -> Float32:
         """What stood around each segment in its frame, float32 (segments, size)."""
-        return describe_surroundings(self.segments, self.frames, parameters)
+        return describe_neighborhood(self.segments, self.frames, parameters)
 
     def save(self, file: Path) -> None:
         """Write the recording as safetensors.

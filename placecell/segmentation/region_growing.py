@@ -11,7 +11,7 @@ def grow_regions(points: Float32, radius: float) -> Int64:
     """Label the connected regions of points linked by steps of at most `radius`.
 
     Args:
-        points: float32 (n, 3), metres.
+        points: float32 (n, 3), meters.
 
     Returns:
         int64 (n,): labels from 0, numbered by each region's first point.
@@ -43,7 +43,7 @@ def _find(parent: Int64, index: int) -> int:
 
 @compiled
 def _link(points: Float32, keys: Int64, rows: int, layers: int, squared_radius: float) -> Int64:
-    """Union-find over points sorted by cell; a cell's neighbours are found by bisection."""
+    """Union-find over points sorted by cell; a cell's neighbors are found by bisection."""
     count = len(points)
     parent = np.arange(count)
     for row_step in range(-1, 2):

@@ -76,7 +76,7 @@ def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
         overlap.residuals.tolist(),
         strict=True,
     )
-    return [PairOut(id=id_, other_id=other, residual=metres) for id_, other, metres in rows]
+    return [PairOut(id=id_, other_id=other, residual=meters) for id_, other, meters in rows]
 
 
 def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut:
@@ -102,7 +102,7 @@ def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut
         loops=[
             LoopOut(
                 maps=[plan.maps[number].name for number in loop.maps],
-                metres=loop.metres,
+                metres=loop.meters,
                 degrees=loop.degrees,
                 closes=loop.closes,
             )

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from placecell.core.parameters import SurroundingsParameters
+from placecell.core.parameters import NeighborhoodParameters
 from placecell.core.types import Float32, Int64
 from placecell.map_alignment import AlignmentParameters
 from service.core.problems import Problem
@@ -102,7 +102,7 @@ def check_cost(cost: Cost, limit: float, remedy: str | None = None) -> None:
 
 
 def cost_of_describing(
-    points: Float32, counts: Int64, looks: SurroundingsParameters | None
+    points: Float32, counts: Int64, looks: NeighborhoodParameters | None
 ) -> Cost:
     """Return the cost of describing segments.
 
@@ -119,7 +119,7 @@ def cost_of_describing(
     )
 
 
-def near_voxels(points: Float32, counts: Int64, looks: SurroundingsParameters) -> int:
+def near_voxels(points: Float32, counts: Int64, looks: NeighborhoodParameters) -> int:
     """Estimate the number of pairs of a segment and a voxel within reach; seldom too low.
 
     Pairs are counted along each horizontal axis alone, and the axis with fewer pairs counts. So

@@ -84,7 +84,7 @@ class Describer:
             rows=tuple(
                 failures[place] if place in failures else next(rows) for place in range(count)
             ),
-            codes=self.manifest.quantiser.encode(descriptors[finite]),
+            codes=self.manifest.quantizer.encode(descriptors[finite]),
             descriptors=descriptors[finite],
             centroids=prepared.centroids[finite],
         )
@@ -113,7 +113,7 @@ class Describer:
             raise _none_usable(failures)
         near = scan.near(origin, np.array(usable))
         timing.lap("decode")
-        cost = cost_of_describing(near.points, near.counts, self.manifest.surroundings)
+        cost = cost_of_describing(near.points, near.counts, self.manifest.neighborhood)
         check_cost(besides + cost, self._limits.cost_seconds)
         inputs = self._extractor.prepare(near, lap=timing.lap)
         timing.lap("voxelise")  # what is left of the steps before the network

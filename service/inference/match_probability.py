@@ -14,8 +14,8 @@ def likely(model: Model, one: Int8, other: Int8) -> Float64:
     """
     if model.classifier is not None:
         return model.classifier.probabilities(one, other)
-    quantiser = model.manifest.quantiser
-    levels = quantiser.levels(one).astype(np.float64) - quantiser.levels(other)
-    distances = quantiser.step * np.linalg.norm(levels, axis=1)
-    deviation = max(model.manifest.pair_threshold, quantiser.step)
+    quantizer = model.manifest.quantizer
+    levels = quantizer.levels(one).astype(np.float64) - quantizer.levels(other)
+    distances = quantizer.step * np.linalg.norm(levels, axis=1)
+    deviation = max(model.manifest.pair_threshold, quantizer.step)
     return np.asarray(np.exp(-0.5 * (distances / deviation) ** 2))

@@ -20,7 +20,7 @@ from placecell.core.grid_cells import neighboring
 from placecell.core.jit import compiled
 from placecell.core.types import Bool, Float64, Int8, Int32, Int64, UInt32
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 
 RADIUS = 0.5
 """Metres between centroids of one thing. Of pairs this near, seen at different times, 85% were
@@ -51,18 +51,18 @@ class SameView:
     """When two segments show the same.
 
     Attributes:
-        quantiser: of the model that described them.
+        quantizer: of the model that described them.
         steps: up to which their descriptors are apart, in the quantiser's steps.
     """
 
-    quantiser: Quantiser
+    quantizer: Quantizer
     steps: float
 
     @classmethod
     def of(cls, manifest: Manifest) -> "SameView":
         """For the segments that a model described."""
-        quantiser = manifest.quantiser
-        return cls(quantiser, SAME_VIEW * manifest.pair_threshold / quantiser.step)
+        quantizer = manifest.quantizer
+        return cls(quantizer, SAME_VIEW * manifest.pair_threshold / quantizer.step)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -143,7 +143,7 @@ def sighting(
         np.floor(moments).clip(0, np.iinfo(np.uint32).max).astype(np.uint32),
         _robots(known, given),
         np.concatenate([each.frame_positions[each.frame_index] for each in both]),
-        same.quantiser.levels(np.concatenate([each.codes for each in both])),
+        same.quantizer.levels(np.concatenate([each.codes for each in both])),
         is_compared,
         replaces,
         itself,

@@ -15,7 +15,7 @@ import faiss
 import numpy as np
 
 from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
-from placecell.descriptors.quantizer import LEVELS, Quantiser
+from placecell.descriptors.quantizer import LEVELS, Quantizer
 from service.maps.layers import MapLayers
 
 MARGIN = 12
@@ -106,23 +106,23 @@ class FlatIndex(MapIndex):
     in float32, so a distance depends neither on the batch nor on the order of summation.
     """
 
-    def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+    def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
         super().__init__(codes)
-        self._quantiser = quantiser
-        self._index = faiss.IndexFlatL2(codes.shape[1] * quantiser.per_byte)
+        self._quantizer = quantizer
+        self._index = faiss.IndexFlatL2(codes.shape[1] * quantizer.per_byte)
         self._index.codes.resize(4 * len(codes) * self._index.d)  # else it grows by doubling
         self._index.codes.resize(0)
         for start in range(0, len(codes), ROWS):
-            levels = quantiser.levels(codes[start : start + ROWS])
+            levels = quantizer.levels(codes[start : start + ROWS])
             self._index.add(levels.astype(np.float32))
 
     def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
         """Return the k nearest rows; exact in this index."""
         faiss.omp_set_num_threads(1)
-        return self._index.search(self._quantiser.levels(codes).astype(np.float32), k)
+        return self._index.search(self._quantizer.levels(codes).astype(np.float32), k)
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
-        levels = self._quantiser.levels(codes).astype(np.float32)
+        levels = self._quantizer.levels(codes).astype(np.float32)
         squared, rows = self._index.search(levels, fetch)
         return squared.astype(np.float64), rows, squared[:, -1].astype(np.float64)
 
@@ -152,18 +152,18 @@ class Nibbles:
 
         A table of 128 kB for each index would be a megabyte for each map, however empty.
         """
-        quantiser = Quantiser(1.0, per_byte)
+        quantizer = Quantizer(1.0, per_byte)
         every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
-        levels = quantiser.levels(every).astype(np.int32)
+        levels = quantizer.levels(every).astype(np.int32)
         apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
         per_nibble = per_byte // 2
         # A nibble's value: its dimensions' digits, as the quantiser counts them.
         places = LEVELS[per_byte] ** np.arange(per_nibble)
-        digits = (levels + quantiser.highest) // quantiser.spacing
+        digits = (levels + quantizer.highest) // quantizer.spacing
         low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
         codebook = np.zeros((16, per_nibble), dtype=np.float32)
         codebook[low] = levels[:, :per_nibble]
-        widest = per_nibble * (2 * quantiser.highest) ** 2
+        widest = per_nibble * (2 * quantizer.highest) ** 2
         faiss_bytes = (low | high << 4).astype(np.uint8)
         return cls(apart.astype(np.uint16), faiss_bytes, codebook, per_nibble, widest)
 
@@ -188,11 +188,11 @@ class NibbleIndex(MapIndex):
     Takes the codes' own bytes a segment in memory, beside the codes. An empty one takes nothing.
     """
 
-    def __init__(self, codes: Int8, quantiser: Quantiser) -> None:
+    def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
         """Index codes with 2 or 4 dimensions per byte."""
         super().__init__(codes)
-        self._quantiser = quantiser
-        self._tables = Nibbles.of(quantiser.per_byte)
+        self._quantizer = quantizer
+        self._tables = Nibbles.of(quantizer.per_byte)
         self._index = self._tables.index(codes) if len(codes) else None
         # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
         nibbles = 2 * codes.shape[1]
@@ -202,12 +202,12 @@ class NibbleIndex(MapIndex):
         """Return about the k nearest rows, by distances as FAISS rounds them."""
         assert self._index is not None  # nothing is fetched of an empty one
         faiss.omp_set_num_threads(1)
-        levels = self._quantiser.levels(codes).astype(np.float32)
+        levels = self._quantizer.levels(codes).astype(np.float32)
         squared, rows = self._index.search(levels, k)
         return squared, rows
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
-        levels = self._quantiser.levels(codes).astype(np.float32)
+        levels = self._quantizer.levels(codes).astype(np.float32)
         assert self._index is not None  # nothing is fetched of an empty one
         told, rows = self._index.search(levels, fetch)
         asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
@@ -220,10 +220,10 @@ class NibbleIndex(MapIndex):
         return squared, rows, told[:, -1].astype(np.float64) - self._bound
 
 
-def index_of(codes: Int8, quantiser: Quantiser) -> MapIndex:
+def index_of(codes: Int8, quantizer: Quantizer) -> MapIndex:
     """The index that suits the codes: the quickest by far, where they are made of nibbles."""
-    kind = NibbleIndex if quantiser.per_byte in {2, 4} else FlatIndex
-    return kind(codes, quantiser)
+    kind = NibbleIndex if quantizer.per_byte in {2, 4} else FlatIndex
+    return kind(codes, quantizer)
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,17 +235,17 @@ class LayeredIndex:
 
     @classmethod
     def of(
-        cls, layers: MapLayers, quantiser: Quantiser, base: MapIndex | None = None
+        cls, layers: MapLayers, quantizer: Quantizer, base: MapIndex | None = None
     ) -> "LayeredIndex":
         """Over both layers.
 
         Args:
             layers: of the map.
-            quantiser: of the model that made it.
+            quantizer: of the model that made it.
             base: the base's, if it is there already.
         """
-        recent = index_of(layers.recent.codes, quantiser)
-        return cls(base or index_of(layers.base.codes, quantiser), recent)
+        recent = index_of(layers.recent.codes, quantizer)
+        return cls(base or index_of(layers.base.codes, quantizer), recent)
 
     def search(self, layers: MapLayers, codes: Int8, k: int) -> tuple[Float64, Int64]:
         """The nearest segments to each query, over both layers.

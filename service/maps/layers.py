@@ -102,16 +102,16 @@ class MapLayers:
             take(self.base, base[~self.gone[base]]), Delta(recent, np.zeros(0, dtype=np.uint32))
         )
 
-    def near(self, places: Float64, metres: float) -> CompactMap:
+    def near(self, places: Float64, meters: float) -> CompactMap:
         """The segments about these places, (p, 3): all that are so near to one, and some around."""
         if not len(places):
             return self.take(self.recent.ids[:0])
-        return self.take(self.column("ids", self.rows_near(places, metres)))
+        return self.take(self.column("ids", self.rows_near(places, meters)))
 
-    def rows_near(self, places: Float64, metres: float) -> Int64:
+    def rows_near(self, places: Float64, meters: float) -> Int64:
         """Rows of the map about these places, (p, 3), at least one; see `within`."""
         base, recent = (
-            within(layer.centroids, places, metres) for layer in (self.base, self.recent)
+            within(layer.centroids, places, meters) for layer in (self.base, self.recent)
         )
         return np.concatenate([base[~self.gone[base]], recent + len(self.base)])
 

@@ -284,7 +284,7 @@ class MapRepository:
         model = self._models.find(made_by)
         if model is None or layers.base.code_bytes != model.manifest.code_bytes:
             return None
-        return LayeredIndex.of(layers, model.manifest.quantiser, base)
+        return LayeredIndex.of(layers, model.manifest.quantizer, base)
 
 
 def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:

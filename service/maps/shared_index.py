@@ -15,7 +15,7 @@ from threading import Lock
 import numpy as np
 
 from placecell.core.types import Bool, Float32, Int64
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from service.maps.index import MapIndex, index_of
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
@@ -71,13 +71,13 @@ class Shared:
         return 2 * len(self.rows) < ROOM and 2 * len(self.keys) < MEMBERS
 
     @classmethod
-    def of(cls, maps: Sequence[MapSnapshot], quantiser: Quantiser) -> "Shared":
+    def of(cls, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> "Shared":
         """Build the index of these maps of one model."""
         maps = sorted(maps, key=lambda each: each.name)
         rows = [alive(each.layers) for each in maps]
         codes = [each.layers.column("codes", own) for each, own in zip(maps, rows, strict=True)]
         centroids = [
-            centred(each.layers.column("centroids", own))
+            centered(each.layers.column("centroids", own))
             for each, own in zip(maps, rows, strict=True)
         ]
         starts = np.concatenate([[0], np.cumsum([len(own) for own in rows])])
@@ -86,7 +86,7 @@ class Shared:
             starts.astype(np.int64),
             np.concatenate(rows),
             np.concatenate(centroids),
-            index_of(np.concatenate(codes), quantiser),
+            index_of(np.concatenate(codes), quantizer),
         )
 
 
@@ -124,7 +124,7 @@ class SharedIndexes:
         searched: Sequence[MapSnapshot],
         known: Iterable[MapSnapshot],
         model_id: str,
-        quantiser: Quantiser,
+        quantizer: Quantizer,
         patterns: Patterns,
     ) -> list[Part]:
         """Return the parts to search for these maps, each map in one part.
@@ -133,19 +133,19 @@ class SharedIndexes:
             searched: maps with an index, of one model.
             known: all maps there are, for indexes are made of what all keys open.
             model_id: of that model.
-            quantiser: of that model.
+            quantizer: of that model.
             patterns: what the keys open.
         """
         with self._lock:
             if patterns != self._patterns:
                 self._by_model, self._patterns = {}, patterns
             own = [each for each in known if each.index is not None and each.model_id == model_id]
-            kept = self._renewed(own, self._by_model.get(model_id, []), quantiser)
+            kept = self._renewed(own, self._by_model.get(model_id, []), quantizer)
             self._by_model[model_id] = kept
         return _parts_of(searched, kept)
 
     def _renewed(
-        self, maps: Sequence[MapSnapshot], before: Sequence[Shared], quantiser: Quantiser
+        self, maps: Sequence[MapSnapshot], before: Sequence[Shared], quantizer: Quantizer
     ) -> list[Shared]:
         """Keep the valid indexes; rebuild those with too many changed maps."""
         small = {key_of(each): each for each in maps if 0 < len(each) <= SMALL}
@@ -167,21 +167,21 @@ class SharedIndexes:
         for each in sorted(loose, key=lambda one: one.name):
             groups.setdefault(self._openers(each.name), []).append(each)
         for group in groups.values():
-            kept += self._filled(group, quantiser)
+            kept += self._filled(group, quantizer)
         return kept
 
-    def _filled(self, maps: Sequence[MapSnapshot], quantiser: Quantiser) -> list[Shared]:
+    def _filled(self, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> list[Shared]:
         made: list[Shared] = []
         some: list[MapSnapshot] = []
         count = 0
         for each in maps:
             if some and (count + len(each) > ROOM or len(some) == MEMBERS):
-                made.append(Shared.of(some, quantiser))
+                made.append(Shared.of(some, quantizer))
                 some, count = [], 0
             some.append(each)
             count += len(each)
         if len(some) > 1:
-            made.append(Shared.of(some, quantiser))
+            made.append(Shared.of(some, quantizer))
         return made
 
     def _openers(self, name: str) -> tuple[int, ...]:
@@ -218,7 +218,7 @@ def alive(layers: MapLayers) -> Int64:
     return np.asarray(rows[np.argsort(layers.column("ids", rows), kind="stable")])
 
 
-def centred(centroids: "np.ndarray") -> Float32:
+def centered(centroids: "np.ndarray") -> Float32:
     """Return centroids about their mean, float32, as maps may lie 1,000 km off."""
     middle = np.median(centroids, axis=0) if len(centroids) else 0.0
     return np.asarray(centroids - middle, np.float32)

@@ -54,7 +54,7 @@ class MapSide:
         stored = self.stored
         if stored.index is not None and self.content is stored.layers.base:
             return stored.index.base
-        return index_of(self.content.codes, model.manifest.quantiser)
+        return index_of(self.content.codes, model.manifest.quantizer)
 
 
 class MapLikeness:

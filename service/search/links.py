@@ -9,7 +9,7 @@ import numpy as np
 
 from placecell.core.spatial import evenly
 from placecell.core.types import Float64, Int64, UInt32
-from placecell.localization import LocalisationParameters, Pose
+from placecell.localization import LocalizationParameters, Pose
 from placecell.localization.registration import register
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
@@ -28,7 +28,7 @@ def pose_between(one: MapSnapshot, other: MapSnapshot) -> Pose | None:
         return None
     source = np.concatenate([_stands(other.layers, others), _centroids(other.layers, others)])
     target = np.concatenate([_stands(one.layers, rows), _centroids(one.layers, rows)])
-    pose = register(source, target, np.ones(len(source)), LocalisationParameters())
+    pose = register(source, target, np.ones(len(source)), LocalizationParameters())
     off = np.linalg.norm(pose.apply(source) - target, axis=1)
     return pose if np.median(off) <= OFF else None
 

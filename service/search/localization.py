@@ -7,9 +7,9 @@ import numpy as np
 
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
-from placecell.localization import Candidates, Localisation, LocalisationParameters, localize
+from placecell.localization import Candidates, Localization, LocalizationParameters, localize
 from placecell.localization.evidence import Evidence
-from placecell.localization.joint import Judged, MapQuery, localise_jointly
+from placecell.localization.joint import Judged, MapQuery, localize_jointly
 from placecell.localization.localize import unknown
 from service.core.timing import Timing
 from service.inference.match_probability import likely
@@ -30,9 +30,9 @@ class MapSurroundings:
         self._model = model
         self._layers = stored.layers
 
-    def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
+    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Rows about places, and their centroids."""
-        rows = self._layers.rows_near(places, metres)
+        rows = self._layers.rows_near(places, meters)
         return rows, self._layers.column("centroids", rows)
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
@@ -40,16 +40,16 @@ class MapSurroundings:
         return likely(self._model, self._codes[queries], self._layers.column("codes", rows))
 
 
-def localise_in(
+def localize_in(
     codes: Int8,
     centroids: Float64,
     model: Model,
     stored: MapSnapshot,
     k: int,
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     timing: Timing,
     evidence: Evidence | None = None,
-) -> Localisation:
+) -> Localization:
     """Where in a map the robot is.
 
     Args:
@@ -62,11 +62,11 @@ def localise_in(
     """
     query = query_in(codes, centroids, model, stored, k, evidence)
     timing.lap("search")
-    localisation = localize(
+    localization = localize(
         query.candidates, parameters, query.confidence, query.evidence, query.there
     )
     timing.lap("verify")
-    return localisation
+    return localization
 
 
 def query_in(
@@ -77,7 +77,7 @@ def query_in(
     k: int,
     evidence: Evidence | None = None,
 ) -> MapQuery:
-    """Look up the candidates in one map; arguments as of `localise_in`."""
+    """Look up the candidates in one map; arguments as of `localize_in`."""
     found = found_in(codes, model, (stored,), k)
     there = MapSurroundings(codes, model, stored)
     probabilities = found.probabilities
@@ -125,10 +125,10 @@ class InMap:
     rival: MapSnapshot | None = None
 
 
-def localise_among(
+def localize_among(
     groups: Sequence[Group],
     k: int,
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     timing: Timing,
     parts: Callable[[Group], list[Part]],
     evidence: Callable[[MapSnapshot], Evidence | None],
@@ -160,7 +160,7 @@ def localise_among(
         )
     timing.lap("search")
     maps = [groups[number].searched[place] for number, place in chosen]
-    judged = localise_jointly(
+    judged = localize_jointly(
         queries, parameters, lambda one, other: pose_between(maps[one], maps[other])
     )
     full = dict(zip(chosen, judged, strict=True))
@@ -177,7 +177,7 @@ def localise_among(
     return sorted(answers, key=_rank)
 
 
-def not_searched(usable: int, parameters: LocalisationParameters, full: int) -> Localisation:
+def not_searched(usable: int, parameters: LocalizationParameters, full: int) -> Localization:
     """Return the localization of a map that was not searched in full."""
     told = unknown(usable, parameters)
     if told.reason != "inconsistent" or not full:
@@ -194,7 +194,7 @@ def _rank(answer: InMap) -> tuple[bool, float, float, str]:
 
     The name orders what is equal in all, such as maps without any candidate.
     """
-    found = answer.judged.localisation
+    found = answer.judged.localization
     return (
         found.pose is None,
         -found.probability,
@@ -206,7 +206,7 @@ def _rank(answer: InMap) -> tuple[bool, float, float, str]:
 def _chosen(
     groups: Sequence[Group],
     past: dict[tuple[int, int], Evidence | None],
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
     parts: Callable[[Group], list[Part]],
 ) -> list[tuple[int, int]]:
     """Choose the maps to search in full, by group and index."""

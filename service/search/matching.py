@@ -165,7 +165,7 @@ def found_in(
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
     probabilities = _probabilities(codes, model, searched, places, rows)
-    lengths = distances * model.manifest.quantiser.step
+    lengths = distances * model.manifest.quantizer.step
     return Found(searched, places, rows, lengths, probabilities)
 
 
@@ -193,8 +193,8 @@ def parts_of(
     Args:
         patterns: what keys open; maps that are searched together are opened by the same keys.
     """
-    quantiser = model.manifest.quantiser
-    return maps.shared.parts(searched, maps.all(), model.id, quantiser, patterns)
+    quantizer = model.manifest.quantizer
+    return maps.shared.parts(searched, maps.all(), model.id, quantizer, patterns)
 
 
 def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:

@@ -15,8 +15,8 @@ from placecell.core.cancellation import current, is_cancelled
 from placecell.core.jit import compiled
 from placecell.core.spatial import evenly
 from placecell.core.types import Float32, Float64, Int8, Int32, Int64
-from placecell.localization import LocalisationParameters
-from service.maps.shared_index import Part, centred
+from placecell.localization import LocalizationParameters
+from service.maps.shared_index import Part, centered
 from service.maps.snapshot import MapSnapshot
 
 FULL = 8
@@ -64,7 +64,7 @@ def votes_of(
     centroids: Float64,
     searched: Sequence[MapSnapshot],
     parts: Sequence[Part],
-    parameters: LocalisationParameters,
+    parameters: LocalizationParameters,
 ) -> Int64:
     """Count for each map how many segments agree about one place, int64 (maps,).
 
@@ -154,7 +154,7 @@ def _nearest(codes: Int8, searched: Sequence[MapSnapshot], part: Part) -> Neares
         assert stored.index is not None
         distances, rows = stored.index.search(stored.layers, codes, OWN)
         queries = np.repeat(np.arange(len(codes)), rows.shape[1])
-        points = centred(stored.layers.column("centroids", rows.ravel()))
+        points = centered(stored.layers.column("centroids", rows.ravel()))
         squared = np.asarray(distances.ravel() ** 2, np.float32)
         return Nearest(np.full(len(queries), place), queries, points, squared)
     squared, rows = shared.index.rough(codes, min(NEAREST, len(shared.rows)))

@@ -7,7 +7,7 @@ from threading import Lock
 from time import monotonic
 
 from placecell.core.types import Float64
-from placecell.localization import Hypothesis, LocalisationParameters
+from placecell.localization import Hypothesis, LocalizationParameters
 from placecell.localization.evidence import Evidence, History
 
 
@@ -39,7 +39,7 @@ class Sessions:
     def __init__(
         self,
         most: int,
-        parameters: LocalisationParameters | None = None,
+        parameters: LocalizationParameters | None = None,
         clock: Callable[[], float] = monotonic,
     ) -> None:
         """None yet.
@@ -50,7 +50,7 @@ class Sessions:
             clock: gives seconds that only grow.
         """
         self._most = most
-        self._parameters = parameters or LocalisationParameters()
+        self._parameters = parameters or LocalizationParameters()
         self._clock = clock
         self._lock = Lock()
         # Those used last stand at the end, of all keys and of each.

@@ -31,7 +31,7 @@ def views(models: list[Model]) -> list[DescriptorSampler]:
     drawn = []
     for model in models:
         manifest = model.manifest
-        reach = manifest.quantiser.step * manifest.quantiser.highest
+        reach = manifest.quantizer.step * manifest.quantizer.highest
         found = random.normal(scale=0.5 * reach, size=(600, manifest.dimension))
         apart = random.normal(scale=0.15 * reach, size=(600, manifest.dimension))
         drawn.append(

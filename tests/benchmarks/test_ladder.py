@@ -17,7 +17,7 @@ from cli import app
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float32
 from placecell.descriptors.extractor import load_extractor
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 from placecell.segmentation.recording import Recording
 from tests.training_sets import make_shapes
@@ -60,7 +60,7 @@ def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
     asked = np.arange(600) < 100
     steps = {
         name: (size, back)
-        for name, size, back in storage_formats(found, asked, ~asked, Quantiser(0.05))
+        for name, size, back in storage_formats(found, asked, ~asked, Quantizer(0.05))
     }
     assert {name: size for name, (size, _) in steps.items()} == {
         "float32": 32, "float16": 16, "255 levels": 8, "15 levels": 4, "4 levels": 2,

@@ -72,7 +72,7 @@ def test_shares_of_no_queries_are_left_open() -> None:
     assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'} - | - |"
 
 
-def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localised() -> None:
+def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localized() -> None:
     peer = {key: value for key, value in REPORT.items() if key != "metres_until_localised"}
     *_, row = full_table({"town": peer})
     assert row.endswith("| 0.07 m, 0.15 deg | - |")

@@ -6,7 +6,7 @@ from benchmarks.town import measure_town
 
 
 def test_figures_are_of_what_was_driven(tmp_path: Path) -> None:
-    report = measure_town(tmp_path, metres=600.0, scans=6, spacing=0.5)
+    report = measure_town(tmp_path, meters=600.0, scans=6, spacing=0.5)
     assert report["scans"] == len(list((tmp_path / "velodyne").iterdir())) == 6
     assert report["street_metres"] >= 600.0
     assert report["whole_scans"] == int(report["route_metres"] / 0.5)

@@ -52,7 +52,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Path:
     run("prepare", *drives, "--output", folder / "data")
     run(
         *("train", "group", folder / "data" / "robot_a.safetensors@0:30", "--epochs", 1),
-        *("--runs", folder / "runs", "--output", folder / "tiny", "--licence", "free"),
+        *("--runs", folder / "runs", "--output", folder / "tiny", "--license", "free"),
     )
     return folder
 

@@ -35,8 +35,8 @@ SHORT, LONG = 20, 30
 def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """The demo of a drive of so many metres, that ends with a meeting: status and words."""
 
-    def run(meeting: Meeting, metres: int, found: float = 0.7) -> tuple[int, str]:
-        drive = MemoryDrive([np.zeros((0, 3))] * (metres + 1), [pose(x) for x in range(metres + 1)])
+    def run(meeting: Meeting, meters: int, found: float = 0.7) -> tuple[int, str]:
+        drive = MemoryDrive([np.zeros((0, 3))] * (meters + 1), [pose(x) for x in range(meters + 1)])
         robots = tuple(Robot(name, drive, [], np.eye(4)) for name in ("robot A", "robot B"))
         score = Score(10, 10, 0.01, {1: found}, np.ones(10, dtype=bool))
         outcome = DemoResult(score, {"model_id": "tiny"}, meeting)
@@ -49,9 +49,9 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     return run
 
 
-@pytest.mark.parametrize("metres", [SHORT, LONG])
-def test_it_works_only_where_both_came_out(ended: Any, tmp_path: Path, metres: int) -> None:
-    status, said = ended(LAID, metres)
+@pytest.mark.parametrize("meters", [SHORT, LONG])
+def test_it_works_only_where_both_came_out(ended: Any, tmp_path: Path, meters: int) -> None:
+    status, said = ended(LAID, meters)
     assert status == 0
     assert "It works: robot B knows where it is" in said
     assert json.loads((tmp_path / "figures.json").read_text())["model_id"] == "tiny"
@@ -92,8 +92,8 @@ def test_of_a_long_drive_both_are_demanded(ended: Any, meeting: Meeting, words: 
     assert "It works" not in said
 
 
-@pytest.mark.parametrize("metres", [SHORT, LONG])
-def test_whoever_is_not_recognised_fails(ended: Any, metres: int) -> None:
-    status, said = ended(LAID, metres, found=0.01)
+@pytest.mark.parametrize("meters", [SHORT, LONG])
+def test_whoever_is_not_recognized_fails(ended: Any, meters: int) -> None:
+    status, said = ended(LAID, meters, found=0.01)
     assert status == 1
     assert "hardly better than chance" in said

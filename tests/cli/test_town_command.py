@@ -25,8 +25,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two robots, a scan every eight metres of a few columns, all streets of a kilometre."""
     folder = tmp_path_factory.mktemp("large")
     run(
-        *(folder / "drives", "--metres", 1000, "--spacing", 8, "--columns", 32),
-        *("--pairs", 3, "--pair-metres", 80, "--rain", 5),
+        *(folder / "drives", "--meters", 1000, "--spacing", 8, "--columns", 32),
+        *("--pairs", 3, "--pair-meters", 80, "--rain", 5),
         *("--picture", folder / "plan.png", "--json", folder / "figures.json"),
     )
     return folder
@@ -43,7 +43,7 @@ def test_both_drive_all_streets(folder: Path) -> None:
 
 
 def test_a_drive_begins_further_on(folder: Path, tmp_path: Path) -> None:
-    words = ("--metres", 1000, "--spacing", 8, "--columns", 32, "--from", 400, "--scans", 3)
+    words = ("--meters", 1000, "--spacing", 8, "--columns", 32, "--from", 400, "--scans", 3)
     run(tmp_path, *words)
     for name in ("robot_a", "robot_b"):
         whole = read_origin(folder / "drives" / name) @ open_drive(folder / "drives" / name).poses
@@ -76,35 +76,35 @@ def test_the_picture_is_drawn(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("route", "metres"), [("wander:60", 60), ("loop:200:2", 400), ("0,0:0,1", 50)]
+    ("route", "meters"), [("wander:60", 60), ("loop:200:2", 400), ("0,0:0,1", 50)]
 )
-def test_routes(tmp_path: Path, route: str, metres: float) -> None:
+def test_routes(tmp_path: Path, route: str, meters: float) -> None:
     result = run(
-        *(tmp_path, "--metres", 700, "--route", route, "--robots", 1, "--scans", 2),
+        *(tmp_path, "--meters", 700, "--route", route, "--robots", 1, "--scans", 2),
         *("--columns", 16, "--lane", 0),
     )
     figures = json.loads(result.output.splitlines()[-1])
-    assert metres <= figures["route_metres"] < metres + 400
+    assert meters <= figures["route_metres"] < meters + 400
     assert figures["scans"] == {"robot_a": 2}
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--robots", 3], "--robots needs a large town: give --metres too"),
+        (["--robots", 3], "--robots needs a large town: give --meters too"),
         (["--rain", 3], "--rain needs a large town"),
         (["--pairs", 1], "--pairs needs a large town"),
-        (["--metres", 0], "m of streets"),
-        (["--metres", "nan"], "m of streets"),
-        (["--metres", 1e9], "m of streets"),
-        (["--metres", 700, "--route", "nowhere"], "--route is all"),
-        (["--metres", 700, "--route", "loop:x"], "--route is all"),
-        (["--metres", 700, "--route", "loop:100:0"], "one lap or more"),
-        (["--metres", 700, "--route", "0,0:99,0"], "no crossing"),
-        (["--metres", 700, "--pairs", 1, "--robots", 1], "--pairs needs two robots"),
-        (["--metres", 700, "--pairs", 1], "no two stretches of the drives that are 100 m apart"),
-        (["--metres", 700, "--pairs", 1, "--pair-metres", 9e9], "has no stretch of"),
-        (["--metres", 700, "--scans", 9999], "too short for 9999 scans"),
+        (["--meters", 0], "m of streets"),
+        (["--meters", "nan"], "m of streets"),
+        (["--meters", 1e9], "m of streets"),
+        (["--meters", 700, "--route", "nowhere"], "--route is all"),
+        (["--meters", 700, "--route", "loop:x"], "--route is all"),
+        (["--meters", 700, "--route", "loop:100:0"], "one lap or more"),
+        (["--meters", 700, "--route", "0,0:99,0"], "no crossing"),
+        (["--meters", 700, "--pairs", 1, "--robots", 1], "--pairs needs two robots"),
+        (["--meters", 700, "--pairs", 1], "no two stretches of the drives that are 100 m apart"),
+        (["--meters", 700, "--pairs", 1, "--pair-meters", 9e9], "has no stretch of"),
+        (["--meters", 700, "--scans", 9999], "too short for 9999 scans"),
     ],
 )
 def test_errors_are_a_line_that_says_what_is_wrong(
@@ -117,5 +117,5 @@ def test_errors_are_a_line_that_says_what_is_wrong(
 
 def test_help_teaches() -> None:
     shown = " ".join(run("--help").output.split())
-    assert "--metres 5000" in shown
+    assert "--meters 5000" in shown
     assert "poses_odometry.txt" in shown

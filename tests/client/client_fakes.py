@@ -59,7 +59,7 @@ PLACE = {
     "inliers": [{"query": 0, "id": 9, "residual": 0.25}],
     "others": [{"pose": POSE, "score": 2.5, "inliers": 3}], "rival": None, "later": "field",
 }  # fmt: skip
-LOCALISED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
+LOCALIZED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
 
 ALIGNED = {
     "map": "yard", "etag": "e-3", "frame": "f", "other": "hall", "other_etag": "h-1",

@@ -19,7 +19,7 @@ from tests.client.client_fakes import (
     DESCRIBED,
     INFO,
     LISTED,
-    LOCALISED,
+    LOCALIZED,
     MATCHED,
     MSGPACK,
     SUMMARY,
@@ -37,7 +37,7 @@ CALLS: dict[str, tuple[Call, httpx.Response]] = {
     "info": (lambda client: client.info(), httpx.Response(200, json=INFO)),
     "describe": (lambda client: client.describe([CLOUD], np.zeros(3)), packed(DESCRIBED)),
     "match": (lambda client: client.match(DESCRIPTION), packed(MATCHED)),
-    "localize": (lambda client: client.localize(DESCRIPTION), packed(LOCALISED)),
+    "localize": (lambda client: client.localize(DESCRIPTION), packed(LOCALIZED)),
     "maps": (lambda client: client.maps(), httpx.Response(200, json=LISTED)),
     "put_map": (
         lambda client: client.put_map("yard", random_map()),

@@ -13,7 +13,7 @@ from placecell_client import (
     Client,
     Delta,
     Description,
-    Localisations,
+    Localizations,
     MapAlignment,
     Merge,
     encode,
@@ -25,7 +25,7 @@ from tests.client.client_fakes import (
     DESCRIBED,
     INFO,
     LISTED,
-    LOCALISED,
+    LOCALIZED,
     MATCHED,
     MERGED,
     SUMMARY,
@@ -75,7 +75,7 @@ ANSWERS = {
     ("GET", "/info"): httpx.Response(200, json=INFO),
     ("POST", "/describe"): packed(DESCRIBED),
     ("POST", "/match"): packed(MATCHED),
-    ("POST", "/localize"): packed(LOCALISED),
+    ("POST", "/localize"): packed(LOCALIZED),
     ("GET", "/maps"): httpx.Response(200, json=LISTED),
     ("PUT", "/maps/yard"): httpx.Response(201, json=SUMMARY),
     ("GET", "/maps/yard"): FILE,
@@ -107,7 +107,7 @@ def plain(result: Any) -> Any:
             result.model_id, result.codes.tolist(), result.descriptors.tolist(),
             result.centroids.tolist(), result.errors,
         ]  # fmt: skip
-    if isinstance(result, Localisations):
+    if isinstance(result, Localizations):
         (found,) = result.maps
         assert found.pose is not None
         return [found.map, found.pose.matrix.tolist(), found.inliers.ids.tolist(), result.skipped]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from placecell_client import Description, ItemError, Pose
 
-from tests.client.client_fakes import LOCALISED, PLACE, POSE, client_of, packed
+from tests.client.client_fakes import LOCALIZED, PLACE, POSE, client_of, packed
 
 CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
 UNUSABLE = ItemError("urn:x", "Too few points", "4 points")
@@ -35,7 +35,7 @@ def test_a_description_goes_with_its_centroids() -> None:
         }
         inliers = [{"query": 1, "id": 9, "residual": 0.25}]
         return httpx.Response(
-            200, json=LOCALISED | {"localisations": [PLACE | {"inliers": inliers}]}
+            200, json=LOCALIZED | {"localisations": [PLACE | {"inliers": inliers}]}
         )
 
     with client_of(answer, encoding="json") as client:
@@ -55,7 +55,7 @@ def test_in_msgpack_arrays_are_blobs() -> None:
         import msgpack  # type: ignore[import-untyped]
 
         sent.append(msgpack.unpackb(request.content))
-        return packed(LOCALISED)
+        return packed(LOCALIZED)
 
     with client_of(answer) as client:
         client.localize(DESCRIBED)
@@ -67,7 +67,7 @@ def test_in_msgpack_arrays_are_blobs() -> None:
 
 
 def test_a_place_has_a_pose() -> None:
-    with client_of(lambda _: packed(LOCALISED)) as client:
+    with client_of(lambda _: packed(LOCALIZED)) as client:
         found = client.localize(segments=[CLOUD], sensors=np.zeros(3))
     best = found.best
     assert best is found.maps[0]
@@ -89,7 +89,7 @@ def test_uncertainty_is_told_of_any_point(size: int) -> None:
     covariance = np.diag([0.04, 0.04, 0.01, *[0.0] * (size - 4), 0.01])
     flat = {"translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "yaw": 0.0}
     place = PLACE | {"pose": flat, "covariance": covariance.tolist()}
-    with client_of(lambda _: packed(LOCALISED | {"localisations": [place]})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localisations": [place]})) as client:
         best = client.localize(DESCRIBED).best
     assert best is not None
     np.testing.assert_allclose(best.covariance_at([0, 0, 0]), np.diag([0.04, 0.04, 0.01]))
@@ -97,13 +97,13 @@ def test_uncertainty_is_told_of_any_point(size: int) -> None:
     np.testing.assert_allclose(best.covariance_at([0, 10, 0]), np.diag([1.04, 0.04, 0.01]))
 
 
-def test_not_localised_is_no_pose() -> None:
+def test_not_localized_is_no_pose() -> None:
     nowhere = PLACE | {
         "localised": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
         "covariance": None, "inliers": [],
     }  # fmt: skip
     unusable = [{"query": 3, "error": {"type": "urn:x", "title": "t", "detail": "d"}}]
-    content = LOCALISED | {
+    content = LOCALIZED | {
         "localisations": [nowhere], "unusable": unusable,
         "skipped": [{"map": "old", "model_id": "n"}],
     }  # fmt: skip
@@ -128,7 +128,7 @@ def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> N
         PLACE | nowhere | {"rival": rival},
         PLACE | nowhere | {"map": "hall", "rival": rival | {"map": "yard"}},
     ]
-    with client_of(lambda _: packed(LOCALISED | {"localisations": places})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localisations": places})) as client:
         found = client.localize(DESCRIBED)
     assert found.best is None
     assert found.rival is not None
@@ -143,7 +143,7 @@ def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
     """The answer is that of a service without joint judgment."""
     old = {name: value for name, value in PLACE.items() if name != "rival"}
     places = [old | {"map": "a", "score": 73.0}, old | {"map": "z", "score": 129.0}]
-    with client_of(lambda _: packed(LOCALISED | {"localisations": places})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localisations": places})) as client:
         found = client.localize(DESCRIBED)
     assert found.best is not None
     assert found.best.map == "z"

@@ -171,7 +171,7 @@ def test_what_an_optional_column_costs(optional: tuple[str, ...], each: int, ent
 
 
 @pytest.mark.parametrize("extent", [0.0, 600.0, 1e6, 1.9e8])
-def test_a_map_of_any_extent_keeps_centimetres(extent: float) -> None:
+def test_a_map_of_any_extent_keeps_centimeters(extent: float) -> None:
     given_map = random_map(segments=50, extent=extent)
     back = decode(encode(given_map))
     expected = np.rint(given_map.centroids[np.argsort(given_map.ids)] * 100) / 100
@@ -243,8 +243,8 @@ def test_other_readers_of_safetensors_can_read_it() -> None:
     assert columns["centroids"].dtype == np.int16
     header = inner_header(encode(given_map))
     sensors = np.rint(columns["frame_positions"] * 100)[columns["frame_index"]]
-    metres = (sensors + columns["centroids"]) / 100
-    np.testing.assert_allclose(metres, given_map.centroids[np.argsort(given_map.ids)], atol=0.0051)
+    meters = (sensors + columns["centroids"]) / 100
+    np.testing.assert_allclose(meters, given_map.centroids[np.argsort(given_map.ids)], atol=0.0051)
     assert (header["count"], header["version"], header["scale_cm"]) == (9, 1, 1)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from placecell_client import Client, ItemError
 from placecell_client.http.encoding import segments_of
 
-from placecell.descriptors.quantizer import LEVELS, Quantiser
+from placecell.descriptors.quantizer import LEVELS, Quantizer
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "reference" / "msgpack.md"
 LINE = r" {0,2}(\d+)  ([0-9a-f]{2}(?: [0-9a-f]{2})*)(?:  .*)?"
@@ -70,7 +70,7 @@ def test_a_program_finds_the_descriptor_where_the_document_says() -> None:
     assert f"answer.data() + {offset}, {length})" in text
 
 
-def test_the_levels_are_the_quantisers() -> None:
+def test_the_levels_are_the_quantizers() -> None:
     rows = re.findall(
         r"^\| (\d) \| (\d+) \| (.*) \| (-\d+) \|$", DOCUMENT.read_text(), re.MULTILINE
     )
@@ -84,11 +84,11 @@ def test_the_levels_are_the_quantisers() -> None:
         numbers = np.arange(base**per_byte)
         digits = numbers[:, None] // base ** np.arange(per_byte) % base
         codes = (numbers + lowest).astype(np.int8)[:, None]
-        np.testing.assert_array_equal(Quantiser(1.0, per_byte).levels(codes), levels[digits])
+        np.testing.assert_array_equal(Quantizer(1.0, per_byte).levels(codes), levels[digits])
 
 
-def test_the_worked_byte_is_the_quantisers() -> None:
+def test_the_worked_byte_is_the_quantizers() -> None:
     told = re.search(r"four in a byte, `(..)` is .*: levels (.*)\.", DOCUMENT.read_text())
     assert told is not None
     code = np.frombuffer(bytes.fromhex(told[1]), np.int8)[None]
-    assert Quantiser(1.0, 4).levels(code).tolist() == [[int(level) for level in told[2].split(",")]]
+    assert Quantizer(1.0, 4).levels(code).tolist() == [[int(level) for level in told[2].split(",")]]

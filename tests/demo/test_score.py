@@ -11,7 +11,7 @@ def answer(centroid: list[float], *candidates: list[float]) -> Answer:
     return Answer(np.array(centroid), np.array(candidates).reshape(-1, 3), np.zeros(3))
 
 
-def test_candidates_count_within_a_metre_and_a_half_of_the_true_place() -> None:
+def test_candidates_count_within_a_meter_and_a_half_of_the_true_place() -> None:
     # The map's frame lies 100 m east of the common one.
     to_common = np.eye(4)
     to_common[0, 3] = 100.0
@@ -26,7 +26,7 @@ def test_candidates_count_within_a_metre_and_a_half_of_the_true_place() -> None:
     assert result.queries == 4
     assert result.findable == 3
     assert result.chance == pytest.approx(1 / 2)
-    assert not result.recognised
+    assert not result.recognized
     assert result.right == pytest.approx({1: 1 / 3, 5: 2 / 3, 25: 2 / 3})
     assert result.first_is_right.tolist() == [True, False, False, False]
 
@@ -39,9 +39,9 @@ def test_a_query_without_candidates_is_wrong_and_nothing_findable_gives_no_share
     assert missed.right[25] == 0.0
 
 
-def test_recognised_means_far_better_than_chance() -> None:
+def test_recognized_means_far_better_than_chance() -> None:
     mapped = np.stack([np.arange(0.0, 100.0, 10.0), np.zeros(10), np.zeros(10)], axis=1)
     right = [answer([10.0 * at, 0.0, 0.0], [10.0 * at, 0.0, 0.0]) for at in range(4)]
     wrong = [answer([10.0 * at, 0.0, 0.0], [90.0, 0.0, 0.0]) for at in range(4, 9)]
-    assert score(right + wrong, mapped, np.eye(4)).recognised  # 4 of 9 against 1 of 10
-    assert not score(right[:2] + wrong, mapped, np.eye(4)).recognised  # 2 of 7
+    assert score(right + wrong, mapped, np.eye(4)).recognized  # 4 of 9 against 1 of 10
+    assert not score(right[:2] + wrong, mapped, np.eye(4)).recognized  # 2 of 7

@@ -140,7 +140,7 @@ def test_a_drive_format_is_added_as_the_page_shows(tmp_path: Path, recorded: Any
     np.save(tmp_path / "poses.npy", poses)
     np.save(tmp_path / "times.npy", times)
     reader = defined("how-to/add-a-drive-format.md", "NumpyDrive")
-    assert reader.recognises(tmp_path)
+    assert reader.recognizes(tmp_path)
     equal(reader(tmp_path), *recorded)
     np.save(tmp_path / "times.npy", times[:2])
     with pytest.raises(ValueError, match="3 scans, 3 poses and 2 times"):

@@ -64,7 +64,7 @@ def test_frames_of_another_step_are_asked(local: Local, tmp_path: Path) -> None:
     assert scans_of(local, pair) == [0, 3, 6, 9, 12, 15]
 
 
-def test_frames_without_segments_are_not_localised(tmp_path: Path) -> None:
+def test_frames_without_segments_are_not_localized(tmp_path: Path) -> None:
     write_eigenvalue_model(tmp_path / "models")
     # Its local map holds ten scans: those from 13 to 18 show nothing.
     mapped = trip(tmp_path / "a", 8, left=range(0))

@@ -19,7 +19,7 @@ from evaluation.poses.report import (
     reliability_of,
     report,
     shares,
-    until_localised,
+    until_localized,
 )
 from placecell.localization import Pose, localize
 from tests.client.map_builders import random_map
@@ -28,23 +28,23 @@ from tests.placecell.segment_builders import pose, write_odometry
 
 
 def outcome(
-    metres: float = 0.1,
+    meters: float = 0.1,
     degrees: float = 0.1,
     probability: float = 0.99,
     reason: str = "",
     driven: float = 0.0,
     mapped: bool = True,
 ) -> Outcome:
-    return Outcome(reason, probability, metres, degrees, 3.0, 5.0, driven, mapped)
+    return Outcome(reason, probability, meters, degrees, 3.0, 5.0, driven, mapped)
 
 
 RIGHT = outcome()
-ASIDE = outcome(metres=2.0)
+ASIDE = outcome(meters=2.0)
 """Neither right nor off."""
-OFF = outcome(metres=30.0)
+OFF = outcome(meters=30.0)
 TURNED = outcome(degrees=11.0)
-DOUBTFUL = outcome(metres=30.0, probability=0.6)
-UNKNOWN = outcome(metres=0.2, probability=0.4, reason="ambiguous")
+DOUBTFUL = outcome(meters=30.0, probability=0.6)
+UNKNOWN = outcome(meters=0.2, probability=0.4, reason="ambiguous")
 LOST = outcome(np.inf, np.inf, 0.0, "inconsistent")
 
 
@@ -54,17 +54,17 @@ def test_what_is_right_wrong_but_sure_and_unknown() -> None:
     assert told["counts"] == {"localised_right": 2, "wrong_but_sure": 2, "not_localised": 2}
     assert told["localised_right"] == 0.25
     # Not told, so nobody is misled.
-    assert not outcome(metres=30.0, reason="ambiguous").wrong_but_sure
+    assert not outcome(meters=30.0, reason="ambiguous").wrong_but_sure
 
 
 @pytest.mark.parametrize(
-    ("metres", "degrees", "right"),
+    ("meters", "degrees", "right"),
     [(1.0, 3.0, True), (1.01, 0.0, False), (0.0, 3.01, False)],
 )
-def test_right_is_within_a_metre_and_three_degrees(
-    metres: float, degrees: float, right: bool
+def test_right_is_within_a_meter_and_three_degrees(
+    meters: float, degrees: float, right: bool
 ) -> None:
-    assert outcome(metres, degrees).right is right
+    assert outcome(meters, degrees).right is right
 
 
 def test_bounds_are_those_of_the_binomial_distribution() -> None:
@@ -96,16 +96,16 @@ def test_reliability_compares_stated_with_true() -> None:
     ]
 
 
-def test_metres_until_localised_from_each_start() -> None:
+def test_meters_until_localized_from_each_start() -> None:
     way = [
-        outcome(metres=30, driven=0.0),
+        outcome(meters=30, driven=0.0),
         replace(UNKNOWN, driven=2.0),
         replace(RIGHT, driven=5.0),
         replace(LOST, driven=6.0),
     ]
     # 5 m, 3 m and none; from the last start never.
-    assert until_localised(way) == {"median": 3.0, "p95": 4.8, "never": 1}
-    assert until_localised([LOST]) == {"median": None, "p95": None, "never": 1}
+    assert until_localized(way) == {"median": 3.0, "p95": 4.8, "never": 1}
+    assert until_localized([LOST]) == {"median": None, "p95": None, "never": 1}
 
 
 def test_queries_beyond_the_map_stand_apart() -> None:
@@ -125,16 +125,16 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
     found = localize(made.candidates)
     sensor = made.candidates.centroids.mean(axis=0)
     told = outcome_of(found, query(made.pose, sensor), 5.0)
-    assert told.localised
-    assert told.metres < 0.2
-    assert 0 < told.normalised < 50
+    assert told.localized
+    assert told.meters < 0.2
+    assert 0 < told.normalized < 50
     # A truth that lies 2 m to the east.
     aside = Pose.of_yaw(0, np.array([2.0, 0, 0])).after(made.pose)
-    assert outcome_of(found, query(aside, sensor), 5.0).metres == pytest.approx(2, abs=0.2)
+    assert outcome_of(found, query(aside, sensor), 5.0).meters == pytest.approx(2, abs=0.2)
     lost = localize(scene(2, found=0.0).candidates)
     told = outcome_of(lost, query(made.pose, sensor), 5.0)
     assert told.reason
-    assert np.isnan(told.normalised)
+    assert np.isnan(told.normalized)
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def test_an_error_is_held_against_what_is_stated_of_it(deviations: tuple[float, 
     told = replace(found, best=replace(found.best, pose=pose, covariance=stated))
     # Off by one deviation east, two north, none in height and three of yaw: 1 + 4 + 9.
     true = Pose.of_yaw(0.5 + 0.03, np.array([10.1, 20.4, 0.0]))
-    assert outcome_of(told, query(true, sensor), 5.0).normalised == pytest.approx(14)
+    assert outcome_of(told, query(true, sensor), 5.0).normalized == pytest.approx(14)
 
 
 def query(truth: Pose, sensor: np.ndarray) -> PoseQuery:

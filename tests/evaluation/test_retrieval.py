@@ -59,7 +59,7 @@ def test_cross_view_takes_near_mates_out_of_the_database() -> None:
     assert alone.right.tolist() == [True, True, True]
 
 
-def test_mates_exactly_ten_metres_away_are_taken_out() -> None:
+def test_mates_exactly_ten_meters_away_are_taken_out() -> None:
     sensors = np.array([[0, 0, 0], [10, 0, 0]], dtype=np.float32)
     pair = retrieval.retrieve(
         np.zeros((2, 1), np.float32), np.zeros(2, int), retrieval.seen_within(sensors, 10.0)

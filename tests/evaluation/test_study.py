@@ -7,7 +7,7 @@ from evaluation.recognition import study
 from placecell.descriptors.eigenvalue import FEATURES
 from placecell.descriptors.extractor import EigenvalueExtractor
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from training.data.training_set import TrainingSet
 
 
@@ -15,7 +15,7 @@ from training.data.training_set import TrainingSet
 def extractor() -> EigenvalueExtractor:
     standard = {"mean": [0.0] * len(FEATURES), "deviation": [1.0] * len(FEATURES)}
     return EigenvalueExtractor(
-        Manifest("toy", "eigenvalue", "", 7, Quantiser(0.01), {}, standardisation=standard)
+        Manifest("toy", "eigenvalue", "", 7, Quantizer(0.01), {}, standardization=standard)
     )
 
 
@@ -35,8 +35,8 @@ def test_all_curves(extractor: EigenvalueExtractor, shapes: TrainingSet) -> None
 def test_fewer_bits_and_dimensions_lose() -> None:
     random = np.random.default_rng(0)
     groups = np.repeat(np.arange(40, dtype=np.int64), 3)
-    centres = random.normal(size=(40, 16))
-    described = (centres[groups] + random.normal(0, 0.25, (120, 16))).astype(np.float32)
+    centers = random.normal(size=(40, 16))
+    described = (centers[groups] + random.normal(0, 0.25, (120, 16))).astype(np.float32)
     data = TrainingSet(None, groups, None)  # type: ignore[arg-type]
     curve = {
         (row["dimension"], row["bits"]): row["top1"] for row in study.by_storage(described, data)

@@ -64,7 +64,7 @@ class MemoryDrive(Drive):
         self._scans = [np.asarray(scan, np.float32).reshape(-1, 3) for scan in scans]
 
     @classmethod
-    def recognises(cls, folder: Path) -> bool:
+    def recognizes(cls, folder: Path) -> bool:
         return False
 
     def scan(self, index: int) -> Float32:
@@ -122,10 +122,10 @@ def write_raw(
 
 
 def box(
-    centre: Sequence[float], size: Sequence[float], step: float = 0.1, sides: bool = True
+    center: Sequence[float], size: Sequence[float], step: float = 0.1, sides: bool = True
 ) -> Float32:
-    """Points on the four sides and the top of an upright box that stands on `centre`'s z."""
-    (x, y, z), (a, b, c) = centre, size
+    """Points on the four sides and the top of an upright box that stands on `center`'s z."""
+    (x, y, z), (a, b, c) = center, size
     us, vs, ws = (np.arange(0.0, length + step / 2, step) for length in (a, b, c))
     top = np.stack(np.meshgrid(us, vs, [c], indexing="ij"), -1).reshape(-1, 3)
     across = [np.stack(np.meshgrid(us, [v], ws, indexing="ij"), -1) for v in (0.0, b)]

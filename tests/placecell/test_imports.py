@@ -18,7 +18,7 @@ FOREIGN = {
     "faiss",
     "httpx",
 }
-NEIGHBOURS = {"service", "training", "town", "cli", "client", "placecell_client", "bench"}
+NEIGHBORS = {"service", "training", "town", "cli", "client", "placecell_client", "bench"}
 MODULES = sorted(
     ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts)
     for file in PACKAGE.rglob("*.py")
@@ -32,7 +32,7 @@ print("\\n".join({name.partition(".")[0] for name in sys.modules}))
 """
 
 
-def test_no_web_no_torch_and_no_neighbours_are_loaded() -> None:
+def test_no_web_no_torch_and_no_neighbors_are_loaded() -> None:
     modules = [module.removesuffix(".__init__") for module in MODULES]
     done = subprocess.run(
         [sys.executable, "-c", IMPORT_ALL, *modules],
@@ -40,7 +40,7 @@ def test_no_web_no_torch_and_no_neighbours_are_loaded() -> None:
     )  # fmt: skip
     loaded = set(done.stdout.split())
     assert "placecell" in loaded
-    assert not loaded & (FOREIGN | NEIGHBOURS)
+    assert not loaded & (FOREIGN | NEIGHBORS)
 
 
 @pytest.mark.parametrize("module", MODULES)
@@ -54,4 +54,4 @@ def test_nor_would_they_be_later(module: str) -> None:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0
             imported.add(str(node.module).partition(".")[0])
-    assert not imported & (FOREIGN | NEIGHBOURS)
+    assert not imported & (FOREIGN | NEIGHBORS)

@@ -15,7 +15,7 @@ from placecell_client import CompactMap, Delta, encode_delta
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float64, Int8
 from placecell.descriptors.manifest import Manifest, preprocessing_of
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 
 STEP = 0.02
 PROBLEM = "application/problem+json"
@@ -31,9 +31,9 @@ def write_eigenvalue_model(
         method="eigenvalue",
         network="",
         dimension=7,
-        quantiser=Quantiser(step),
+        quantizer=Quantizer(step),
         preprocessing=preprocessing_of(PROTOCOL_V1),
-        standardisation={"mean": [0.3] * 7, "deviation": [0.2] * 7},
+        standardization={"mean": [0.3] * 7, "deviation": [0.2] * 7},
         pair_threshold=pair_threshold,
     )
     (models_dir / name).mkdir(parents=True)
@@ -67,7 +67,7 @@ def write_onnx_model(models_dir: Path, name: str = "onnx") -> Manifest:
         method="group",
         network="layers",
         dimension=grid[2] + 3,
-        quantiser=Quantiser(0.05),
+        quantizer=Quantizer(0.05),
         preprocessing=preprocessing_of(PROTOCOL_V1),
     ).with_files(folder, ["model.onnx"])
     manifest.save(folder)
@@ -95,13 +95,13 @@ def map_of(
 ) -> CompactMap:
     """A map with these descriptors; ids rise with the rows."""
     n = len(codes)
-    metres = np.arange(n) % 300
+    meters = np.arange(n) % 300
     return CompactMap(
         model_id=model_id,
         preprocessing="1",
         frame=frame,
         codes=codes,
-        centroids=np.stack([metres, -metres, np.full(n, 1.5)], axis=1).astype(float),
+        centroids=np.stack([meters, -meters, np.full(n, 1.5)], axis=1).astype(float),
         ids=np.arange(first_id, first_id + n, dtype=np.uint32),
         robots=(robot,),
         robot=np.zeros(n, np.uint16),

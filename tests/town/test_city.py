@@ -6,7 +6,7 @@ import pytest
 from placecell.core.types import Float32, Float64
 from town import HDL_64E, City, Mesh, Scene, Town
 from town.streets.ground import Ground
-from town.streets.plan import KERB_HEIGHT
+from town.streets.plan import CURB_HEIGHT
 from town.tiles import SLACK, Tiles
 
 NOISELESS = replace(HDL_64E, columns=180, range_noise=0.0, dropout=0.0)
@@ -14,7 +14,7 @@ NOISELESS = replace(HDL_64E, columns=180, range_noise=0.0, dropout=0.0)
 
 @pytest.fixture(scope="module")
 def city() -> City:
-    return City.build(seed=3, metres=900.0)
+    return City.build(seed=3, meters=900.0)
 
 
 def tiles_of(city: City) -> list[tuple[int, int]]:
@@ -41,10 +41,10 @@ def test_tiles_make_up_the_ground_without_gaps(city: City) -> None:
     height = down_on(Mesh.joined(parts), places) - city.network.terrain.height(places)
     assert np.isfinite(height).all()
     assert height.min() > -0.01
-    assert height.max() < KERB_HEIGHT + 0.01
+    assert height.max() < CURB_HEIGHT + 0.01
 
 
-def test_streets_are_a_kerb_lower_than_what_is_between_them(city: City) -> None:
+def test_streets_are_a_curb_lower_than_what_is_between_them(city: City) -> None:
     """Where a street of the plan is missing the ground is as high as the blocks."""
     network = city.network
     heights: dict[bool, list[float]] = {True: [], False: []}
@@ -56,15 +56,15 @@ def test_streets_are_a_kerb_lower_than_what_is_between_them(city: City) -> None:
                 height = down_on(city.ground.mesh(), middle) - network.terrain.height(middle)
                 heights[network.joins((column, row), other)].append(float(height[0]))
     assert heights[True] == pytest.approx([0.0] * len(network.streets), abs=0.005)
-    assert heights[False] == pytest.approx([KERB_HEIGHT] * len(heights[False]), abs=0.005)
+    assert heights[False] == pytest.approx([CURB_HEIGHT] * len(heights[False]), abs=0.005)
     assert len(heights[False]) >= 2
 
 
 def test_a_tile_follows_from_its_place_alone(city: City) -> None:
-    again = City.build(seed=3, metres=900.0)
+    again = City.build(seed=3, meters=900.0)
     for tile in reversed(tiles_of(again)):
         assert np.array_equal(again.tile(*tile, 1).triangles, city.tile(*tile, 1).triangles)
-    other = City.build(seed=4, metres=900.0)
+    other = City.build(seed=4, meters=900.0)
     assert len(other.tile(1, 1, 1)) != len(city.tile(1, 1, 1))
 
 
@@ -91,8 +91,8 @@ def test_the_sensor_sees_what_it_would_if_all_were_built(city: City) -> None:
 
 
 def test_only_what_is_near_is_built() -> None:
-    """Of twenty kilometres of streets a few blocks."""
-    city = City.build(seed=3, metres=20_000.0)
+    """Of twenty kilometers of streets a few blocks."""
+    city = City.build(seed=3, meters=20_000.0)
     tiles = city.scenes(1, reach=60.0)
     place = city.route([(0, 0), (0, 1)] if city.network.joins((0, 0), (0, 1)) else [(0, 0), (1, 0)])
     scene = tiles.around(place.lane()[0])
@@ -103,7 +103,7 @@ def test_only_what_is_near_is_built() -> None:
 
 
 def test_what_is_far_is_not_in_the_scene() -> None:
-    """Two tiles: one in reach, one beyond it by a metre."""
+    """Two tiles: one in reach, one beyond it by a meter."""
     asked = []
 
     def build(column: int, row: int) -> Mesh:
@@ -132,7 +132,7 @@ def houses(city: City, design: int) -> list[Mesh]:
 
 
 def test_rows_of_identical_houses_stand_in_different_streets() -> None:
-    city = City.build(seed=3, metres=5000.0, look_alikes=0.5)
+    city = City.build(seed=3, meters=5000.0, look_alikes=0.5)
     designs = city.network.designs
     design = int(np.bincount(designs[designs >= 0]).argmax())
     assert np.count_nonzero(designs == design) >= 2
@@ -159,7 +159,7 @@ def test_the_ends_of_gaps_are_planted(city: City) -> None:
         )
         above = down_on(city.ground.mesh(), np.stack([into, back]))
         above -= network.terrain.height(np.stack([into, back]))
-        assert above == pytest.approx([KERB_HEIGHT, 0.0], abs=0.005)
+        assert above == pytest.approx([CURB_HEIGHT, 0.0], abs=0.005)
     degrees = np.bincount(network.streets.ravel())
     assert len(ends) == int((4 - degrees).sum())
 

@@ -121,7 +121,7 @@ def test_the_road_is_at_its_height(folder: Path, town: Town, route: Route, scan:
     assert abs(off.mean()) < 0.002
 
 
-def test_the_pavement_is_a_kerb_higher(folder: Path, town: Town) -> None:
+def test_the_pavement_is_a_curb_higher(folder: Path, town: Town) -> None:
     points = in_town(folder, 0)
     off = points[:, 2] - town.terrain.height(points[:, :2])
     counts, edges = np.histogram(off[np.abs(off) < 0.3], bins=60)

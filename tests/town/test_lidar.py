@@ -60,7 +60,7 @@ def test_dropout_takes_the_stated_share(room: Mesh) -> None:
     assert len(some) / (COLUMNS * 64) == pytest.approx(0.75, abs=0.02)
 
 
-def test_resolution_quantises_ranges(room: Mesh) -> None:
+def test_resolution_quantizes_ranges(room: Mesh) -> None:
     ranges = np.linalg.norm(scan(replace(NOISELESS, resolution=0.5), room)[:, :3], axis=1)
     assert np.abs(ranges * 2 - np.round(ranges * 2)).max() < 1e-4
 

@@ -7,32 +7,32 @@ from town.streets.network import LONGEST, OWN, Network, arc_length, components, 
 
 @pytest.fixture(scope="module")
 def network() -> Network:
-    return Network.draw(seed=7, metres=3000.0)
+    return Network.draw(seed=7, meters=3000.0)
 
 
 def test_same_seed_same_network(network: Network) -> None:
-    again = Network.draw(seed=7, metres=3000.0)
+    again = Network.draw(seed=7, meters=3000.0)
     assert np.array_equal(again.streets, network.streets)
     assert np.array_equal(again.designs, network.designs)
     assert np.array_equal(again.lengths, network.lengths)
-    assert not np.array_equal(Network.draw(seed=8, metres=3000.0).lengths, network.lengths)
+    assert not np.array_equal(Network.draw(seed=8, meters=3000.0).lengths, network.lengths)
 
 
-@pytest.mark.parametrize("metres", [1.0, 700.0, 3000.0, 20_000.0])
-def test_it_is_as_large_as_asked(metres: float) -> None:
-    drawn = Network.draw(seed=1, metres=metres)
-    assert metres <= drawn.metres() < max(metres + 100.0, 700.0)
+@pytest.mark.parametrize("meters", [1.0, 700.0, 3000.0, 20_000.0])
+def test_it_is_as_large_as_asked(meters: float) -> None:
+    drawn = Network.draw(seed=1, meters=meters)
+    assert meters <= drawn.meters() < max(meters + 100.0, 700.0)
 
 
-@pytest.mark.parametrize("metres", [0.0, -5.0, LONGEST + 1, np.nan, np.inf])
-def test_impossible_sizes_are_refused(metres: float) -> None:
+@pytest.mark.parametrize("meters", [0.0, -5.0, LONGEST + 1, np.nan, np.inf])
+def test_impossible_sizes_are_refused(meters: float) -> None:
     with pytest.raises(ValueError, match="m of streets"):
-        Network.draw(seed=1, metres=metres)
+        Network.draw(seed=1, meters=meters)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_there_are_no_dead_ends_and_it_hangs_together(seed: int) -> None:
-    drawn = Network.draw(seed=seed, metres=2000.0)
+    drawn = Network.draw(seed=seed, meters=2000.0)
     degrees = np.bincount(drawn.streets.ravel())
     assert degrees.min() >= 2
     assert degrees.max() >= 3  # no mere ring
@@ -49,11 +49,11 @@ def test_thinning_stops_where_a_street_would_be_cut_off() -> None:
     """Two squares side by side: of their seven streets none can go but the one that they share,
     and then a ring would be left."""
     ladder = np.array([[0, 1], [2, 3], [4, 5], [0, 2], [2, 4], [1, 3], [3, 5]])
-    kept = thinned(ladder, np.ones(7), metres=1.0, rng=np.random.default_rng(0))
+    kept = thinned(ladder, np.ones(7), meters=1.0, rng=np.random.default_rng(0))
     assert kept.tolist() == list(range(7))
 
 
-def test_thinning_keeps_the_metres_that_are_wanted() -> None:
+def test_thinning_keeps_the_meters_that_are_wanted() -> None:
     grid = np.array(
         [(3 * i + j, 3 * i + j + 1) for i in range(3) for j in range(2)]
         + [(3 * i + j, 3 * i + j + 3) for i in range(2) for j in range(3)]
@@ -113,11 +113,11 @@ def test_streets_do_not_run_into_each_other(network: Network) -> None:
 
 
 def test_the_share_of_look_alikes_is_as_asked() -> None:
-    large = Network.draw(seed=2, metres=20_000.0, look_alikes=0.4)
+    large = Network.draw(seed=2, meters=20_000.0, look_alikes=0.4)
     assert np.mean(large.designs != OWN) == pytest.approx(0.4, abs=0.1)
     assert set(large.designs.tolist()) == {OWN, 0, 1, 2, 3}
-    assert (Network.draw(seed=2, metres=2000.0, look_alikes=0.0).designs == OWN).all()
+    assert (Network.draw(seed=2, meters=2000.0, look_alikes=0.0).designs == OWN).all()
     with pytest.raises(ValueError, match="0 to 1"):
-        Network.draw(seed=2, metres=2000.0, look_alikes=1.5)
+        Network.draw(seed=2, meters=2000.0, look_alikes=1.5)
     one, other = (large.crossing(number) for number in large.streets[3])
     assert large.design(other, one) == large.designs[3]

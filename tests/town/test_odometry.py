@@ -5,13 +5,13 @@ from placecell.core.types import Float64
 from town.sensing.odometry import Odometry
 
 
-def straight(metres: int) -> Float64:
-    """A metre a scan along a heading, uphill, rolled."""
-    poses = np.tile(np.eye(4), (metres + 1, 1, 1))
+def straight(meters: int) -> Float64:
+    """A meter a scan along a heading, uphill, rolled."""
+    poses = np.tile(np.eye(4), (meters + 1, 1, 1))
     poses[:, :3, :3] = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]
     tilt = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
     poses[:, :3, :3] = poses[:, :3, :3] @ tilt
-    poses[:, :3, 3] = np.arange(metres + 1)[:, None] * [0.6, 0.8, 0.0] + [7.0, 8.0, 9.0]
+    poses[:, :3, 3] = np.arange(meters + 1)[:, None] * [0.6, 0.8, 0.0] + [7.0, 8.0, 9.0]
     return poses
 
 

@@ -36,9 +36,9 @@ def test_cars_move_at_their_speed_and_begin_anew(route: Route) -> None:
 
     def middle(time: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
         (place,) = one.lane.poses(np.array([10.0 + 8.0 * time]) % one.lane.length(), 0.0)[:, :3, 3]
-        centre = one.around(place[:2], time).bounds().mean(axis=0)
-        assert centre[:2] == pytest.approx(place[:2], abs=0.3)
-        return np.asarray(centre)
+        center = one.around(place[:2], time).bounds().mean(axis=0)
+        assert center[:2] == pytest.approx(place[:2], abs=0.3)
+        return np.asarray(center)
 
     assert np.linalg.norm(middle(3.0) - middle(2.0)) == pytest.approx(8.0, abs=0.2)
     lap = one.lane.length() / 8.0

@@ -7,7 +7,7 @@ from town import City, Pair, Route, Traversal, draw_pairs
 from town.drives.pairs import APART, Drawer, means
 from town.streets.network import OWN
 
-METRES = 150.0
+METERS = 150.0
 COUNT = 12
 
 
@@ -17,7 +17,7 @@ def traversal(route: Route) -> Traversal:
 
 @pytest.fixture(scope="module")
 def city() -> City:
-    return City.build(seed=7, metres=4000.0, look_alikes=0.4)
+    return City.build(seed=7, meters=4000.0, look_alikes=0.4)
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +28,7 @@ def drives(city: City) -> tuple[Traversal, Traversal]:
 
 @pytest.fixture(scope="module")
 def pairs(city: City, drives: tuple[Traversal, Traversal]) -> tuple[list[Pair], list[Pair]]:
-    return draw_pairs(city, *drives, COUNT, METRES, seed=1)
+    return draw_pairs(city, *drives, COUNT, METERS, seed=1)
 
 
 def places(drive: Traversal, scans: tuple[int, int]) -> Float64:
@@ -41,7 +41,7 @@ def test_stretches_are_as_long_as_asked(
     for pair in pairs[0] + pairs[1]:
         for drive, scans in zip(drives, (pair.scans_a, pair.scans_b), strict=True):
             steps = np.linalg.norm(np.diff(places(drive, scans), axis=0), axis=1)
-            assert steps.sum() == pytest.approx(METRES, abs=4.0)
+            assert steps.sum() == pytest.approx(METERS, abs=4.0)
 
 
 def test_overlaps_are_those_asked_for(
@@ -100,27 +100,27 @@ def test_the_truth_takes_one_map_to_the_other(
 
 
 def test_same_seed_same_pairs(city: City, drives: tuple[Traversal, Traversal]) -> None:
-    one, other = (draw_pairs(city, *drives, 2, METRES, seed=5)[1][0] for _ in range(2))
+    one, other = (draw_pairs(city, *drives, 2, METERS, seed=5)[1][0] for _ in range(2))
     assert one.as_dict() == other.as_dict()
-    another = draw_pairs(city, *drives, 2, METRES, seed=6)[1][0]
+    another = draw_pairs(city, *drives, 2, METERS, seed=6)[1][0]
     assert another.as_dict() != one.as_dict()
 
 
 def test_what_cannot_be_found_is_said(city: City, drives: tuple[Traversal, Traversal]) -> None:
     a, b = drives
     with pytest.raises(ValueError, match="one pair or more"):
-        draw_pairs(city, a, b, 0, METRES)
+        draw_pairs(city, a, b, 0, METERS)
     with pytest.raises(ValueError, match="has no stretch of"):
         draw_pairs(city, a, b, 1, 1e6)
     here = Traversal(a.poses[:110], a.origin)
-    drawer = Drawer.of(city, here, here, METRES, np.random.default_rng(0))
+    drawer = Drawer.of(city, here, here, METERS, np.random.default_rng(0))
     for alike in (True, False):
         with pytest.raises(ValueError, match="100 m apart"):
             drawer.apart(alike)
     far = Traversal(b.poses + 0.0, b.origin)
     far.poses[:, :2, 3] += 5000.0
     with pytest.raises(ValueError, match="share 10%"):
-        draw_pairs(city, a, far, 1, METRES)
+        draw_pairs(city, a, far, 1, METERS)
 
 
 def test_means_of_windows() -> None:

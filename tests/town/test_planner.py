@@ -13,7 +13,7 @@ from town.streets.postman import postman
 
 @pytest.fixture(scope="module")
 def planner() -> Planner:
-    return Planner.of(Network.draw(seed=7, metres=3000.0))
+    return Planner.of(Network.draw(seed=7, meters=3000.0))
 
 
 def turns_on_the_spot(way: Way) -> bool:
@@ -29,7 +29,7 @@ def test_every_street_is_taken(planner: Planner) -> None:
     assert set(streets_of(planner, way)) == set(range(len(planner.network.streets)))
     assert way[0] == way[-1]
     assert not turns_on_the_spot(way)
-    assert planner.metres(way) < 1.35 * planner.network.metres()
+    assert planner.meters(way) < 1.35 * planner.network.meters()
 
 
 def test_between_takes_the_shortest_way(planner: Planner) -> None:
@@ -42,7 +42,7 @@ def test_between_takes_the_shortest_way(planner: Planner) -> None:
     for middle in range(count):  # Floyd and Warshall's, by hand
         distance = np.minimum(distance, distance[:, middle, None] + distance[None, middle])
     start, goal = planner.network.number(way[0]), planner.network.number(way[-1])
-    assert planner.metres(way) == pytest.approx(distance[start, goal])
+    assert planner.meters(way) == pytest.approx(distance[start, goal])
 
 
 def test_between_needs_two_crossings_of_the_town(planner: Planner) -> None:
@@ -56,7 +56,7 @@ def test_between_needs_two_crossings_of_the_town(planner: Planner) -> None:
 @settings(max_examples=25, deadline=None)
 def test_wander_is_as_long_as_asked(planner: Planner, length: float, seed: int) -> None:
     way = planner.wander(length, np.random.default_rng(seed))
-    assert length <= planner.metres(way) < length + 100.0
+    assert length <= planner.meters(way) < length + 100.0
     assert not turns_on_the_spot(way)
 
 
@@ -68,7 +68,7 @@ def test_a_loop_ends_with_the_street_it_begins_with(
     way = planner.loop(length, np.random.default_rng(seed), laps)
     assert way[:2] == way[-2:]
     assert not turns_on_the_spot(way)
-    lap = planner.metres(way[:-1]) / laps
+    lap = planner.meters(way[:-1]) / laps
     assert lap >= length
     streets = (len(way) - 2) // laps
     assert way[:streets] * laps == way[:-2]
@@ -140,8 +140,8 @@ def test_an_even_network_is_taken_once() -> None:
     check_round(streets, np.ones(6))
 
 
-@given(seed=st.integers(0, 10_000), metres=st.floats(1.0, 1500.0))
+@given(seed=st.integers(0, 10_000), meters=st.floats(1.0, 1500.0))
 @settings(max_examples=40, deadline=None)
-def test_the_round_is_the_shortest_there_is(seed: int, metres: float) -> None:
-    network = Network.draw(seed, metres)
+def test_the_round_is_the_shortest_there_is(seed: int, meters: float) -> None:
+    network = Network.draw(seed, meters)
     check_round(network.streets, network.lengths)

@@ -99,7 +99,7 @@ def test_progress_is_told_and_drives_are_protected(
 
 @pytest.fixture(scope="module")
 def fleet(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    city = City.build(seed=3, metres=600.0)
+    city = City.build(seed=3, meters=600.0)
     return several_robots(
         tmp_path_factory.mktemp("fleet"), city, city.route(city.planner.every_street()), 3,
         scans=3, lidar=replace(HDL_64E, columns=120), odometry=Odometry(yaw=1.0), oncoming=20.0,
@@ -110,7 +110,7 @@ def test_every_second_robot_drives_the_other_way(fleet: list[Path]) -> None:
     assert [folder.name for folder in fleet] == ["robot_a", "robot_b", "robot_c"]
     one, other, third = (sensors(folder) for folder in fleet)
     assert np.array_equal(one, third)
-    city = City.build(seed=3, metres=600.0)
+    city = City.build(seed=3, meters=600.0)
     back = city.route(city.planner.every_street()).reversed().poses(np.arange(0.5, 3.0), 1.73)
     assert other == pytest.approx(back, abs=1e-6)
 
@@ -131,7 +131,7 @@ def test_odometry_stands_beside_the_truth(fleet: list[Path]) -> None:
 
 
 def test_nothing_is_driven_before_all_can_be(tmp_path: Path) -> None:
-    city = City.build(seed=3, metres=600.0)
+    city = City.build(seed=3, meters=600.0)
     route = city.route(city.planner.every_street())
     (tmp_path / "robot_b").mkdir()
     (tmp_path / "robot_b" / "notes.txt").write_text("mine")

@@ -22,10 +22,10 @@ def headings(route: Route, step: float = 1.0) -> np.ndarray[tuple[int], np.dtype
     return np.asarray(np.unwrap(np.arctan2(poses[:, 1, 0], poses[:, 0, 0])))
 
 
-def test_lane_lies_to_the_right_of_the_centre_line(route: Route) -> None:
+def test_lane_lies_to_the_right_of_the_center_line(route: Route) -> None:
     lane = route.lane()
-    ahead = np.gradient(route.centre, axis=0)
-    to_lane = lane - route.centre
+    ahead = np.gradient(route.center, axis=0)
+    to_lane = lane - route.center
     side = ahead[:, 0] * to_lane[:, 1] - ahead[:, 1] * to_lane[:, 0]
     assert (side < 0).all()
     assert np.linalg.norm(to_lane, axis=1) == pytest.approx(1.6)
@@ -48,9 +48,9 @@ def test_reversed_heads_the_other_way(route: Route) -> None:
 
 
 def test_turns_are_smooth(route: Route) -> None:
-    turn_a_metre = np.abs(np.diff(headings(route)))
+    turn_a_meter = np.abs(np.diff(headings(route)))
     # The tightest is the right turn in the right lane.
-    assert turn_a_metre.max() < 1.2 / (9.0 - 1.6)
+    assert turn_a_meter.max() < 1.2 / (9.0 - 1.6)
     assert np.ptp(headings(route)) > 1.2  # it does turn
 
 
@@ -66,7 +66,7 @@ def test_poses_are_rigid_and_keep_their_height(town: Town, route: Route) -> None
     assert rotations[:, 2, 2].min() > np.cos(np.arctan(0.031))
 
 
-def test_distances_are_metres_along_the_lane(route: Route) -> None:
+def test_distances_are_meters_along_the_lane(route: Route) -> None:
     places = route.poses(np.arange(0, route.length(), 1.0), 1.73)[:, :3, 3]
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
     assert steps == pytest.approx(1.0, abs=0.01)
@@ -74,8 +74,8 @@ def test_distances_are_metres_along_the_lane(route: Route) -> None:
 
 def test_cut_takes_the_stretch_asked_for(route: Route) -> None:
     part = route.cut(start=20.0, length=50.0)
-    assert arc_lengths(part.centre)[-1] == pytest.approx(50.0, abs=0.5)
-    assert np.linalg.norm(part.centre - route.centre[0], axis=1).min() > 15.0
+    assert arc_lengths(part.center)[-1] == pytest.approx(50.0, abs=0.5)
+    assert np.linalg.norm(part.center - route.center[0], axis=1).min() > 15.0
     with pytest.raises(ValueError, match="too short to cut"):
         route.cut(start=20.0, length=route.length())
 

@@ -7,7 +7,7 @@ from training.experiments.ablations_report import best_rates, write_ablations
 from training.methods.metric import LOSSES
 
 
-def test_variants_of_the_surroundings_share_the_model_s_network() -> None:
+def test_variants_of_the_neighborhood_share_the_model_s_network() -> None:
     every = list(variants(epochs=1, seeds=2))
     assert len({(one.part, one.name) for one in every}) == len(every)
     shared = {one.training_name() for one in every if one.part == "surroundings"}

@@ -8,30 +8,30 @@ import onnxruntime
 import pytest
 import torch
 
-from placecell.core.parameters import PROTOCOL_V1, SURROUNDINGS_V1
+from placecell.core.parameters import NEIGHBORHOOD_V1, PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.neighborhood import describe_surroundings
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.neighborhood import describe_neighborhood
+from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.export.onnx_graph import Exported, ExportedContext, export_onnx
 from training.export.publishing import Data, publish_network
-from training.export.quantization import quantise
+from training.export.quantization import quantize
 from training.methods import registry
 from training.methods.context import (
     ContextRecipe,
     Projection,
-    learn_surroundings,
+    learn_neighborhood,
     rotation,
     scatter,
 )
 from training.methods.fit import Sgd
 from training.methods.group_based import GroupBasedRecipe
-from training.methods.networks import DescriptorNetwork, normalisation_statistics
+from training.methods.networks import DescriptorNetwork, normalization_statistics
 from training.methods.run import Run
 
-SIZE = SURROUNDINGS_V1.size
+SIZE = NEIGHBORHOOD_V1.size
 
 
 def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
@@ -56,29 +56,29 @@ def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
 
 def test_projection_looks_where_views_agree() -> None:
     data = many_groups(seed=0)
-    assert data.surroundings is not None
-    projection = learn_surroundings(data, ContextRecipe(dimension=8))
+    assert data.neighborhood is not None
+    projection = learn_neighborhood(data, ContextRecipe(dimension=8))
     strength = np.abs(projection.axes).mean(axis=1)
     assert strength[:20].mean() < 0.3 * strength[20:].mean()
-    assert projection.mean == pytest.approx(data.surroundings.mean(axis=0), abs=1e-4)
+    assert projection.mean == pytest.approx(data.neighborhood.mean(axis=0), abs=1e-4)
     # Views of a group, not learned from, lie closer to one another than to other groups'.
     fresh = many_groups(seed=1)
-    assert fresh.surroundings is not None
-    found = (fresh.surroundings - projection.mean) @ projection.axes
+    assert fresh.neighborhood is not None
+    found = (fresh.neighborhood - projection.mean) @ projection.axes
     found /= np.linalg.norm(found, axis=1, keepdims=True)
     distances = np.linalg.norm(found[:, None] - found[None], axis=2)
     np.fill_diagonal(distances, np.inf)
     assert (fresh.groups[distances.argmin(axis=1)] == fresh.groups).mean() > 0.9
 
 
-def test_surroundings_are_learned_from_what_was_recorded() -> None:
+def test_neighborhood_are_learned_from_what_was_recorded() -> None:
     data = many_groups(seed=0)
     made_up = data.groups >= 40
     recorded = replace(data, synthetic=made_up).recorded()
     assert recorded.groups.tolist() == data.groups[~made_up].tolist()
-    assert recorded.surroundings is not None
-    assert data.surroundings is not None
-    assert (recorded.surroundings == data.surroundings[~made_up]).all()
+    assert recorded.neighborhood is not None
+    assert data.neighborhood is not None
+    assert (recorded.neighborhood == data.neighborhood[~made_up]).all()
     # Where all is made up, or nobody knows, all of it will do.
     town = replace(data, synthetic=np.ones(len(data), dtype=bool))
     assert town.recorded() is town
@@ -87,27 +87,27 @@ def test_surroundings_are_learned_from_what_was_recorded() -> None:
 
 def test_scatter_by_hand() -> None:
     values = np.array([[0.0, 0], [2, 0], [5, 1], [5, 4], [5, 7]])
-    within, centres = scatter(values, np.array([0, 0, 1, 1, 1]))
+    within, centers = scatter(values, np.array([0, 0, 1, 1, 1]))
     # Unbiased variances: 2 along x in the first group, 9 along y in the second; their mean.
     assert within.tolist() == [[1.0, 0], [0, 4.5]]
-    assert centres.tolist() == [[1.0, 0], [5, 4]]
+    assert centers.tolist() == [[1.0, 0], [5, 4]]
 
 
 def test_groups_count_alike_however_often_seen() -> None:
     data = many_groups(seed=0)
     often = data.take(np.concatenate([np.arange(len(data)), *[np.arange(25)] * 40]))
-    assert data.surroundings is not None
-    assert often.surroundings is not None
-    within, centres = scatter(data.surroundings.astype(np.float64), data.groups)
-    again, same = scatter(often.surroundings.astype(np.float64), often.groups)
-    assert same == pytest.approx(centres)
+    assert data.neighborhood is not None
+    assert often.neighborhood is not None
+    within, centers = scatter(data.neighborhood.astype(np.float64), data.groups)
+    again, same = scatter(often.neighborhood.astype(np.float64), often.groups)
+    assert same == pytest.approx(centers)
     # Of five views each, seen 41 times over: no more evidence, but for the unbiased estimate.
     assert np.trace(again) == pytest.approx(np.trace(within), rel=0.03)
 
 
 def test_too_few_groups_are_said() -> None:
     with pytest.raises(ValueError, match="longer drive"):
-        learn_surroundings(many_groups(seed=0, groups=6), ContextRecipe(dimension=8))
+        learn_neighborhood(many_groups(seed=0, groups=6), ContextRecipe(dimension=8))
 
 
 def test_rotation_keeps_distances_and_is_always_the_same() -> None:
@@ -118,7 +118,7 @@ def test_rotation_keeps_distances_and_is_always_the_same() -> None:
 
 def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
     torch.manual_seed(0)
-    network = DescriptorNetwork("fast", *normalisation_statistics(data)).eval()
+    network = DescriptorNetwork("fast", *normalization_statistics(data)).eval()
     random = np.random.default_rng(0)
     projection = Projection(
         np.zeros(SIZE, np.float32), random.normal(size=(SIZE, dimension)).astype(np.float32), 1.2
@@ -128,18 +128,18 @@ def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
     return ExportedContext(segment, projection, rotation(2 * dimension)).eval()
 
 
-def test_onnx_equals_torch_and_quantised_nearly_so(tmp_path: Path) -> None:
+def test_onnx_equals_torch_and_quantized_nearly_so(tmp_path: Path) -> None:
     data = many_groups(seed=0, groups=20)
     network = exported(data)
     export_onnx(network, PROTOCOL_V1.grid, tmp_path / "full.onnx")
-    occupancy, extents = voxelise(data.segments, data.parameters)
-    assert data.surroundings is not None
-    given = {"occupancy": occupancy, "extents": extents, "surroundings": data.surroundings}
+    occupancy, extents = voxelize(data.segments, data.parameters)
+    assert data.neighborhood is not None
+    given = {"occupancy": occupancy, "extents": extents, "surroundings": data.neighborhood}
     (found,) = onnxruntime.InferenceSession(tmp_path / "full.onnx").run(["descriptor"], given)
     with torch.no_grad():
         expected = network(*(torch.from_numpy(value) for value in given.values())).numpy()
     assert found == pytest.approx(expected, abs=1e-4)
-    quantise(tmp_path / "full.onnx", data, tmp_path / "small.onnx")
+    quantize(tmp_path / "full.onnx", data, tmp_path / "small.onnx")
     (small,) = onnxruntime.InferenceSession(tmp_path / "small.onnx").run(["descriptor"], given)
     errors = np.linalg.norm(small - expected, axis=1)
     spread = np.linalg.norm(expected - np.roll(expected, 7, axis=0), axis=1)
@@ -152,8 +152,8 @@ def test_onnx_equals_torch_and_quantised_nearly_so(tmp_path: Path) -> None:
 def test_a_query_alone_is_ranked_by_itself() -> None:
     data = many_groups(seed=0, groups=20)
     network = exported(data)
-    occupancy, extents = map(torch.from_numpy, voxelise(data.segments, data.parameters))
-    around = torch.from_numpy(data.surroundings)
+    occupancy, extents = map(torch.from_numpy, voxelize(data.segments, data.parameters))
+    around = torch.from_numpy(data.neighborhood)
     with torch.no_grad():
         own = network.segment(occupancy, extents).numpy()
         stored = network(occupancy, extents, around).numpy()
@@ -186,13 +186,13 @@ def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     }
     manifest = publish_network(tmp_path / "toy", trained, Data(training, validation, provenance))
     assert manifest.model_id == Manifest.load(tmp_path / "toy").model_id
-    assert manifest.surroundings == SURROUNDINGS_V1
+    assert manifest.neighborhood == NEIGHBORHOOD_V1
     assert (manifest.dimension, manifest.code_bytes) == (64, 16)
     figures = manifest.figures["validation"]
     assert figures["top1"] > figures["alone"]["top1"]
     # What the extractor takes for granted is that the segments were seen together.
     extractor = load_extractor(tmp_path / "toy")
     together = extractor.describe(data.segments)
-    around = describe_surroundings(data.segments)
+    around = describe_neighborhood(data.segments)
     assert (together == extractor.describe(data.segments, around)).all()
     assert not np.allclose(together, extractor.describe(data.segments, np.zeros_like(around)))

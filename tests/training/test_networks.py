@@ -8,23 +8,23 @@ import pytest
 import torch
 
 from placecell.core.parameters import PROTOCOL_V1
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.export.onnx_graph import Exported, export_onnx, principal_axes
 from training.methods.networks import (
     NETWORKS,
     SMALLEST_DEVIATION,
     DescriptorNetwork,
-    Normalisation,
+    Normalization,
     describe,
-    normalisation_statistics,
+    normalization_statistics,
 )
 
 
-def test_normalisation_is_per_voxel_and_never_blows_up() -> None:
+def test_normalization_is_per_voxel_and_never_blows_up() -> None:
     mean = np.array([[[0.5, 0.0]]], dtype=np.float32)
     deviation = np.array([[[0.5, 0.0]]], dtype=np.float32)
-    layer = Normalisation(mean, deviation)
+    layer = Normalization(mean, deviation)
     occupied = layer(torch.ones((1, 1, 1, 2), dtype=torch.uint8)).numpy().ravel()
     empty = layer(torch.zeros((1, 1, 1, 2), dtype=torch.uint8)).numpy().ravel()
     assert occupied.tolist() == pytest.approx([1.0, 1.0 / SMALLEST_DEVIATION])
@@ -32,19 +32,19 @@ def test_normalisation_is_per_voxel_and_never_blows_up() -> None:
 
 
 def test_statistics_are_those_of_the_training_set(shapes: TrainingSet) -> None:
-    mean, deviation = normalisation_statistics(shapes)
-    occupancy, _ = voxelise(shapes.segments, shapes.parameters)
+    mean, deviation = normalization_statistics(shapes)
+    occupancy, _ = voxelize(shapes.segments, shapes.parameters)
     assert mean == pytest.approx(occupancy.mean(axis=0), abs=1e-6)
     assert deviation == pytest.approx(occupancy.std(axis=0), abs=1e-6)
 
 
 def a_network(name: str, shapes: TrainingSet) -> DescriptorNetwork:
     torch.manual_seed(4)
-    network = DescriptorNetwork(name, *normalisation_statistics(shapes), dropout=0.3)
+    network = DescriptorNetwork(name, *normalization_statistics(shapes), dropout=0.3)
     # Running statistics other than those of a new network, so that parity is put to the test.
     network.train()
     with torch.no_grad():
-        occupancy, extents = voxelise(shapes.segments, shapes.parameters)
+        occupancy, extents = voxelize(shapes.segments, shapes.parameters)
         network(torch.from_numpy(occupancy), torch.from_numpy(extents))
     return network.eval()
 
@@ -57,7 +57,7 @@ def test_onnx_equals_torch_for_any_batch(name: str, shapes: TrainingSet, tmp_pat
     exported = Exported(network, mean, axes)
     export_onnx(exported, PROTOCOL_V1.grid, tmp_path / "model.onnx")
     session = onnxruntime.InferenceSession(tmp_path / "model.onnx")
-    occupancy, extents = voxelise(shapes.segments, shapes.parameters)
+    occupancy, extents = voxelize(shapes.segments, shapes.parameters)
     for count in (1, 3, len(shapes)):
         inputs = {"occupancy": occupancy[:count], "extents": extents[:count]}
         (through_onnx,) = session.run(["descriptor"], inputs)

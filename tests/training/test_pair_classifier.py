@@ -11,7 +11,7 @@ import torch
 from evaluation.recognition.retrieval import expected_calibration_error
 from placecell.descriptors.manifest import PAIR_FILE, Manifest
 from placecell.descriptors.pair_classifier import PairClassifier
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from training.export import pair_classifier
 from training.export.pair_classifier import Calibration, HeldOut, Pairs
 from training.methods.siamese import MatchNetwork
@@ -121,11 +121,11 @@ def test_served_classifier_takes_codes_as_stored(tmp_path: Path) -> None:
     chosen = pair_classifier.choose(
         learnt, HeldOut(fitted, fitted), HeldOut(held_out, held_out), None, tmp_path / PAIR_FILE
     )
-    manifest = Manifest("toy", "group", "fast", DIMENSION, Quantiser(0.05), {}, pair=chosen)
+    manifest = Manifest("toy", "group", "fast", DIMENSION, Quantizer(0.05), {}, pair=chosen)
     classifier = PairClassifier(tmp_path, manifest)
     pairs = toy_pairs(20, 9)
-    a, b = (manifest.quantiser.encode(side) for side in (pairs.a, pairs.b))
-    decoded = replace(pairs, a=manifest.quantiser.decode(a), b=manifest.quantiser.decode(b))
+    a, b = (manifest.quantizer.encode(side) for side in (pairs.a, pairs.b))
+    decoded = replace(pairs, a=manifest.quantizer.decode(a), b=manifest.quantizer.decode(b))
     expected = run_pair(tmp_path / PAIR_FILE, decoded)
     assert classifier.probabilities(a, b) == pytest.approx(expected, abs=1e-6)
     assert classifier.probabilities(a[:0], b[:0]).shape == (0,)

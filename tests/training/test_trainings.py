@@ -214,9 +214,9 @@ def test_augmentation_loses_points_but_never_a_segment(shapes: TrainingSet) -> N
     occupancy, _ = harsh.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
     assert (occupancy.reshape(len(shapes), -1).sum(axis=1) >= 1).all()
     gentle = Augmentation(yaw=0.0, cut_share=0.0, drop_most=0.0)
-    from placecell.descriptors.voxels import voxelise
+    from placecell.descriptors.voxels import voxelize
 
-    as_it_is, extents = voxelise(shapes.segments, shapes.parameters)
+    as_it_is, extents = voxelize(shapes.segments, shapes.parameters)
     same, same_extents = gentle.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
     assert (same == as_it_is).all()
     assert (same_extents == extents).all()

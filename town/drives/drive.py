@@ -67,10 +67,10 @@ def write_drive(
         folder: made if it is missing.
         traffic_seed: which cars are parked where.
         scans: how many.
-        spacing: metres between scans along the lane.
+        spacing: meters between scans along the lane.
         noise_seed: of the sensor's noise, and of the odometry's.
         odometry: how it errs, if the robot has one.
-        oncoming: cars that come the other way, a kilometre of the route.
+        oncoming: cars that come the other way, a kilometer of the route.
         overwrite: replace the drive that the folder holds.
         progress: wraps the loop over the scans.
 

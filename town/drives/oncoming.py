@@ -11,7 +11,7 @@ from town.objects.car import car
 from town.streets.route import Route
 
 NEAR = 80.0
-"""Cars farther from the sensor are left out, metres."""
+"""Cars farther from the sensor are left out, meters."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class Oncoming:
     Attributes:
         lane: that they drive on.
         cars: their meshes, each in the car's frame.
-        starts: (cars,) metres along the lane at time 0.
-        speeds: (cars,) metres a second.
+        starts: (cars,) meters along the lane at time 0.
+        speeds: (cars,) meters a second.
     """
 
     lane: Route
@@ -39,13 +39,13 @@ class Oncoming:
 
         Args:
             route: of the robot.
-            per_km: how many a kilometre of the lane, on average.
+            per_km: how many a kilometer of the lane, on average.
 
         Raises:
-            ValueError: a negative number, or more than one every ten metres.
+            ValueError: a negative number, or more than one every ten meters.
         """
         if not 0 <= per_km <= 100:
-            raise ValueError(f"there can be 0 to 100 oncoming cars a kilometre, not {per_km}")
+            raise ValueError(f"there can be 0 to 100 oncoming cars a kilometer, not {per_km}")
         rng = np.random.default_rng([seed, 9])
         lane = route.reversed()
         count = int(rng.poisson(per_km * lane.length() / 1000))

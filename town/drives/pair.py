@@ -14,7 +14,7 @@ class Pair:
         overlap: share of b's scans that were taken in a's streets.
         look_alike: share of b's scans where the same identical houses stand as in a street of a's.
         frame_a, frame_b: (4, 4) world of each drive to the frame of its map: any heading,
-            kilometres away.
+            kilometers away.
         b_to_a: (4, 4) map b's frame to map a's, in truth.
     """
 

@@ -17,10 +17,10 @@ from town.drives.traversal import Traversal
 from town.streets.network import OWN
 
 SAME_STREET = 7.0
-"""Scans of two drives nearer to one another than this are in the same street, metres."""
+"""Scans of two drives nearer to one another than this are in the same street, meters."""
 
 APART = 100.0
-"""Maps that share nothing were seen from so far apart, metres: each reaches 40 m."""
+"""Maps that share nothing were seen from so far apart, meters: each reaches 40 m."""
 
 TOLERANCE = 0.02
 """An overlap is that which was wanted, give or take, or half a scan."""
@@ -32,11 +32,11 @@ COMPARED = 5
 """Pairs of which the one that looks most alike is taken."""
 
 FARTHEST = 5000.0
-"""Origins of the maps' frames lie up to so far from the drives' worlds' on x and y, metres."""
+"""Origins of the maps' frames lie up to so far from the drives' worlds' on x and y, meters."""
 
 
 def draw_pairs(
-    city: City, a: Traversal, b: Traversal, count: int, metres: float, seed: int = 0
+    city: City, a: Traversal, b: Traversal, count: int, meters: float, seed: int = 0
 ) -> tuple[list[Pair], list[Pair]]:
     """Pairs of maps: so many with an overlap of 10% to 100%, in even steps, and as many with none.
 
@@ -44,14 +44,14 @@ def draw_pairs(
 
     Args:
         a, b: two drives through the town.
-        metres: that each map's robot has driven.
+        meters: that each map's robot has driven.
 
     Raises:
         ValueError: the drives are too short for it, or too near one another.
     """
     if count < 1:
         raise ValueError(f"there must be one pair or more, not {count}")
-    drawer = Drawer.of(city, a, b, metres, np.random.default_rng([seed, 10]))
+    drawer = Drawer.of(city, a, b, meters, np.random.default_rng([seed, 10]))
     overlapping = [drawer.overlapping(float(share)) for share in np.linspace(0.1, 1.0, count)]
     apart = [drawer.apart(alike=number % 2 == 0) for number in range(count)]
     return overlapping, apart
@@ -78,9 +78,9 @@ class Drawer:
 
     @classmethod
     def of(
-        cls, city: City, a: Traversal, b: Traversal, metres: float, rng: np.random.Generator
+        cls, city: City, a: Traversal, b: Traversal, meters: float, rng: np.random.Generator
     ) -> Self:
-        """For stretches of so many metres.
+        """For stretches of so many meters.
 
         Raises:
             ValueError: a drive is too short for it.
@@ -90,8 +90,8 @@ class Drawer:
             b,
             city.designs_at(a.places),
             city.designs_at(b.places),
-            a.scans_in(metres),
-            b.scans_in(metres),
+            a.scans_in(meters),
+            b.scans_in(meters),
             rng,
         )
 
@@ -135,7 +135,7 @@ class Drawer:
         return self._pair(first_a, first_b, 0.0)
 
     def _stretch_of_a(self) -> tuple[int, Float64]:
-        """Where a random one begins, and how far each scan of b is from it, metres."""
+        """Where a random one begins, and how far each scan of b is from it, meters."""
         first = int(self.rng.integers(len(self.a.poses) - self.scans_a + 1))
         tree = cKDTree(self.a.places[first : first + self.scans_a])
         return first, tree.query(self.b.places)[0]

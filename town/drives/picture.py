@@ -15,7 +15,7 @@ from town.streets.route import Route
 
 
 def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> None:
-    """Draw the streets, those of identical houses in colours, the route and the odometry.
+    """Draw the streets, those of identical houses in colors, the route and the odometry.
 
     Args:
         file: PNG.
@@ -25,9 +25,9 @@ def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> N
     figure = Figure(figsize=(7, 7), layout="constrained")
     axes = figure.add_subplot()
     network = city.network
-    colours = {OWN: "0.75"} | {design: f"C{design + 1}" for design in range(DESIGNS)}
+    colors = {OWN: "0.75"} | {design: f"C{design + 1}" for design in range(DESIGNS)}
     for line, design in zip(network.lines(), network.designs.tolist(), strict=True):
-        axes.plot(*line.T, color=colours[design], linewidth=6, solid_capstyle="round", alpha=0.6)
+        axes.plot(*line.T, color=colors[design], linewidth=6, solid_capstyle="round", alpha=0.6)
     lane = route.lane()
     axes.plot(*lane.T, color="black", linewidth=0.8, label="route of robot A")
     axes.plot(*lane[0], "o", color="black", markersize=5)
@@ -48,6 +48,6 @@ def title(city: City, route: Route) -> str:
     """What the picture shows."""
     alike = np.mean(city.network.designs != OWN)
     return (
-        f"Town {city.seed}: {city.network.metres():,.0f} m of streets, {alike:.0%} lined by "
-        f"identical houses\n(a colour a design); the route is {route.length():,.0f} m long"
+        f"Town {city.seed}: {city.network.meters():,.0f} m of streets, {alike:.0%} lined by "
+        f"identical houses\n(a color a design); the route is {route.length():,.0f} m long"
     )

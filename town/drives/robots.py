@@ -29,7 +29,7 @@ def two_robots(
         folder: gets both drives.
         seed: of the town, the route, the parked cars and the noise.
         scans: of each drive.
-        spacing: metres between scans.
+        spacing: meters between scans.
         columns: azimuth steps of the sensor.
         overwrite: replace drives that are there.
         progress: wraps the loops over the scans.
@@ -41,7 +41,7 @@ def two_robots(
         FileExistsError: a drive is there already, and `overwrite` is not set.
     """
     town = Town.build(seed)
-    # The inner lane of a turn is shorter than the centre line.
+    # The inner lane of a turn is shorter than the center line.
     length = 1.08 * scans * spacing + 4.0
     route = Route.wander(town.plan, town.terrain, length + 20.0, seed).cut(
         start=10.0, length=length
@@ -88,11 +88,11 @@ def several_robots(
     Args:
         folder: gets the drives.
         robots: how many, up to 26.
-        start: where on its way each begins, metres along the middle of the street.
+        start: where on its way each begins, meters along the middle of the street.
         scans: of each drive; all the rest of the route unless given.
-        spacing: metres between scans.
+        spacing: meters between scans.
         odometry: how it errs, of all of them, if they have one.
-        oncoming: cars that come the other way, a kilometre.
+        oncoming: cars that come the other way, a kilometer.
         overwrite: replace drives that are there.
         progress: wraps the loops over the scans.
 
@@ -134,12 +134,12 @@ def way_of(
     """The way that a robot takes, every second one backwards, and how many scans it takes there.
 
     Args:
-        start: where on it the robot begins, metres along the middle of the street.
+        start: where on it the robot begins, meters along the middle of the street.
 
     Raises:
         ValueError: the route ends before.
     """
     way = route.reversed() if number % 2 else route
     if start:
-        way = way.cut(start, max(arc_lengths(way.centre)[-1] - start, spacing))
+        way = way.cut(start, max(arc_lengths(way.center)[-1] - start, spacing))
     return way, int(way.length() / spacing) if scans is None else scans

@@ -34,13 +34,13 @@ class Traversal:
         """Where the sensor was, town frame: (n, 2)."""
         return np.asarray(self.poses[:, :2, 3])
 
-    def scans_in(self, metres: float) -> int:
-        """How many in so many metres.
+    def scans_in(self, meters: float) -> int:
+        """How many in so many meters.
 
         Raises:
             ValueError: it is too short.
         """
         driven = np.linalg.norm(np.diff(self.places, axis=0), axis=1).sum()
-        if not 0 < metres <= driven:
-            raise ValueError(f"a drive of {driven:.0f} m has no stretch of {metres} m")
-        return max(1, round(metres / float(driven) * (len(self.poses) - 1)))
+        if not 0 < meters <= driven:
+            raise ValueError(f"a drive of {driven:.0f} m has no stretch of {meters} m")
+        return max(1, round(meters / float(driven) * (len(self.poses) - 1)))

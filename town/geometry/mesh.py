@@ -32,7 +32,7 @@ class Mesh:
     """Triangles, each with its own corners (nothing is shared, so meshes are joined by stacking).
 
     Attributes:
-        triangles: float64 (n, 3, 3): corners' x, y, z in metres.
+        triangles: float64 (n, 3, 3): corners' x, y, z in meters.
         reflectance: float32 (n,), 0 to 1.
     """
 
@@ -64,7 +64,7 @@ class Mesh:
         return len(self.triangles)
 
     def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, heading: float = 0.0) -> "Mesh":
-        """Turned about z by `heading` (radians, anticlockwise), then shifted (metres)."""
+        """Turned about z by `heading` (radians, anticlockwise), then shifted (meters)."""
         cosine, sine = np.cos(heading), np.sin(heading)
         turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
         return Mesh(self.triangles @ turn + (x, y, z), self.reflectance)

@@ -23,11 +23,11 @@ class Scene:
         """Where rays first hit.
 
         Args:
-            origins: float32 (n, 3), metres, the mesh's frame.
+            origins: float32 (n, 3), meters, the mesh's frame.
             directions: float32 (n, 3), unit vectors.
 
         Returns:
-            ranges in metres, float32 (n,), infinite where nothing is hit, and the triangles hit,
+            ranges in meters, float32 (n,), infinite where nothing is hit, and the triangles hit,
             int32 (n,), -1 where nothing is.
         """
         hits = self._scene.run(origins, directions, query="INTERSECT", output=1)

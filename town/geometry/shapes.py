@@ -1,6 +1,6 @@
 """Simple solids and surfaces, from which the town's objects are put together.
 
-Every shape is in its object's own frame: metres, z up, z = 0 at the ground.
+Every shape is in its object's own frame: meters, z up, z = 0 at the ground.
 """
 
 import numpy as np
@@ -31,11 +31,11 @@ def prism(outline: Float64, low: float, high: float, reflectance: float,
     """A convex outline (n, 2) raised from z = low to z = high.
 
     Args:
-        taper: scale of the top about the outline's centre.
+        taper: scale of the top about the outline's center.
     """
-    centre = outline.mean(axis=0)
+    center = outline.mean(axis=0)
     bottom = np.column_stack([outline, np.full(len(outline), low)])
-    top = np.column_stack([centre + taper * (outline - centre), np.full(len(outline), high)])
+    top = np.column_stack([center + taper * (outline - center), np.full(len(outline), high)])
     return loft(bottom, top, reflectance)
 
 
@@ -64,7 +64,7 @@ def pole(x: float, y: float, radius: float, span: tuple[float, float], reflectan
 
 def blob(
     rng: np.random.Generator,
-    centre: tuple[float, float, float],
+    center: tuple[float, float, float],
     radii: tuple[float, float, float],
     reflectance: float,
 ) -> Mesh:
@@ -81,12 +81,12 @@ def blob(
     waves = rng.normal(scale=1.6, size=(4, 3))
     phases = rng.uniform(0, 2 * np.pi, size=4)
     swelling = 1 + 0.0625 * np.sin(directions @ waves.T * 1.5 + phases).sum(axis=2)
-    return Mesh.of_triangles(directions * swelling[..., None] * radii + centre, reflectance)
+    return Mesh.of_triangles(directions * swelling[..., None] * radii + center, reflectance)
 
 
 def leaves(
     rng: np.random.Generator,
-    centre: tuple[float, float, float],
+    center: tuple[float, float, float],
     radii: tuple[float, float, float],
     count: int,
     reflectance: float,
@@ -97,7 +97,7 @@ def leaves(
         middles, axis=2, keepdims=True
     )
     corners = rng.normal(scale=0.17, size=(count, 3, 3))
-    return Mesh.of_triangles(middles * radii + centre + corners, reflectance)
+    return Mesh.of_triangles(middles * radii + center + corners, reflectance)
 
 
 def relief(along: Float64, up: Float64, depth: Float64, reflectance: Float64) -> Mesh:
@@ -117,7 +117,7 @@ def relief(along: Float64, up: Float64, depth: Float64, reflectance: Float64) ->
     parts = [Mesh(Mesh.of_quads(faces, 0.0).triangles, shades)]
     wall = float(reflectance.max())
     for axis in (0, 1):
-        # Where two neighbours differ in depth, a strip joins them; the rim is joined to y = 0.
+        # Where two neighbors differ in depth, a strip joins them; the rim is joined to y = 0.
         padded = np.pad(depth, [(1, 1), (0, 0)] if axis == 0 else [(0, 0), (1, 1)])
         first, second = (padded[:-1], padded[1:]) if axis == 0 else (padded[:, :-1], padded[:, 1:])
         columns, rows = np.nonzero(first != second)

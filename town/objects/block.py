@@ -21,7 +21,7 @@ from town.objects.furniture import (
 )
 from town.objects.house import house
 from town.objects.vegetation import bush, hedge, tree
-from town.streets.plan import KERB_HEIGHT, Frontage
+from town.streets.plan import CURB_HEIGHT, Frontage
 from town.streets.terrain import Terrain
 
 LOT_DEPTH = 14.0
@@ -38,7 +38,7 @@ FURNITURE: tuple[tuple[str, Furniture, float], ...] = (
     ("advertising column", advertising_column, 0.04),
     ("bus shelter", bus_shelter, 0.04),
 )
-"""Kind, maker, and its share of what stands at the kerb."""
+"""Kind, maker, and its share of what stands at the curb."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class Site:
     def place(self, kind: str, mesh: Mesh, x: float, y: float, turn: float = 0.0) -> SceneObject:
         """An object at (x, y) of the frontage's frame, on the pavement, turned by radians."""
         spot, heading = self.frontage.on_plan(x, y), self.frontage.heading + turn
-        return SceneObject(kind, self.terrain.place(mesh, spot, heading, lift=KERB_HEIGHT))
+        return SceneObject(kind, self.terrain.place(mesh, spot, heading, lift=CURB_HEIGHT))
 
 
 def furnish(
@@ -94,7 +94,7 @@ def furnish(
         else:
             yield from garden(rng, (x, pavement), (width, 10.0), site)
         x += width + float(rng.uniform(0.8, 3.5))
-    yield from kerbside(rng, frontage.length, site)
+    yield from curbside(rng, frontage.length, site)
 
 
 def garden(
@@ -104,7 +104,7 @@ def garden(
 
     Args:
         corner: where the garden begins, x and y of the frontage's frame.
-        size: along the street and away from it, metres.
+        size: along the street and away from it, meters.
     """
     (x, y), (width, depth) = corner, size
     yield from boundary(rng, width, x, y, site)
@@ -131,8 +131,8 @@ def boundary(
             yield site.place(kind, makers[kind](rng, length), x + start, y + 0.2)
 
 
-def kerbside(rng: np.random.Generator, length: float, site: Site) -> Iterator[SceneObject]:
-    """Trees, posts, bins and the like in a row behind the kerb."""
+def curbside(rng: np.random.Generator, length: float, site: Site) -> Iterator[SceneObject]:
+    """Trees, posts, bins and the like in a row behind the curb."""
     shares = np.array([share for _, _, share in FURNITURE])
     x = float(rng.uniform(2.0, 6.0))
     while x < length - 3.0:

@@ -17,8 +17,8 @@ class CarKind:
     """A body's proportions.
 
     Attributes:
-        length, width, height: metres.
-        waist: height of the lower body's upper edge, metres.
+        length, width, height: meters.
+        waist: height of the lower body's upper edge, meters.
         cabin: shares of the length, from the rear, where the cabin stands on the body and where
             its roof lies: foot's rear and front, roof's rear and front.
     """

@@ -1,7 +1,7 @@
 """Houses: walls in relief, a roof, and what is built onto a front.
 
 Frame of a house: x along its front, y = 0 at the front and growing into the house, z = 0 at the
-pavement. A car's LiDAR sees little above three metres, so most of the variety is low down.
+pavement. A car's LiDAR sees little above three meters, so most of the variety is low down.
 """
 
 from collections.abc import Iterator
@@ -21,8 +21,8 @@ def house(rng: np.random.Generator, width: float, depth: float) -> Mesh:
     """A house with a front, two flanks, a plain back and a gabled roof.
 
     Args:
-        width: along the street, metres.
-        depth: away from it, metres.
+        width: along the street, meters.
+        depth: away from it, meters.
     """
     storeys = int(rng.integers(1, 4))
     height = 0.5 + storeys * float(rng.uniform(2.7, 3.2))

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from town.geometry.mesh import Mesh
-from town.objects.block import LOT_DEPTH, SceneObject, Site, boundary, kerbside
+from town.objects.block import LOT_DEPTH, SceneObject, Site, boundary, curbside
 from town.objects.house import house
 from town.streets.plan import Frontage
 from town.streets.terrain import Terrain
@@ -19,10 +19,10 @@ class Terrace:
 
     Attributes:
         house: in its own frame (see `town.objects.house`).
-        width: of it along the street, metres.
-        gap: to the next, metres.
-        setback: of its front behind the pavement, metres.
-        pavement: its width, metres.
+        width: of it along the street, meters.
+        gap: to the next, meters.
+        setback: of its front behind the pavement, meters.
+        pavement: its width, meters.
     """
 
     house: Mesh
@@ -49,7 +49,7 @@ class Terrace:
         """The row along one side of a block.
 
         The houses are the same, exactly and in equal steps; their hedges and fences, and what
-        stands at the kerb, are not.
+        stands at the curb, are not.
         """
         site = Site(frontage, terrain)
         x = self.pavement + 1.0
@@ -58,4 +58,4 @@ class Terrace:
             if self.setback > 2.0:
                 yield from boundary(rng, self.width, x, self.pavement, site)
             x += self.width + self.gap
-        yield from kerbside(rng, frontage.length, site)
+        yield from curbside(rng, frontage.length, site)

@@ -6,7 +6,7 @@ import numpy as np
 
 from town.objects.block import SceneObject
 from town.objects.car import car, person
-from town.streets.plan import BAY_WIDTH, KERB_HEIGHT, Frontage, Plan
+from town.streets.plan import BAY_WIDTH, CURB_HEIGHT, Frontage, Plan
 from town.streets.terrain import Terrain
 
 
@@ -38,4 +38,4 @@ def traffic_along(
     for _ in range(int(rng.poisson(frontage.length / 40))):
         spot = frontage.on_plan(float(rng.uniform(2, frontage.length - 2)), 1.8)
         heading = float(rng.uniform(0, 2 * np.pi))
-        yield SceneObject("person", terrain.place(person(rng), spot, heading, KERB_HEIGHT))
+        yield SceneObject("person", terrain.place(person(rng), spot, heading, CURB_HEIGHT))

@@ -1,6 +1,6 @@
 """A simulated spinning LiDAR, after the Velodyne HDL-64E of KITTI.
 
-Sensor frame: x ahead, y left, z up, metres, the origin where the beams meet.
+Sensor frame: x ahead, y left, z up, meters, the origin where the beams meet.
 """
 
 from dataclasses import dataclass
@@ -29,15 +29,15 @@ class Lidar:
     Attributes:
         columns: azimuth steps a turn.
         elevations: of the beams, degrees above the horizon.
-        height: of the sensor above the ground, metres.
-        range_noise: standard deviation, metres.
-        resolution: ranges come in whole steps of this, metres.
+        height: of the sensor above the ground, meters.
+        range_noise: standard deviation, meters.
+        resolution: ranges come in whole steps of this, meters.
         dropout: share of the returns that are lost.
-        min_range: nothing nearer returns, metres.
-        max_range: nothing farther returns, metres.
-        range_at_tenth: how far a surface of reflectance 0.1 is seen, metres; the brightness that
+        min_range: nothing nearer returns, meters.
+        max_range: nothing farther returns, meters.
+        range_at_tenth: how far a surface of reflectance 0.1 is seen, meters; the brightness that
             comes back falls with the square of the range, so darker ones vanish sooner.
-        rain: millimetres an hour (2 is light, 10 heavy): less light comes back, so what is far and
+        rain: millimeters an hour (2 is light, 10 heavy): less light comes back, so what is far and
             dark vanishes (Goodin et al., Predicting the Influence of Rain on LIDAR in ADAS, 2019).
     """
 

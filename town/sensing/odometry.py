@@ -17,8 +17,8 @@ class Odometry:
     once a drive. Roll and pitch do not drift: the robot feels which way is down.
 
     Attributes:
-        yaw: standard deviation of the heading after one metre, degrees; it grows with the root of
-            the metres: 0.05 is half a degree after 100 m.
+        yaw: standard deviation of the heading after one meter, degrees; it grows with the root of
+            the meters: 0.05 is half a degree after 100 m.
         scale: standard deviation of the share by which distances are off: 0.01 is one per cent.
     """
 
@@ -33,7 +33,7 @@ class Odometry:
         """
         if not (0 <= self.yaw <= 90 and 0 <= self.scale <= 0.3):
             raise ValueError(
-                f"drift must be 0 to 90 degrees a root metre and a share of 0 to 0.3, "
+                f"drift must be 0 to 90 degrees a root meter and a share of 0 to 0.3, "
                 f"not {self.yaw} and {self.scale}"
             )
 
@@ -50,8 +50,8 @@ class Odometry:
         rng = np.random.default_rng([seed, 8])
         steps = np.diff(true[:, :3, 3], axis=0)
         scale = 1 + self.scale * rng.standard_normal()
-        metres = np.linalg.norm(steps, axis=1)
-        turns = np.radians(self.yaw) * np.sqrt(metres) * rng.standard_normal(len(steps))
+        meters = np.linalg.norm(steps, axis=1)
+        turns = np.radians(self.yaw) * np.sqrt(meters) * rng.standard_normal(len(steps))
         astray = np.concatenate([[0.0], np.cumsum(turns)])
         turned = np.tile(np.eye(3), (len(true), 1, 1))
         turned[:, 0, 0] = turned[:, 1, 1] = np.cos(astray)

@@ -1,4 +1,4 @@
-"""The ground as a mesh: carriageways, kerbs, and the raised blocks between them."""
+"""The ground as a mesh: carriageways, curbs, and the raised blocks between them."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -8,28 +8,28 @@ import numpy as np
 
 from placecell.core.types import Bool, Float64, Int64
 from town.geometry.mesh import Mesh, Reflectance
-from town.streets.plan import KERB_HEIGHT, Plan
+from town.streets.plan import CURB_HEIGHT, Plan
 from town.streets.terrain import Terrain
 
 GROUND_CELL = 2.0
-"""Largest edge of the mesh's cells, metres: the hills stay within a millimetre of it."""
+"""Largest edge of the mesh's cells, meters: the hills stay within a millimeter of it."""
 
-KERB_WIDTH = 0.02
-"""A kerb rises over this distance: all but upright, and still a height field."""
+CURB_WIDTH = 0.02
+"""A curb rises over this distance: all but upright, and still a height field."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """A height field on the lines of a grid, which has a line at both edges of every kerb.
+    """A height field on the lines of a grid, which has a line at both edges of every curb.
 
     *Regions* of a line of n streets, in turn: the rim (0), block 0 (1), street 0 (2), block 1 (3),
     and so on to the other rim (2n + 2).
 
     Attributes:
         terrain: it lies on.
-        x, y: the grid's lines on the plan, rising, metres.
+        x, y: the grid's lines on the plan, rising, meters.
         regions_x, regions_y: the region that each line lies in.
-        raised: (2n + 3, 2m + 3): where the ground is a kerb higher than a carriageway, by region.
+        raised: (2n + 3, 2m + 3): where the ground is a curb higher than a carriageway, by region.
     """
 
     terrain: Terrain
@@ -59,7 +59,7 @@ class Ground:
         x, y = self.x[columns], self.y[rows]
         on_block = self.raised[np.ix_(self.regions_x[columns], self.regions_y[rows])]
         places = self.terrain.bend(np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1))
-        height = self.terrain.height(places) + KERB_HEIGHT * on_block
+        height = self.terrain.height(places) + CURB_HEIGHT * on_block
         corners = np.concatenate([places, height[..., None]], axis=-1)
         cells = np.stack(
             [corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], 2
@@ -88,9 +88,9 @@ class Ground:
 
 
 def grid_lines(spans: Float64) -> Float64:
-    """Lines at both edges of every kerb, and between them at most a cell apart."""
-    edges = np.stack([spans[:, 0], spans[:, 0] + KERB_WIDTH,
-                      spans[:, 1] - KERB_WIDTH, spans[:, 1]], axis=1).ravel()  # fmt: skip
+    """Lines at both edges of every curb, and between them at most a cell apart."""
+    edges = np.stack([spans[:, 0], spans[:, 0] + CURB_WIDTH,
+                      spans[:, 1] - CURB_WIDTH, spans[:, 1]], axis=1).ravel()  # fmt: skip
     parts = [
         np.linspace(start, end, int(np.ceil((end - start) / GROUND_CELL)), endpoint=False)
         for start, end in pairwise(edges)
@@ -100,11 +100,11 @@ def grid_lines(spans: Float64) -> Float64:
 
 def regions(lines: Float64, spans: Float64) -> Int64:
     """The region that each line lies in: (lines,); a kerb's lower edge is part of the street."""
-    starts, ends = spans[:, 0] + KERB_WIDTH, spans[:, 1] - KERB_WIDTH
+    starts, ends = spans[:, 0] + CURB_WIDTH, spans[:, 1] - CURB_WIDTH
     return np.searchsorted(starts, lines, side="right") + np.searchsorted(ends, lines, side="left")
 
 
 def tile_lines(regions: Int64, block: int) -> slice:
-    """Lines from a block's kerb to the next block's, or to the end."""
+    """Lines from a block's curb to the next block's, or to the end."""
     first, last = np.searchsorted(regions, [2 * block + 1, 2 * block + 3]) - 1
     return slice(int(first), int(last) + 1)

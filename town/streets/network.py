@@ -14,10 +14,10 @@ from town.streets.plan import Crossing, Plan
 from town.streets.terrain import Terrain
 
 LONGEST = 200_000.0
-"""Metres of streets. Rays are cast in float32, which is half a millimetre coarse that far out."""
+"""Metres of streets. Rays are cast in float32, which is half a millimeter coarse that far out."""
 
 SPARE = 1.25
-"""A plan has this many times the metres that are kept."""
+"""A plan has this many times the meters that are kept."""
 
 DESIGNS = 4
 """Of rows of identical houses."""
@@ -26,7 +26,7 @@ OWN = -1
 """The design of a street whose houses are all their own."""
 
 STEP = 1.0
-"""Between the points of a street's centre line, metres on the plan."""
+"""Between the points of a street's center line, meters on the plan."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class Network:
         plan: the grid of which the streets are a part.
         terrain: bends it.
         streets: int64 (streets, 2): the crossings that each joins, numbered column by column.
-        lengths: (streets,) metres along the centre lines, from crossing to crossing.
+        lengths: (streets,) meters along the center lines, from crossing to crossing.
         designs: int64 (streets,): which identical houses line it, or `OWN`.
         joined: bool (crossings, crossings).
     """
@@ -53,37 +53,37 @@ class Network:
     joined: Bool
 
     @classmethod
-    def draw(cls, seed: int, metres: float, look_alikes: float = 0.25) -> Self:
+    def draw(cls, seed: int, meters: float, look_alikes: float = 0.25) -> Self:
         """The network of this seed.
 
         Args:
-            metres: of streets in all; there are up to a street's length more, and half a kilometre
+            meters: of streets in all; there are up to a street's length more, and half a kilometer
                 at least.
             look_alikes: the share of the streets that identical houses line.
 
         Raises:
-            ValueError: no number of metres that a town can have, or no share.
+            ValueError: no number of meters that a town can have, or no share.
         """
         if not 0 <= look_alikes <= 1:
             raise ValueError(f"the share of look-alikes is 0 to 1, not {look_alikes}")
-        if not 0 < metres <= LONGEST:
-            raise ValueError(f"a town has up to {LONGEST:.0f} m of streets, not {metres} m")
+        if not 0 < meters <= LONGEST:
+            raise ValueError(f"a town has up to {LONGEST:.0f} m of streets, not {meters} m")
         terrain = Terrain.winding(np.random.default_rng([seed, 3]))
         for size in count(5):
             rng = np.random.default_rng([seed, 4, size])
             plan = Plan.draw(rng, (size // 2, size - size // 2))
             streets = grid_streets(plan)
-            lengths = np.array([arc_length(line) for line in centre_lines(plan, terrain, streets)])
-            if lengths.sum() >= SPARE * metres:
+            lengths = np.array([arc_length(line) for line in center_lines(plan, terrain, streets)])
+            if lengths.sum() >= SPARE * meters:
                 break
-        kept = thinned(streets, lengths, metres, rng)
+        kept = thinned(streets, lengths, meters, rng)
         alike = rng.random(len(kept)) < look_alikes
         designs = np.where(alike, rng.integers(DESIGNS, size=len(kept)), OWN)
         joined = np.zeros((streets.max() + 1,) * 2, dtype=bool)
         joined[tuple(streets[kept].T)] = True
         return cls(plan, terrain, streets[kept], lengths[kept], designs, joined | joined.T)
 
-    def metres(self) -> float:
+    def meters(self) -> float:
         """Of streets in all."""
         return float(self.lengths.sum())
 
@@ -131,8 +131,8 @@ class Network:
         return raised
 
     def lines(self) -> Iterator[Float64]:
-        """The centre line of each street in the town frame, from crossing to crossing: (n, 2)."""
-        return centre_lines(self.plan, self.terrain, self.streets)
+        """The center line of each street in the town frame, from crossing to crossing: (n, 2)."""
+        return center_lines(self.plan, self.terrain, self.streets)
 
 
 def grid_streets(plan: Plan) -> Int64:
@@ -143,8 +143,8 @@ def grid_streets(plan: Plan) -> Int64:
     return np.concatenate([along, across]).astype(np.int64)
 
 
-def centre_lines(plan: Plan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
-    """Of each street (streets, 2) the centre line in the town frame: (n, 2), a step apart."""
+def center_lines(plan: Plan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
+    """Of each street (streets, 2) the center line in the town frame: (n, 2), a step apart."""
     for ends in streets:
         start, end = (plan.crossing(*divmod(int(number), len(plan.norths))) for number in ends)
         points = int(np.linalg.norm(end - start) / STEP) + 2
@@ -156,7 +156,7 @@ def arc_length(line: Float64) -> float:
     return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
 
 
-def thinned(streets: Int64, lengths: Float64, metres: float, rng: np.random.Generator) -> Int64:
+def thinned(streets: Int64, lengths: Float64, meters: float, rng: np.random.Generator) -> Int64:
     """Indices of the streets that are left when random ones are taken away.
 
     Each crossing keeps two streets or more, the network hangs together, and it is no mere ring:
@@ -165,7 +165,7 @@ def thinned(streets: Int64, lengths: Float64, metres: float, rng: np.random.Gene
     graph of directed edges is strongly connected).
 
     Args:
-        metres: that are left at least.
+        meters: that are left at least.
     """
     crossings = int(streets.max()) + 1
     kept = np.ones(len(streets), dtype=bool)
@@ -173,7 +173,7 @@ def thinned(streets: Int64, lengths: Float64, metres: float, rng: np.random.Gene
     for street in rng.permutation(len(streets)):
         ends = streets[street]
         if (
-            lengths[kept].sum() - lengths[street] < metres
+            lengths[kept].sum() - lengths[street] < meters
             or degrees[ends].min() < 3
             or np.count_nonzero(kept) == crossings + 1
         ):

@@ -1,6 +1,6 @@
 """The street plan: a grid of streets with blocks of unlike size between them.
 
-The plan is straight; `Terrain.bend` takes it to the town frame. Metres, x east, y north.
+The plan is straight; `Terrain.bend` takes it to the town frame. Meters, x east, y north.
 """
 
 from collections.abc import Iterator
@@ -15,11 +15,11 @@ from placecell.core.types import Float64
 MARGIN = 32.0
 """How far the town goes on beyond its outermost streets."""
 
-KERB_HEIGHT = 0.12
+CURB_HEIGHT = 0.12
 
 BAY_LENGTH = 6.3
 BAY_WIDTH = 2.2
-"""Parking bays lie along the kerb, on the carriageway."""
+"""Parking bays lie along the curb, on the carriageway."""
 
 
 Crossing = tuple[int, int]
@@ -30,13 +30,13 @@ Crossing = tuple[int, int]
 class Frontage:
     """One side of one block: the frame in which its street is furnished.
 
-    Its x runs along the kerb, its y from the kerb (0) into the block; the carriageway lies at
+    Its x runs along the curb, its y from the curb (0) into the block; the carriageway lies at
     negative y.
 
     Attributes:
-        corner: (2,) the frame's origin on the plan, where two kerbs meet.
+        corner: (2,) the frame's origin on the plan, where two curbs meet.
         heading: of its x axis on the plan, radians.
-        length: of the kerb to the next corner.
+        length: of the curb to the next corner.
         street: the crossings at its two ends.
     """
 
@@ -62,16 +62,16 @@ class Plan:
     """Streets north-south and east-west.
 
     Attributes:
-        easts: (n,) x of the centre lines of the streets that run north-south.
+        easts: (n,) x of the center lines of the streets that run north-south.
         norths: (m,) y of those that run east-west.
-        east_kerbs: (n,) distance of the kerbs from the centre line.
-        north_kerbs: (m,) the same.
+        east_curbs: (n,) distance of the curbs from the center line.
+        north_curbs: (m,) the same.
     """
 
     easts: Float64
     norths: Float64
-    east_kerbs: Float64
-    north_kerbs: Float64
+    east_curbs: Float64
+    north_curbs: Float64
 
     @classmethod
     def draw(cls, rng: np.random.Generator, streets: tuple[int, int]) -> Self:
@@ -86,16 +86,16 @@ class Plan:
         if min(streets) < 2:
             raise ValueError(f"a town needs two streets a direction or more, not {streets}")
         lines = [np.cumsum(rng.uniform(58.0, 96.0, size=count)) for count in streets]
-        kerbs = [rng.uniform(5.2, 6.4, size=count) for count in streets]
-        return cls(lines[0] - lines[0][0], lines[1] - lines[1][0], kerbs[0], kerbs[1])
+        curbs = [rng.uniform(5.2, 6.4, size=count) for count in streets]
+        return cls(lines[0] - lines[0][0], lines[1] - lines[1][0], curbs[0], curbs[1])
 
     def crossing(self, column: int, row: int) -> Float64:
         """The middle of a crossing: (2,)."""
         return np.array([self.easts[column], self.norths[row]])
 
     def spans(self) -> tuple[Float64, Float64]:
-        """From kerb to kerb: where the blocks lie on x (n + 1, 2) and on y (m + 1, 2)."""
-        return block_spans(self.easts, self.east_kerbs), block_spans(self.norths, self.north_kerbs)
+        """From curb to curb: where the blocks lie on x (n + 1, 2) and on y (m + 1, 2)."""
+        return block_spans(self.easts, self.east_curbs), block_spans(self.norths, self.north_curbs)
 
     def blocks(self) -> Iterator[tuple[int, int]]:
         """Columns and rows of the blocks: block (i, j) lies south-west of crossing (i, j)."""
@@ -124,8 +124,8 @@ class Plan:
             yield from self.block(column, row)
 
 
-def block_spans(lines: Float64, kerbs: Float64) -> Float64:
-    """Intervals between the streets' kerbs and outside the outermost: (lines + 1, 2)."""
-    starts = np.concatenate([[lines[0] - MARGIN], lines + kerbs])
-    ends = np.concatenate([lines - kerbs, [lines[-1] + MARGIN]])
+def block_spans(lines: Float64, curbs: Float64) -> Float64:
+    """Intervals between the streets' curbs and outside the outermost: (lines + 1, 2)."""
+    starts = np.concatenate([[lines[0] - MARGIN], lines + curbs])
+    ends = np.concatenate([lines - curbs, [lines[-1] + MARGIN]])
     return np.stack([starts, ends], axis=1)

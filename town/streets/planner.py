@@ -30,9 +30,9 @@ class Planner:
         network: of streets.
         arcs: int64 (2 * streets, 2): the crossings that each arc leads from and to; arcs k and
             k + streets are the two directions of street k.
-        lengths: (2 * streets,) metres.
+        lengths: (2 * streets,) meters.
         onward: sparse (arcs, arcs): from each arc to those that go on from its end, but for its
-            own way back; metres of the latter.
+            own way back; meters of the latter.
     """
 
     network: Network
@@ -70,17 +70,17 @@ class Planner:
         return self._way(postman(self.network.streets, self.network.lengths))
 
     def wander(self, length: float, rng: np.random.Generator) -> Way:
-        """A random way of at least this many metres."""
+        """A random way of at least this many meters."""
         walk = [int(rng.integers(len(self.arcs)))]
         while self.lengths[walk].sum() < length:
             walk.append(self._any_onward(walk[-1], rng))
         return self._way(walk)
 
     def loop(self, length: float, rng: np.random.Generator, laps: int = 1) -> Way:
-        """A random way round of at least this many metres; it ends with its first street again.
+        """A random way round of at least this many meters; it ends with its first street again.
 
         Args:
-            length: of one lap, metres.
+            length: of one lap, meters.
             laps: how many times it goes round.
 
         Raises:
@@ -98,7 +98,7 @@ class Planner:
         lap = walk + back[1:-1]
         return self._way([*(lap * laps), first])
 
-    def metres(self, way: Sequence[Crossing]) -> float:
+    def meters(self, way: Sequence[Crossing]) -> float:
         """Along the streets of a way.
 
         Raises:

@@ -1,7 +1,7 @@
-"""The Chinese postman's round: every street of a network at least once, in as few metres as can be.
+"""The Chinese postman's round: every street of a network at least once, in as few meters as can be.
 
 Where an odd number of streets meets, the round cannot leave as often as it comes; so such crossings
-are paired with the least metres in all, and the streets on the paths between the two of a pair are
+are paired with the least meters in all, and the streets on the paths between the two of a pair are
 taken twice (Edmonds and Johnson, Matching, Euler tours and the Chinese postman, 1973). What is then
 even everywhere falls into closed trails, which are joined where they meet, and never so that the
 round goes back along the street that it came by (Kotzig, Moves without forbidden transitions in a
@@ -25,7 +25,7 @@ def postman(streets: Int64, lengths: Float64) -> list[int]:
     Args:
         streets: (streets, 2): the crossings that each joins; two or more at each crossing, and all
             of them connected.
-        lengths: (streets,) metres.
+        lengths: (streets,) meters.
     """
     copies = np.concatenate([np.arange(len(streets)), twice(streets, lengths)]).astype(np.int64)
     partner = transitions(streets[copies], copies)

@@ -13,24 +13,24 @@ from town.streets.plan import Crossing, Plan
 from town.streets.terrain import Terrain
 
 CORNER_RADIUS = 9.0
-"""Of the centre line where a route turns at a crossing, metres."""
+"""Of the center line where a route turns at a crossing, meters."""
 
 STEP = 0.25
-"""Between the points of a line, metres."""
+"""Between the points of a line, meters."""
 
 
 @dataclass(frozen=True)
 class Route:
-    """A way along the streets' centre lines, driven beside them.
+    """A way along the streets' center lines, driven beside them.
 
     Attributes:
         terrain: the ground driven on.
-        centre: (n, 2) the centre line in the direction of travel, town frame, metres.
-        lane_offset: metres to the right of it (negative: to the left, against the traffic).
+        center: (n, 2) the center line in the direction of travel, town frame, meters.
+        lane_offset: meters to the right of it (negative: to the left, against the traffic).
     """
 
     terrain: Terrain
-    centre: Float64
+    center: Float64
     lane_offset: float = 1.6
 
     @classmethod
@@ -64,36 +64,36 @@ class Route:
         """A random route of at least this length, that never turns back on the spot.
 
         Args:
-            length: metres.
+            length: meters.
         """
         crossings = stroll(plan, length, np.random.default_rng([seed, 2]))
         return cls.through(plan, terrain, crossings, lane_offset)
 
     def reversed(self) -> Self:
         """The same streets the other way, so in the other lane."""
-        return replace(self, centre=self.centre[::-1])
+        return replace(self, center=self.center[::-1])
 
     def cut(self, start: float, length: float) -> Self:
-        """A stretch, measured along the centre line in metres.
+        """A stretch, measured along the center line in meters.
 
         Raises:
             ValueError: the route is too short for it.
         """
-        travelled = arc_lengths(self.centre)
-        if start < 0 or start + length > travelled[-1] + STEP:
+        traveled = arc_lengths(self.center)
+        if start < 0 or start + length > traveled[-1] + STEP:
             raise ValueError(
-                f"the route is {travelled[-1]:.1f} m long: too short to cut {length:.1f} m "
+                f"the route is {traveled[-1]:.1f} m long: too short to cut {length:.1f} m "
                 f"from {start:.1f} m on"
             )
-        wanted = (travelled >= start) & (travelled <= start + length)
-        return replace(self, centre=self.centre[wanted])
+        wanted = (traveled >= start) & (traveled <= start + length)
+        return replace(self, center=self.center[wanted])
 
     def lane(self) -> Float64:
         """The line driven, in the town frame: (n, 2)."""
-        ahead = np.gradient(self.centre, axis=0)
+        ahead = np.gradient(self.center, axis=0)
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
         right = np.stack([ahead[:, 1], -ahead[:, 0]], axis=1)
-        return np.asarray(self.centre + self.lane_offset * right)
+        return np.asarray(self.center + self.lane_offset * right)
 
     def length(self) -> float:
         """Metres along the lane."""
@@ -101,25 +101,25 @@ class Route:
 
     @cached_property
     def _driven(self) -> tuple[Float64, Float64, Float64]:
-        """The lane (n, 2), the metres to each of its points (n,), and the headings there (n,)."""
+        """The lane (n, 2), the meters to each of its points (n,), and the headings there (n,)."""
         lane = self.lane()
         direction = np.gradient(lane, axis=0)
         headings = np.unwrap(np.arctan2(direction[:, 1], direction[:, 0]))
         return lane, arc_lengths(lane), headings
 
     def poses(self, distances: Float64, height: float) -> Float64:
-        """Where a sensor is after so many metres along the lane.
+        """Where a sensor is after so many meters along the lane.
 
         Args:
-            distances: (n,) metres from the route's start.
-            height: of the sensor above the carriageway, metres.
+            distances: (n,) meters from the route's start.
+            height: of the sensor above the carriageway, meters.
 
         Returns:
             float64 (n, 4, 4): sensor (x ahead, y left, z up from the slope) to town.
         """
-        lane, travelled, headings = self._driven
-        heading = np.interp(distances, travelled, headings)
-        places = np.stack([np.interp(distances, travelled, lane[:, axis]) for axis in (0, 1)], 1)
+        lane, traveled, headings = self._driven
+        heading = np.interp(distances, traveled, headings)
+        places = np.stack([np.interp(distances, traveled, lane[:, axis]) for axis in (0, 1)], 1)
         up = self.terrain.normals(places)
         level = np.stack([np.cos(heading), np.sin(heading), np.zeros(len(heading))], axis=1)
         left = np.cross(up, level)
@@ -146,15 +146,15 @@ def rounded(corners: Float64) -> Float64:
         exit_ = corner + CORNER_RADIUS * unit(after - corner)
         if np.allclose(unit(corner - before), unit(after - corner)):
             continue
-        centre = entry + exit_ - corner
+        center = entry + exit_ - corner
         angles = np.linspace(0, np.pi / 2, int(CORNER_RADIUS * np.pi / 2 / STEP))[:, None]
         points.extend(
-            centre + np.cos(angles) * (entry - centre) + np.sin(angles) * (exit_ - centre)
+            center + np.cos(angles) * (entry - center) + np.sin(angles) * (exit_ - center)
         )
     line = np.stack([*points, corners[-1]])
-    travelled = arc_lengths(line)
-    even = np.linspace(0, travelled[-1], int(travelled[-1] / STEP) + 1)
-    return np.stack([np.interp(even, travelled, line[:, axis]) for axis in (0, 1)], axis=1)
+    traveled = arc_lengths(line)
+    even = np.linspace(0, traveled[-1], int(traveled[-1] / STEP) + 1)
+    return np.stack([np.interp(even, traveled, line[:, axis]) for axis in (0, 1)], axis=1)
 
 
 def unit(vector: Float64) -> Float64:

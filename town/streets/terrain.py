@@ -13,8 +13,8 @@ from town.geometry.mesh import Mesh
 class Terrain:
     """Sums of plane waves: shallow, smooth, and known everywhere in closed form.
 
-    The plan is drawn on a straight grid; `bend` shifts it sideways by a few metres, so that streets
-    curve and no two cross at the same angle. All lengths are metres; town frame: z up.
+    The plan is drawn on a straight grid; `bend` shifts it sideways by a few meters, so that streets
+    curve and no two cross at the same angle. All lengths are meters; town frame: z up.
 
     Attributes:
         bend_waves: (n, 2) wave vectors on the plan, 1/m.
@@ -54,7 +54,7 @@ class Terrain:
 
     @classmethod
     def winding(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
-        """A random terrain for a large town, whose streets wind by tens of metres.
+        """A random terrain for a large town, whose streets wind by tens of meters.
 
         Each wave shifts across its own direction. Streets run nearly along the waves, or across
         them: what is bent grows longer, hardly ever shorter, so what stands there has its room.
@@ -99,7 +99,7 @@ class Terrain:
             mesh: in its own frame.
             plan: (2,) where on the plan the object's origin goes.
             heading: of the object's x axis on the plan, radians; turned along with the bend.
-            lift: metres above the carriageway's level (the pavement's height, say).
+            lift: meters above the carriageway's level (the pavement's height, say).
         """
         ahead = plan + 0.5 * np.array([np.cos(heading), np.sin(heading)])
         here, there = self.bend(np.stack([plan, ahead]))
@@ -108,7 +108,7 @@ class Terrain:
 
 
 def waves(rng: np.random.Generator, count: int, shortest: float, longest: float) -> Float64:
-    """Random wave vectors (count, 2), 1/m, of wavelengths between two bounds in metres."""
+    """Random wave vectors (count, 2), 1/m, of wavelengths between two bounds in meters."""
     lengths = rng.uniform(shortest, longest, size=count)
     angles = rng.uniform(0, 2 * np.pi, size=count)
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -10,7 +10,7 @@ import numpy as np
 from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, UInt8
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +32,9 @@ class Augmentation:
     def copies(
         self, segments: Segments, parameters: Parameters, random: np.random.Generator
     ) -> tuple[UInt8, Float32]:
-        """One altered copy of each segment, as the network's input (see `voxelise`)."""
+        """One altered copy of each segment, as the network's input (see `voxelize`)."""
         altered = self.segments(segments, random)
-        return voxelise(altered, parameters, random.uniform(-self.yaw, self.yaw, len(segments)))
+        return voxelize(altered, parameters, random.uniform(-self.yaw, self.yaw, len(segments)))
 
     def segments(
         self, segments: Segments, random: np.random.Generator, *, exactly: bool = False

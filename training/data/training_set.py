@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from placecell.core.parameters import Parameters, SurroundingsParameters
+from placecell.core.parameters import NeighborhoodParameters, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int64
 from placecell.segmentation.recording import Recording
@@ -64,7 +64,7 @@ class TrainingSet:
         segments: each drive's in its own frame.
         groups: int64 (segments,): from 0, different over drives.
         parameters: of the grid.
-        surroundings: float32 (segments, size): what stood around each in its frame, duplicates
+        neighborhood: float32 (segments, size): what stood around each in its frame, duplicates
             included, as in a robot's request; None if nobody asked.
         synthetic: bool (segments,): seen in a town that was made up; None: nobody knows.
     """
@@ -72,17 +72,17 @@ class TrainingSet:
     segments: Segments
     groups: Int64
     parameters: Parameters
-    surroundings: Float32 | None = None
+    neighborhood: Float32 | None = None
     synthetic: Bool | None = None
 
     @classmethod
     def of(
-        cls, sources: Sequence[Source], surroundings: SurroundingsParameters | None = None
+        cls, sources: Sequence[Source], neighborhood: NeighborhoodParameters | None = None
     ) -> "TrainingSet":
         """From parts of recordings.
 
         Args:
-            surroundings: how to describe them, if at all.
+            neighborhood: how to describe them, if at all.
 
         Raises:
             ValueError: a scan stands in two of them, or they were cut with other constants.
@@ -100,8 +100,8 @@ class TrainingSet:
             labels = np.unique(source.recording.groups[indices], return_inverse=True)[1]
             groups.append(labels + count)
             count += int(labels.max(initial=-1)) + 1
-            if surroundings is not None:
-                around.append(source.recording.surroundings(surroundings)[indices])
+            if neighborhood is not None:
+                around.append(source.recording.neighborhood(neighborhood)[indices])
         return cls(
             Segments.concatenate(parts),
             np.concatenate(groups),
@@ -126,7 +126,7 @@ class TrainingSet:
     def take(self, indices: Int64) -> "TrainingSet":
         """These segments, their groups numbered anew from 0."""
         labels = np.unique(self.groups[indices], return_inverse=True)[1]
-        around = None if self.surroundings is None else self.surroundings[indices]
+        around = None if self.neighborhood is None else self.neighborhood[indices]
         made_up = None if self.synthetic is None else self.synthetic[indices]
         return TrainingSet(self.segments.take(indices), labels, self.parameters, around, made_up)
 

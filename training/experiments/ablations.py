@@ -15,7 +15,7 @@ import numpy as np
 from rich.progress import Progress
 
 from evaluation.recognition.evaluate import measure
-from placecell.core.parameters import SURROUNDINGS_V1
+from placecell.core.parameters import NEIGHBORHOOD_V1
 from placecell.descriptors.extractor import MODEL_FILE, load_extractor
 from placecell.descriptors.manifest import FULL_FILE
 from training.data.augmentation import Augmentation
@@ -30,7 +30,7 @@ from training.export.publishing import (
     whole,
 )
 from training.methods import metric
-from training.methods.context import ContextRecipe, learn_surroundings
+from training.methods.context import ContextRecipe, learn_neighborhood
 from training.methods.fit import Sgd
 from training.methods.group_based import GroupBasedRecipe
 from training.methods.metric import MetricRecipe
@@ -52,14 +52,14 @@ class Variant:
         part: of the model that is looked at; variants of a part are compared.
         name: of what was chosen.
         segment: how the segment itself is learned.
-        surroundings: dimension, weight and shrinkage of what stands around.
+        neighborhood: dimension, weight and shrinkage of what stands around.
         towns: whether the synthetic streets are learned from.
     """
 
     part: str
     name: str
     segment: GroupBasedRecipe | MetricRecipe
-    surroundings: ContextRecipe = field(default_factory=ContextRecipe)
+    neighborhood: ContextRecipe = field(default_factory=ContextRecipe)
     network: str = "wide"
     towns: bool = True
     seed: int = 0
@@ -80,8 +80,8 @@ def variants(epochs: int, seeds: int) -> Iterator[Variant]:
     changed = {f"dimension-{size}": replace(own, dimension=size) for size in (32, 64, 128)}
     changed |= {f"weight-{weight}": replace(own, weight=weight) for weight in (0.8, 1.6)}
     changed |= {f"shrinkage-{share}": replace(own, shrinkage=share) for share in (0.02, 0.5)}
-    for name, surroundings in changed.items():
-        yield Variant("surroundings", name, base, surroundings)
+    for name, neighborhood in changed.items():
+        yield Variant("surroundings", name, base, neighborhood)
     yield Variant("data", "without-towns", base, towns=False)
     changes = {
         "none": Augmentation(0.0, 0.0, 0.0, 0.0),
@@ -118,10 +118,10 @@ def run_ablations(
         ValueError: the test shares scans with the training, or there is too little to learn from.
     """
     check_apart([*training_sources, test_source])
-    everything = collect(training_sources, "not stated", SURROUNDINGS_V1)
+    everything = collect(training_sources, "not stated", NEIGHBORHOOD_V1)
     recorded = [source for source in training_sources if not source.synthetic] or training_sources
-    real = collect(recorded, "not stated", SURROUNDINGS_V1)
-    test = TrainingSet.of([test_source], SURROUNDINGS_V1)
+    real = collect(recorded, "not stated", NEIGHBORHOOD_V1)
+    test = TrainingSet.of([test_source], NEIGHBORHOOD_V1)
     task = progress.add_task("variants", total=len(chosen)) if progress else None
     rows = []
     for variant in chosen:
@@ -151,12 +151,12 @@ def _measured(
     identity = fingerprint(data, name, variant.network, variant.segment)
     run = Run(output / "runs" / name, variant.seed, identity, progress)
     network = train_segment(data.training, data.validation, run, variant.network, variant.segment)
-    projection = learn_surroundings(data.training.recorded(), variant.surroundings)
+    projection = learn_neighborhood(data.training.recorded(), variant.neighborhood)
     trained = Trained("context", variant.network, network, projection=projection)
     with whole(output / "models" / f"{variant.part}-{variant.name}") as folder:
         export_network(folder, trained, data, stored_axes(trained, data)).save(folder)
         figures = measure(
-            load_extractor(folder), None, test.segments, test.groups, 0, test.surroundings
+            load_extractor(folder), None, test.segments, test.groups, 0, test.neighborhood
         )
     return {
         "part": variant.part,

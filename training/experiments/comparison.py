@@ -10,7 +10,7 @@ import onnxruntime
 
 from evaluation.recognition import retrieval
 from evaluation.recognition.evaluate import measure
-from placecell.core.parameters import SURROUNDINGS_V1, Parameters
+from placecell.core.parameters import NEIGHBORHOOD_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, Float64, Int64
 from placecell.descriptors.extractor import Extractor, load_extractor
@@ -33,9 +33,9 @@ def compare(
     manifest = Manifest.load(folder)
     extractor = load_extractor(folder)
     classifier = load_pair_classifier(folder, manifest)
-    figures = measure(extractor, classifier, test.segments, test.groups, 0, test.surroundings)
+    figures = measure(extractor, classifier, test.segments, test.groups, 0, test.neighborhood)
     stored = stored_descriptors(extractor, test)
-    codes = manifest.quantiser.encode(stored)
+    codes = manifest.quantizer.encode(stored)
     drawn = retrieval.draw_pairs(test.groups, retrieval.PAIRS, np.random.default_rng(0))
     near, far = (retrieval.pair_distances(stored, pairs) for pairs in drawn)
     likely, unlikely = -near, -far
@@ -102,7 +102,7 @@ def throughput(files: Mapping[str, Path], parameters: Parameters) -> dict[str, f
     inputs = {
         "occupancy": (random.random((64, *parameters.grid)) < 0.01).astype(np.uint8),
         "extents": random.uniform(0.5, 5, (64, 3)).astype(np.float32),
-        "surroundings": random.random((64, SURROUNDINGS_V1.size)).astype(np.float32),
+        "surroundings": random.random((64, NEIGHBORHOOD_V1.size)).astype(np.float32),
     }
     rates = {}
     for network, file in files.items():

@@ -38,7 +38,7 @@ def run_experiments(
     test_source: Source,
     plan: Plan,
     output: Path,
-    licence: str,
+    license_name: str,
     command: str,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
@@ -52,7 +52,7 @@ def run_experiments(
             or to test on; or the output holds other experiments.
     """
     check_apart([*training_sources, test_source])
-    data = collect(training_sources, licence)
+    data = collect(training_sources, license_name)
     training, validation = data.training, data.validation
     test = TrainingSet.of([test_source])
     if not len(test):
@@ -64,7 +64,7 @@ def run_experiments(
         """Train and publish a model unless its folder is there already."""
         folder = output / "models" / one.name
         if not (folder / MANIFEST_FILE).exists():
-            again = retraining(one.method, training_sources, licence, one.seed, *one.options())
+            again = retraining(one.method, training_sources, license_name, one.seed, *one.options())
             make(folder, data.stating(seed=one.seed, command=command if one.ablation else again))
 
     eigenvalue = Training("eigenvalue", "", 0)

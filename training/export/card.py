@@ -23,7 +23,7 @@ CARD = """# Model `{name}`
 |---|---|---|
 {sources}
 
-{licences}
+{licenses}
 
 ## Figures
 
@@ -81,9 +81,9 @@ def write_card(folder: Path, manifest: Manifest) -> None:
             cores=training["machine"]["cores"],
             seed=training["seed"],
             sources="\n".join(sources),
-            licences=training["licence"],
+            licenses=training["licence"],
             near=""
-            if manifest.surroundings is None
+            if manifest.neighborhood is None
             else "The neighborhoods of these groups were part of the training, so the figures are "
             "optimistic.\n",
             held_out=training["validation_share"],

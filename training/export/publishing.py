@@ -15,13 +15,13 @@ import numpy as np
 from evaluation.machine import machine
 from evaluation.recognition import retrieval
 from evaluation.recognition.evaluate import measure
-from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from placecell.core.parameters import NEIGHBORHOOD_V1, NeighborhoodParameters
 from placecell.core.types import Float32, Int64
 from placecell.descriptors.eigenvalue import eigenvalue_descriptors
 from placecell.descriptors.extractor import MODEL_FILE, Extractor, OnnxExtractor, load_extractor
 from placecell.descriptors.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
 from placecell.descriptors.pair_classifier import load_pair_classifier
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from training.data.training_set import Source, TrainingSet
 from training.export.card import write_card
 from training.methods.networks import describe
@@ -56,20 +56,20 @@ class Data:
 
 
 def collect(
-    sources: Sequence[Source], licence: str, surroundings: SurroundingsParameters | None = None
+    sources: Sequence[Source], license_name: str, neighborhood: NeighborhoodParameters | None = None
 ) -> Data:
     """Training and validation set from parts of recordings, and what the manifest says of them.
 
     The split is the same whatever a training's seed, so that seeds compare.
 
     Args:
-        licence: of the drives.
-        surroundings: how to describe them, for a model that looks around.
+        license_name: of the drives.
+        neighborhood: how to describe them, for a model that looks around.
 
     Raises:
         ValueError: there are too few groups to train on.
     """
-    everything = TrainingSet.of(sources, surroundings)
+    everything = TrainingSet.of(sources, neighborhood)
     training, validation = everything.split(VALIDATION_SHARE, SPLIT_SEED)
     # The validation groups are halved for calibration: each half must hold pairs of both kinds,
     # and it is better to know before the training than after it.
@@ -87,7 +87,7 @@ def collect(
             "segments": len(training),
             "groups": len(training.group_sizes()),
             "validation_share": VALIDATION_SHARE,
-            "licence": licence,
+            "licence": license_name,
             "seed": 0,
             "seconds": 0.0,
             "machine": machine(),
@@ -97,7 +97,7 @@ def collect(
 
 
 def retraining(
-    method: str, sources: Sequence[Source], licence: str, seed: int, *options: object
+    method: str, sources: Sequence[Source], license_name: str, seed: int, *options: object
 ) -> str:
     """The commands that train a model again, from the drives on."""
     lines, prepared = [], []
@@ -111,7 +111,7 @@ def retraining(
         whole_drive = (source.first, source.last) == (0, recording.scans - 1)
         prepared.append(file if whole_drive else f"{file}@{source.first}:{source.last}")
     words = ["placecell", "train", method, *dict.fromkeys(prepared), "--seed", seed, *options]
-    lines.append(shlex.join(map(str, [*words, "--licence", licence])))
+    lines.append(shlex.join(map(str, [*words, "--license", license_name])))
     return "\n".join(dict.fromkeys(lines))
 
 
@@ -165,7 +165,7 @@ def export_network(
     """
     # Torch's exporter is slow to import: only here.
     from training.export.onnx_graph import Exported, ExportedContext, export_onnx
-    from training.export.quantization import quantise
+    from training.export.quantization import quantize
     from training.methods.context import rotation
 
     recorded = data.training.recorded()
@@ -176,23 +176,23 @@ def export_network(
         export_onnx(segment, grid, folder / MODEL_FILE)
     else:
         # Four times the dimensions at a quarter of the bits: as many bytes.
-        around, per_byte = SURROUNDINGS_V1, 4
+        around, per_byte = NEIGHBORHOOD_V1, 4
         dimension += trained.projection.axes.shape[1]
         network = ExportedContext(segment, trained.projection, rotation(dimension))
         export_onnx(network, grid, folder / FULL_FILE)
-        quantise(folder / FULL_FILE, data.training, folder / MODEL_FILE)
+        quantize(folder / FULL_FILE, data.training, folder / MODEL_FILE)
         files.append(FULL_FILE)
     manifest = Manifest(
         name=trained.method,
         method=trained.method,
         network=trained.network_name,
         dimension=dimension,
-        quantiser=Quantiser(1.0, per_byte),
+        quantizer=Quantizer(1.0, per_byte),
         preprocessing=preprocessing_of(data.training.parameters, around),
         training=data.provenance,
     ).with_files(folder, files)
-    described = OnnxExtractor(folder, manifest).describe(recorded.segments, recorded.surroundings)
-    return replace(manifest, quantiser=Quantiser.fit(described, per_byte))
+    described = OnnxExtractor(folder, manifest).describe(recorded.segments, recorded.neighborhood)
+    return replace(manifest, quantizer=Quantizer.fit(described, per_byte))
 
 
 def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
@@ -204,9 +204,9 @@ def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
         method="eigenvalue",
         network="",
         dimension=features.shape[1],
-        quantiser=Quantiser.fit(((features - mean) / deviation).astype(np.float32)),
+        quantizer=Quantizer.fit(((features - mean) / deviation).astype(np.float32)),
         preprocessing=preprocessing_of(data.training.parameters),
-        standardisation={"mean": mean.tolist(), "deviation": deviation.tolist()},
+        standardization={"mean": mean.tolist(), "deviation": deviation.tolist()},
         training=data.provenance,
     )
     with whole(folder) as unfinished:
@@ -261,7 +261,7 @@ def finish(
         data.validation.segments,
         data.validation.groups,
         seed=1,
-        surroundings=data.validation.surroundings,
+        neighborhood=data.validation.neighborhood,
     )
     figures.pop("model_id")
     manifest = replace(manifest, figures={"validation": figures})
@@ -272,5 +272,5 @@ def finish(
 
 def stored_descriptors(extractor: Extractor, data: TrainingSet) -> Float32:
     """Descriptors after a round trip through their stored form."""
-    quantiser = extractor.manifest.quantiser
-    return quantiser.decode(quantiser.encode(extractor.describe(data.segments, data.surroundings)))
+    quantizer = extractor.manifest.quantizer
+    return quantizer.decode(quantizer.encode(extractor.describe(data.segments, data.neighborhood)))

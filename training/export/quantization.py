@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.methods.networks import batches
 
 CALIBRATION_SEGMENTS = 1024
 
 
-def quantise(network: Path, data: TrainingSet, file: Path) -> None:
+def quantize(network: Path, data: TrainingSet, file: Path) -> None:
     """Write an exported network with its convolutions in 8 bits.
 
     Args:
@@ -60,8 +60,8 @@ class Calibration:
 def inputs(data: TrainingSet) -> Iterator[dict[str, Any]]:
     """The network's inputs, some segments at a time."""
     for batch in batches(data, 64):
-        occupancy, extents = voxelise(batch.segments, data.parameters)
+        occupancy, extents = voxelize(batch.segments, data.parameters)
         given: dict[str, Any] = {"occupancy": occupancy, "extents": extents}
-        if batch.surroundings is not None:
-            given["surroundings"] = batch.surroundings
+        if batch.neighborhood is not None:
+            given["surroundings"] = batch.neighborhood
         yield given

@@ -52,7 +52,7 @@ class Projection:
     weight: float
 
 
-def learn_surroundings(training: TrainingSet, recipe: ContextRecipe) -> Projection:
+def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projection:
     """Linear discriminant analysis of the surroundings, groups as classes (Fisher, 1936).
 
     Every group counts once, however often it was seen: a robot that stands still sees a thousand
@@ -61,7 +61,7 @@ def learn_surroundings(training: TrainingSet, recipe: ContextRecipe) -> Projecti
     Raises:
         ValueError: there are too few groups of two or more.
     """
-    assert training.surroundings is not None
+    assert training.neighborhood is not None
     sizes = training.group_sizes()
     plural = sizes[training.groups] >= 2
     count = int((sizes >= 2).sum())
@@ -70,16 +70,16 @@ def learn_surroundings(training: TrainingSet, recipe: ContextRecipe) -> Projecti
             f"{count} groups of two or more segments: too few to learn "
             f"{recipe.dimension} dimensions of surroundings from; take a longer drive"
         )
-    surroundings = training.surroundings[plural].astype(np.float64)
+    neighborhood = training.neighborhood[plural].astype(np.float64)
     groups = np.unique(training.groups[plural], return_inverse=True)[1]
-    within, centres = scatter(surroundings, groups)
-    between = np.cov(centres.T, bias=True)
+    within, centers = scatter(neighborhood, groups)
+    between = np.cov(centers.T, bias=True)
     sphere = np.eye(len(within)) * np.trace(within) / len(within)
     drawn = (1 - recipe.shrinkage) * within + recipe.shrinkage * sphere
     # Ascending; of length one in the scatter within groups, so that each weighs what it tells.
     axes = eigh(between + within, drawn)[1][:, ::-1]
     return Projection(
-        surroundings.mean(axis=0).astype(np.float32),
+        neighborhood.mean(axis=0).astype(np.float32),
         np.ascontiguousarray(axes[:, : recipe.dimension], dtype=np.float32),
         recipe.weight,
     )
@@ -93,12 +93,12 @@ def scatter(values: Float64, groups: Int64) -> tuple[Float64, Float64]:
         groups: int64 (segments,), from 0, each of two segments or more.
     """
     sizes = np.bincount(groups)
-    centres = np.zeros((len(sizes), values.shape[1]))
-    np.add.at(centres, groups, values)
-    centres /= sizes[:, None]
-    off = values - centres[groups]
+    centers = np.zeros((len(sizes), values.shape[1]))
+    np.add.at(centers, groups, values)
+    centers /= sizes[:, None]
+    off = values - centers[groups]
     weights = 1 / (sizes - 1)[groups]
-    return (off * weights[:, None]).T @ off / len(sizes), centres
+    return (off * weights[:, None]).T @ off / len(sizes), centers
 
 
 def rotation(dimension: int) -> Float32:

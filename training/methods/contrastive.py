@@ -20,7 +20,7 @@ from placecell.core.types import Float32, Int64, UInt8
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
 from training.methods.fit import BatchLoss, Sgd, fit
-from training.methods.networks import DescriptorNetwork, describe, normalisation_statistics
+from training.methods.networks import DescriptorNetwork, describe, normalization_statistics
 from training.methods.run import Figures, Run
 
 PairBatch = tuple[UInt8, Float32, Float32]
@@ -116,7 +116,7 @@ def train(
     """
     recipe = recipe or ContrastiveRecipe()
     torch.manual_seed(run.seed)
-    mean, deviation = normalisation_statistics(training)
+    mean, deviation = normalization_statistics(training)
     model = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     steps = len(training) // recipe.sgd.batch
     described: list[Float32] = []  # of the training set, after the last epoch of this run

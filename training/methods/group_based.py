@@ -23,7 +23,7 @@ from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
-    normalisation_statistics,
+    normalization_statistics,
 )
 from training.methods.run import Figures, Run
 
@@ -80,7 +80,7 @@ def train(
     recipe = recipe or GroupBasedRecipe()
     torch.manual_seed(run.seed)
     classes = training.without_small_groups(recipe.fewest_segments)
-    mean, deviation = normalisation_statistics(classes)
+    mean, deviation = normalization_statistics(classes)
     extractor = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     model = GroupClassifier(extractor, len(classes.group_sizes()))
     held_out = held_out_segments(classes, recipe.held_out, np.random.default_rng(run.seed))

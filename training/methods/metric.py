@@ -21,7 +21,7 @@ from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
-    normalisation_statistics,
+    normalization_statistics,
 )
 from training.methods.run import Figures, Run
 
@@ -90,7 +90,7 @@ def train(
     """
     torch.manual_seed(run.seed)
     classes = training.without_small_groups(2)
-    extractor = DescriptorNetwork(network, *normalisation_statistics(classes), recipe.dropout)
+    extractor = DescriptorNetwork(network, *normalization_statistics(classes), recipe.dropout)
     loss_of = losses(len(classes.group_sizes()))[recipe.loss]()
     model = nn.ModuleList([extractor, loss_of])
     steps = len(classes) // (GROUPS * VIEWS)

@@ -13,7 +13,7 @@ import torch
 from torch import Tensor, nn
 
 from placecell.core.types import Float32
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.methods.processor import has_bfloat16
 
@@ -24,7 +24,7 @@ SMALLEST_DEVIATION = 0.1
 """A voxel that hardly ever varies in training must not blow up when it does."""
 
 
-class Normalisation(nn.Module):
+class Normalization(nn.Module):
     """Per-voxel: minus the training set's mean, over its standard deviation (paper III-A)."""
 
     mean: Tensor
@@ -38,8 +38,8 @@ class Normalisation(nn.Module):
 
     def forward(self, occupancy: Tensor) -> Tensor:
         """uint8 (n, x, y, z) -> float32 of that shape."""
-        normalised: Tensor = (occupancy.float() - self.mean) * self.scale
-        return normalised
+        normalized: Tensor = (occupancy.float() - self.mean) * self.scale
+        return normalized
 
 
 class Fast(nn.Module):
@@ -142,7 +142,7 @@ class DescriptorNetwork(nn.Module):
         super().__init__()
         if network not in NETWORKS:
             raise ValueError(f"no network {network!r}; there are {', '.join(NETWORKS)}")
-        self.normalisation = Normalisation(mean, deviation)
+        self.normalization = Normalization(mean, deviation)
         self.trunk = NETWORKS[network]((mean.shape[0], mean.shape[1], mean.shape[2]))
         self.dropout = nn.Dropout(dropout)
         self.descriptor = nn.Sequential(
@@ -157,17 +157,17 @@ class DescriptorNetwork(nn.Module):
         # bfloat16 halves a training's time where the processor has it; what is exported is float32.
         mixed = self.training and has_bfloat16()
         with torch.autocast("cpu", torch.bfloat16, enabled=mixed):
-            features = self.trunk(self.normalisation(occupancy)).float()
+            features = self.trunk(self.normalization(occupancy)).float()
         # The extents give back the size of what the grid cut off; log1p keeps walls in scale.
         features = torch.cat([self.dropout(features), torch.log1p(extents)], dim=1)
         return nn.functional.normalize(self.descriptor(features), dim=1)
 
 
-def normalisation_statistics(data: TrainingSet) -> tuple[Float32, Float32]:
+def normalization_statistics(data: TrainingSet) -> tuple[Float32, Float32]:
     """Mean and standard deviation of each voxel over a training set, float32 (x, y, z) each."""
     total = np.zeros(data.parameters.grid)
     for batch in batches(data):
-        total += voxelise(batch.segments, data.parameters)[0].sum(axis=0, dtype=np.int64)
+        total += voxelize(batch.segments, data.parameters)[0].sum(axis=0, dtype=np.int64)
     mean = total / len(data)
     # Of values 0 and 1 the mean says all.
     return mean.astype(np.float32), np.sqrt(mean * (1 - mean)).astype(np.float32)
@@ -179,7 +179,7 @@ def describe(network: nn.Module, data: TrainingSet) -> Float32:
     network.eval()
     parts = []
     for batch in batches(data):
-        occupancy, extents = voxelise(batch.segments, data.parameters)
+        occupancy, extents = voxelize(batch.segments, data.parameters)
         parts.append(network(torch.from_numpy(occupancy), torch.from_numpy(extents)).numpy())
     return np.concatenate(parts)
 

@@ -54,7 +54,7 @@ class Run:
         self,
         count: int,
         model: nn.Module,
-        optimiser: torch.optim.Optimizer,
+        optimizer: torch.optim.Optimizer,
         schedule: torch.optim.lr_scheduler.LRScheduler,
     ) -> Iterator[int]:
         """The epochs still to do; what the loop's body changed is saved after each.
@@ -65,7 +65,7 @@ class Run:
         keep_freed_memory()
         self.folder.mkdir(parents=True, exist_ok=True)
         checkpoint = self.folder / "checkpoint.pt"
-        parts: dict[str, Stateful] = {"model": model, "optimiser": optimiser, "schedule": schedule}
+        parts: dict[str, Stateful] = {"model": model, "optimiser": optimizer, "schedule": schedule}
         if checkpoint.exists():
             state = torch.load(checkpoint, weights_only=True)
             if state.get("identity", "") != self.identity:

@@ -23,7 +23,7 @@ from training.methods.networks import (
     DIMENSION,
     DescriptorNetwork,
     describe,
-    normalisation_statistics,
+    normalization_statistics,
 )
 from training.methods.run import Figures, Run
 
@@ -126,7 +126,7 @@ def train(
     """
     recipe = recipe or SiameseRecipe()
     torch.manual_seed(run.seed)
-    mean, deviation = normalisation_statistics(training)
+    mean, deviation = normalization_statistics(training)
     model = Siamese(DescriptorNetwork(network, mean, deviation, recipe.dropout))
     pairs_an_epoch = len(sample_pairs(training.groups, recipe.pairs, np.random.default_rng(0))[0])
     steps = pairs_an_epoch // recipe.sgd.batch

@@ -30,7 +30,7 @@ from placecell_client.results.core import (
     Skipped,
     Written,
 )
-from placecell_client.results.localization import Localisations, localisation_of
+from placecell_client.results.localization import Localizations, localization_of
 from placecell_client.results.merge import Merge, merge_of
 
 
@@ -105,12 +105,12 @@ def matches_of(answer: Answer, description: Description, rows: list[int]) -> Mat
     return Matches(found.model_id, tuple(queries), errors, found.searched, found.skipped)
 
 
-def localisations(answer: Answer, dropped: int = 0) -> Localisations:
+def localizations(answer: Answer, dropped: int = 0) -> Localizations:
     """Read the answer of `POST /localize`; `dropped` points were left out."""
     content = _content(answer)
-    return Localisations(
+    return Localizations(
         model_id=content["model_id"],
-        maps=tuple(localisation_of(item) for item in content["localisations"]),
+        maps=tuple(localization_of(item) for item in content["localisations"]),
         errors={
             item["query"]: ItemError(
                 item["error"]["type"], item["error"]["title"], item["error"]["detail"]
@@ -122,9 +122,9 @@ def localisations(answer: Answer, dropped: int = 0) -> Localisations:
     )
 
 
-def localisations_of(answer: Answer, description: Description, rows: list[int]) -> Localisations:
+def localizations_of(answer: Answer, description: Description, rows: list[int]) -> Localizations:
     """Of `POST /localize` with these rows of a description, by the description's own indices."""
-    found = localisations(answer)
+    found = localizations(answer)
     own = np.array(rows, dtype=np.int64)
     maps = [
         replace(each, inliers=replace(each.inliers, queries=own[each.inliers.queries]))

@@ -34,7 +34,7 @@ from placecell_client.results.core import (
     PartialUpload,
     Written,
 )
-from placecell_client.results.localization import Localisations, Motion
+from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 
 T = TypeVar("T")
@@ -133,7 +133,7 @@ class Calls:
         k: int,
         motion: Motion,
         session: str | None,
-    ) -> Call[Localisations]:
+    ) -> Call[Localizations]:
         """`POST /localize`."""
         body = _asked(maps, k) | {"motion": motion}
         if session is not None:
@@ -145,12 +145,12 @@ class Calls:
             return self._post(
                 "/localize",
                 body,
-                lambda answer: parsing.localisations_of(answer, description, rows),
+                lambda answer: parsing.localizations_of(answer, description, rows),
             )
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
             return self._post(
-                "/localize", body | own, lambda answer: parsing.localisations(answer, dropped)
+                "/localize", body | own, lambda answer: parsing.localizations(answer, dropped)
             )
         raise ValueError("give either a description, or segments and sensors")
 

@@ -53,15 +53,15 @@ def snap(centroids: NDArray[np.float64]) -> NDArray[np.float64]:
     From the frame's origin, not from the map's corner: a map that loses or gains segments is not
     rounded a second time.
     """
-    snapped = centimetres(centroids)
+    snapped = centimeters(centroids)
     snapped /= 100
     snapped += 0.0  # makes -0.0 and 0.0 the same
     return snapped
 
 
-def centimetres(metres: NDArray[np.float64]) -> NDArray[np.float64]:
+def centimeters(meters: NDArray[np.float64]) -> NDArray[np.float64]:
     """Whole centimetres, halves to even."""
-    whole = metres * 100
+    whole = meters * 100
     return np.rint(whole, out=whole)
 
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell_client.maps.canonical import centimetres
+from placecell_client.maps.canonical import centimeters
 from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
 from placecell_client.maps.container import Columns
 
@@ -100,10 +100,10 @@ def map_of(header: dict[str, Any], columns: Columns) -> CompactMap:
 
 def _from_sensors(ordered: CompactMap) -> NDArray[np.int16]:
     """Centroids as whole centimetres from their frame's sensor."""
-    sensors = centimetres(ordered.frame_positions)
+    sensors = centimeters(ordered.frame_positions)
     steps = np.empty(ordered.centroids.shape, dtype="<i2")
     for axis in range(3):  # one at a time: a third of the memory
-        offsets = centimetres(ordered.centroids[:, axis]) - sensors[ordered.frame_index, axis]
+        offsets = centimeters(ordered.centroids[:, axis]) - sensors[ordered.frame_index, axis]
         far = np.flatnonzero(np.abs(offsets) > REACH_CM)
         if len(far):
             raise MapFileError(
@@ -131,7 +131,7 @@ def _in_frame(columns: Columns) -> NDArray[np.float64]:
     if len(index) and int(index.max()) >= len(positions):
         raise MapFileError(f"frame_index: index {int(index.max())} in a table of {len(positions)}")
     with np.errstate(all="ignore"):  # what is not finite is refused by the map's check
-        centroids = centimetres(positions)[index]
+        centroids = centimeters(positions)[index]
         centroids += steps
         centroids /= 100
     return centroids

@@ -92,7 +92,7 @@ class Rival(Hypothesis):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Localisation:
+class Localization:
     """Localization in one map: the robot's pose, or the reason why there is none.
 
     Attributes:
@@ -138,7 +138,7 @@ class Localisation:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Localisations:
+class Localizations:
     """Localizations in several maps, the most probable first.
 
     Attributes:
@@ -150,13 +150,13 @@ class Localisations:
     """
 
     model_id: str
-    maps: tuple[Localisation, ...]
+    maps: tuple[Localization, ...]
     errors: dict[int, ItemError]
     skipped: tuple[Skipped, ...]
     dropped_points: int = 0
 
     @property
-    def best(self) -> Localisation | None:
+    def best(self) -> Localization | None:
         """Return the most probable localization, equal ones by score; None if no map has a pose.
 
         None also if two maps fit about equally well: see `rival`.
@@ -176,11 +176,11 @@ class Localisations:
         return first.rival if first is not None and is_ambiguous else None
 
 
-def localisation_of(item: dict[str, Any]) -> Localisation:
+def localization_of(item: dict[str, Any]) -> Localization:
     """From one of the service's answer."""
     inliers = item["inliers"]
     covariance = item["covariance"]
-    return Localisation(
+    return Localization(
         map=item["map"],
         frame=item["frame"],
         pose=None if item["pose"] is None else pose_of(item["pose"]),

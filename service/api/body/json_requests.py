@@ -1,6 +1,6 @@
 """JSON requests whose arrays are read without the interpreter's lock; see `json_arrays`.
 
-The schemas of `schemas` and `localise_schemas` say what is right, and name what is wrong. Those
+The schemas of `schemas` and `localization` say what is right, and name what is wrong. Those
 here take the same bodies with each array cut out, and give the same values as NumPy arrays.
 """
 

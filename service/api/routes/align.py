@@ -7,7 +7,7 @@ from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
 from placecell.core.cancellation import current
-from placecell.localization import LocalisationParameters
+from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
 from service.api.alignment_responses import alignment_of, merged_of
 from service.api.audit import tell_written
@@ -85,7 +85,7 @@ async def align(
 def _aligned(
     one: MapSnapshot, other: MapSnapshot, model: Model, motion: Literal["yaw", "se3"], pairs: bool
 ) -> AlignmentOut:
-    parameters = AlignmentParameters(local=LocalisationParameters(model=motion))
+    parameters = AlignmentParameters(local=LocalizationParameters(model=motion))
     here, there = MapSide.of(one), MapSide.of(other)
     found = align_maps(here, there, here.index(model), model, parameters, current().check)
     ids = (here.content.ids, there.content.ids) if pairs else None
@@ -118,7 +118,7 @@ async def merge(
     holder.check_write(name)
     async with state.alignments.admit(request, (JSON,), timing) as body:
         asked = await state.store(_read, body.content, name, state, holder)
-        parameters = AlignmentParameters(local=LocalisationParameters(model=asked.motion))
+        parameters = AlignmentParameters(local=LocalizationParameters(model=asked.motion))
         check = current().check
         check_cost(
             cost_of_aligning(_sizes(name, asked, state), K, PARAMETERS),

@@ -83,9 +83,9 @@ def _told(manifest: Manifest) -> ModelOut:
         network=manifest.network,
         dimension=manifest.dimension,
         code_bytes=manifest.code_bytes,
-        per_byte=manifest.quantiser.per_byte,
-        surroundings=manifest.surroundings is not None,
-        step=manifest.quantiser.step,
+        per_byte=manifest.quantizer.per_byte,
+        surroundings=manifest.neighborhood is not None,
+        step=manifest.quantizer.step,
         pair_threshold=manifest.pair_threshold,
         preprocessing=manifest.preprocessing,
     )

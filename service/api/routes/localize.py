@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from fastapi import APIRouter, Request, Response
 
-from placecell.localization import Hypothesis, LocalisationParameters
+from placecell.localization import Hypothesis, LocalizationParameters
 from placecell.localization.evidence import Evidence, middle_of
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
@@ -21,7 +21,7 @@ from service.core.auth import Holder
 from service.core.timing import Timing
 from service.maps.shared_index import Part
 from service.maps.snapshot import MapSnapshot
-from service.search.localization import Group, InMap, localise_among
+from service.search.localization import Group, InMap, localize_among
 from service.search.matching import parts_of
 from service.search.sessions import SessionKey
 
@@ -29,7 +29,7 @@ router = APIRouter(tags=["recognition"])
 
 Query = LocalizeQuery[Any, Any, Any]
 Told = dict[str, Any]
-"""As `LocalisationOut` says."""
+"""As `LocalizationOut` says."""
 
 
 @router.post(
@@ -104,12 +104,12 @@ def _answered(
     def parts(group: Group) -> list[Part]:
         return parts_of(state.maps, group.model, group.searched, state.keys.patterns)
 
-    parameters = LocalisationParameters(model=query.motion)
-    found = localise_among(groups, query.k, parameters, timing, parts, evidence)
+    parameters = LocalizationParameters(model=query.motion)
+    found = localize_among(groups, query.k, parameters, timing, parts, evidence)
     for each in found:
         key = _session_key(holder, query, each.stored)
         if key and each.is_full:
-            hypotheses = each.judged.localisation.hypotheses
+            hypotheses = each.judged.localization.hypotheses
             state.sessions.remember(key, middles[each.group], hypotheses)
     told = [_told(each, queries[each.group]) for each in found]
     return _written(asked, queries, told, answer, timing)
@@ -117,7 +117,7 @@ def _answered(
 
 def _told(answer: InMap, own: Queries) -> Told:
     """What one map says."""
-    found, stored, rival = answer.judged.localisation, answer.stored, answer.judged.rival
+    found, stored, rival = answer.judged.localization, answer.stored, answer.judged.rival
     best, pose = found.best, found.pose
     inliers: list[Told] = []
     if best is not None and pose is not None:

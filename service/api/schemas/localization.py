@@ -89,7 +89,7 @@ class RivalOut(HypothesisOut):
     frame: str = Field(description="Name of the other map's frame; the pose is in this frame.")
 
 
-class LocalisationOut(BaseModel):
+class LocalizationOut(BaseModel):
     """Result of localization in one map."""
 
     map: str
@@ -139,7 +139,7 @@ class LocalizeResponse(BaseModel):
     """Results of all searched maps: most probable first, then by score."""
 
     model_id: str
-    localisations: list[LocalisationOut]
+    localisations: list[LocalizationOut]
     unusable: list[UnusableOut]
     dropped_points: int = Field(
         default=0, description="Number of non-finite points (msgpack only) that were left out."

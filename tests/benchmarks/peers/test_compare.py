@@ -178,5 +178,5 @@ def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
     peer, answers = read_answers(tmp_path / "answers" / f"{name}+gicp.jsonl", 1)
     assert set(PACKAGES) <= set(peer.versions)
     outcome = outcome_of(answers[0], frames[1] @ query, mapped=True)
-    assert outcome.metres < 0.2
+    assert outcome.meters < 0.2
     assert outcome.degrees < 1

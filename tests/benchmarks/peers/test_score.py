@@ -25,15 +25,15 @@ def scored(answers: list[PeerAnswer], mapped: list[bool] | None = None) -> dict[
 def test_errors_by_hand() -> None:
     true = pose(1.0, 2.0, 3.0, yaw=np.pi)
     there = outcome_of(PeerAnswer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
-    assert (there.metres, there.degrees) == pytest.approx((0, 0), abs=1e-9)
-    assert (there.localised, there.right, there.milliseconds) == (True, True, 7.0)
+    assert (there.meters, there.degrees) == pytest.approx((0, 0), abs=1e-9)
+    assert (there.localized, there.right, there.milliseconds) == (True, True, 7.0)
     off = Estimate(pose(1.0, -1.0, 7.0, yaw=0.1 - np.pi), 1, sure=False)
     found = outcome_of(PeerAnswer(off, 1.0), true, mapped=False)
-    assert (found.metres, found.degrees) == pytest.approx((5, np.degrees(0.1)))
-    assert not found.localised
+    assert (found.meters, found.degrees) == pytest.approx((5, np.degrees(0.1)))
+    assert not found.localized
     nothing = outcome_of(PeerAnswer(NOTHING, 1.0), true, mapped=True)
-    assert (nothing.metres, nothing.degrees) == (np.inf, np.inf)
-    assert not nothing.localised
+    assert (nothing.meters, nothing.degrees) == (np.inf, np.inf)
+    assert not nothing.localized
     assert not nothing.wrong_but_sure
 
 

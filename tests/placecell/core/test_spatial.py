@@ -13,7 +13,7 @@ def test_evenly_keeps_both_ends() -> None:
     assert evenly(np.arange(0), 4).tolist() == []
 
 
-def test_near_pairs_are_those_within_three_metres() -> None:
+def test_near_pairs_are_those_within_three_meters() -> None:
     random = np.random.default_rng(1)
     a, b = random.uniform(0, 10, (40, 3)), random.uniform(0, 10, (50, 3))
     here, there = near_pairs(a, b, 3.0, 1_000)
@@ -60,27 +60,27 @@ def test_within_cells_about_places_that_are_far_apart() -> None:
 @given(
     seed=st.integers(0, 2**32 - 1),
     extent=st.sampled_from([1.0, 100.0, 260.0, 5_000.0, 1e5]),
-    metres=st.sampled_from([0.5, 1.5, 20.0]),
+    meters=st.sampled_from([0.5, 1.5, 20.0]),
 )
 def test_within_has_all_that_is_near_and_little_else(
-    seed: int, extent: float, metres: float
+    seed: int, extent: float, meters: float
 ) -> None:
     random = np.random.default_rng(seed)
     places = random.uniform(-extent, extent, (8, 3)) * (1, random.choice([1, 0.01]), 0.01)
     about = np.repeat(places, 6, axis=0)
     # Some exactly at the limit.
-    off = random.uniform(-3, 3, about.shape) * metres
-    points = np.concatenate([about + off, about + metres * np.sign(off) * (1 - 1e-9)])
+    off = random.uniform(-3, 3, about.shape) * meters
+    points = np.concatenate([about + off, about + meters * np.sign(off) * (1 - 1e-9)])
     apart = np.abs(points[:, None] - places)
-    near = np.flatnonzero((apart <= metres).all(axis=2).any(axis=1))
-    found = within(points, places, metres)
+    near = np.flatnonzero((apart <= meters).all(axis=2).any(axis=1))
+    found = within(points, places, meters)
     assert set(near) <= set(found)
     assert (np.diff(found) > 0).all()
-    low, high = places.min(axis=0) - metres, places.max(axis=0) + metres
+    low, high = places.min(axis=0) - meters, places.max(axis=0) + meters
     box = ((points >= low) & (points <= high)).all(axis=1)
     if (high - low)[:2].max() <= WHOLE:
         np.testing.assert_array_equal(found, np.flatnonzero(box))
     else:
         assert box[found].all()
-        cell = max(CELL, 2 * metres, (high - low)[:2].max() / CELLS)
+        cell = max(CELL, 2 * meters, (high - low)[:2].max() / CELLS)
         assert (apart[found, :, :2].max(axis=2).min(axis=1) <= 2 * cell).all()

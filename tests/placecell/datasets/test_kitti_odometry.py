@@ -31,7 +31,7 @@ def replace_line(file: Path, number: int, line: str | None) -> None:
     file.write_text("\n".join(lines) + "\n")
 
 
-def test_drive_is_recognised_and_read(folder: Path) -> None:
+def test_drive_is_recognized_and_read(folder: Path) -> None:
     drive = open_drive(folder)
     assert isinstance(drive, KittiOdometry)
     assert len(drive) == 4

@@ -9,8 +9,8 @@ from placecell.datasets import DriveError, KittiRaw, open_drive
 from tests.placecell.segment_builders import IMU_TO_VELO, pose, write_raw, yaw_matrix
 
 LATITUDE, LONGITUDE, ALTITUDE = 49.0, 8.4, 115.0
-# Any sphere of this radius: metres a degree, here without any map projection.
-METRES_A_DEGREE = math.pi / 180 * 6_378_137.0
+# Any sphere of this radius: meters a degree, here without any map projection.
+METERS_A_DEGREE = math.pi / 180 * 6_378_137.0
 Record = tuple[float, float, float, float, float, float]
 
 
@@ -18,9 +18,9 @@ def record(
     east: float = 0.0, north: float = 0.0, up: float = 0.0, yaw: float = 0.0, roll: float = 0.0,
     pitch: float = 0.0,
 ) -> Record:  # fmt: skip
-    """What oxts says so many metres from the start."""
-    longitude = LONGITUDE + east / (METRES_A_DEGREE * math.cos(math.radians(LATITUDE)))
-    return LATITUDE + north / METRES_A_DEGREE, longitude, ALTITUDE + up, roll, pitch, yaw
+    """What oxts says so many meters from the start."""
+    longitude = LONGITUDE + east / (METERS_A_DEGREE * math.cos(math.radians(LATITUDE)))
+    return LATITUDE + north / METERS_A_DEGREE, longitude, ALTITUDE + up, roll, pitch, yaw
 
 
 def unit_at_the_sensor(folder: Path) -> None:
@@ -41,7 +41,7 @@ def refused(folder: Path, file: Path | str) -> str:
     return str(caught.value)
 
 
-def test_drive_is_recognised_and_read(folder: Path) -> None:
+def test_drive_is_recognized_and_read(folder: Path) -> None:
     drive = open_drive(folder)
     assert isinstance(drive, KittiRaw)
     assert len(drive) == 6

@@ -11,8 +11,8 @@ from placecell.core.segments import Segments
 from placecell.descriptors.eigenvalue import eigenvalue_descriptors
 from placecell.descriptors.extractor import BATCH, load_extractor
 from placecell.descriptors.manifest import Manifest, ModelError, preprocessing_of
-from placecell.descriptors.quantizer import Quantiser
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.quantizer import Quantizer
+from placecell.descriptors.voxels import voxelize
 from tests.placecell.segment_builders import many_segments
 
 NOTHING = Segments.of([], np.zeros((0, 3)))
@@ -49,7 +49,7 @@ def learned(tmp_path: Path) -> Path:
         method="group",
         network="toy",
         dimension=41,
-        quantiser=Quantiser(step=1.0),
+        quantizer=Quantizer(step=1.0),
         preprocessing=preprocessing_of(PROTOCOL_V1),
     )
     manifest.with_files(tmp_path, ["model.onnx"]).save(tmp_path)
@@ -63,23 +63,23 @@ def baseline(tmp_path: Path) -> Path:
         method="eigenvalue",
         network="",
         dimension=7,
-        quantiser=Quantiser(step=0.05),
+        quantizer=Quantizer(step=0.05),
         preprocessing=preprocessing_of(PROTOCOL_V1),
-        standardisation={"mean": [0.5] * 7, "deviation": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]},
+        standardization={"mean": [0.5] * 7, "deviation": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]},
     ).save(tmp_path)
     return tmp_path
 
 
 def test_network_is_given_the_grids_and_the_extents(learned: Path) -> None:
     segments = many_segments(SIZES)
-    occupancy, extents = voxelise(segments, PROTOCOL_V1)
+    occupancy, extents = voxelize(segments, PROTOCOL_V1)
     descriptors = load_extractor(learned, threads=1).describe(segments)
     assert descriptors.dtype == np.float32
     assert np.array_equal(descriptors[:, :38], occupancy.sum(axis=(2, 3)))
     assert np.array_equal(descriptors[:, 38:], extents)
 
 
-def test_baseline_is_standardised(baseline: Path) -> None:
+def test_baseline_is_standardized(baseline: Path) -> None:
     segments = many_segments(SIZES)
     descriptors = load_extractor(baseline).describe(segments)
     raw = eigenvalue_descriptors(segments)
@@ -127,7 +127,7 @@ def test_file_that_is_no_network(learned: Path) -> None:
         method="group",
         network="toy",
         dimension=41,
-        quantiser=Quantiser(step=1.0),
+        quantizer=Quantizer(step=1.0),
         preprocessing=preprocessing_of(PROTOCOL_V1),
     )
     manifest.with_files(learned, ["model.onnx"]).save(learned)
@@ -143,11 +143,11 @@ def test_network_that_the_manifest_does_not_name(learned: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "standardisation", [{}, {"mean": [0.0] * 7}, {"mean": [0.0], "deviation": [1.0]}]
+    "standardization", [{}, {"mean": [0.0] * 7}, {"mean": [0.0], "deviation": [1.0]}]
 )
 def test_baseline_without_its_statistics(
-    baseline: Path, standardisation: dict[str, list[float]]
+    baseline: Path, standardization: dict[str, list[float]]
 ) -> None:
-    replace(Manifest.load(baseline), standardisation=standardisation).save(baseline)
+    replace(Manifest.load(baseline), standardization=standardization).save(baseline)
     with pytest.raises(ModelError, match=r"manifest\.json: .*standardisation"):
         load_extractor(baseline)

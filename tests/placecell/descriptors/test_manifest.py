@@ -13,14 +13,14 @@ from placecell.descriptors.manifest import (
     file_hash,
     preprocessing_of,
 )
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 
 MANIFEST = Manifest(
     name="toy",
     method="group",
     network="narrow",
     dimension=4,
-    quantiser=Quantiser(step=0.01),
+    quantizer=Quantizer(step=0.01),
     preprocessing=preprocessing_of(PROTOCOL_V1),
     pair_threshold=0.7,
     training={"drives": ["a"], "seed": 3},
@@ -69,12 +69,12 @@ def test_id_begins_with_the_name() -> None:
         {"name": "other"},
         {"method": "siamese"},
         {"dimension": 5},
-        {"quantiser": Quantiser(step=0.02)},
+        {"quantizer": Quantizer(step=0.02)},
         {"preprocessing": preprocessing_of(Parameters(grid_voxel=0.25))},
         {"preprocessing": preprocessing_of(Parameters(grid=(38, 38, 20)))},
         {"preprocessing": preprocessing_of(PROTOCOL_V1) | {"version": "2"}},
         {"files": {"model.onnx": "0" * 64}},
-        {"standardisation": {"mean": [1.0], "deviation": [2.0]}},
+        {"standardization": {"mean": [1.0], "deviation": [2.0]}},
     ],
 )
 def test_id_changes_with_what_decides_a_descriptor(change: dict[str, Any]) -> None:
@@ -102,7 +102,7 @@ def test_id_does_not_depend_on_the_order_of_files() -> None:
 
 def test_id_survives_the_file(folder: Path) -> None:
     # A float that JSON wrote otherwise would make another id.
-    awkward = replace(MANIFEST, quantiser=Quantiser(step=0.1 + 0.2), files={})
+    awkward = replace(MANIFEST, quantizer=Quantizer(step=0.1 + 0.2), files={})
     awkward.save(folder)
     assert Manifest.load(folder).model_id == awkward.model_id
 
@@ -155,8 +155,8 @@ def test_something_else_called_manifest(tmp_path: Path, text: str) -> None:
 
 
 def test_manifest_with_an_unknown_field(folder: Path) -> None:
-    alter(folder, colour="red")
-    with pytest.raises(ModelError, match=r"manifest\.json: not a model's manifest .*colour"):
+    alter(folder, color="red")
+    with pytest.raises(ModelError, match=r"manifest\.json: not a model's manifest .*color"):
         Manifest.load(folder)
 
 

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
-from placecell.core.parameters import SURROUNDINGS_V1, SurroundingsParameters
+from placecell.core.parameters import NEIGHBORHOOD_V1, NeighborhoodParameters
 from placecell.core.segments import Segments
 from placecell.descriptors.neighborhood import (
     SEED,
     count_voxels,
-    describe_surroundings,
+    describe_neighborhood,
     slot_of,
     voxels_by_owner,
 )
 
-TWO_RINGS = SurroundingsParameters(voxel=1.0, rings=(2, 5), heights=(0.0,))
+TWO_RINGS = NeighborhoodParameters(voxel=1.0, rings=(2, 5), heights=(0.0,))
 
 
 def points(*rows: tuple[float, float, float]) -> np.ndarray:
@@ -38,8 +38,8 @@ def street(seed: int = 0, count: int = 12) -> Segments:
 
 
 def test_by_hand() -> None:
-    # Around the first, at its centroid's height or above: one voxel a metre east; two voxels, four
-    # metres west, in one sector. Below: one voxel, four metres west. One is too far to count.
+    # Around the first, at its centroid's height or above: one voxel a meter east; two voxels, four
+    # meters west, in one sector. Below: one voxel, four meters west. One is too far to count.
     segments = scene(
         [
             points((0.5, 0.5, 0.5)),
@@ -47,7 +47,7 @@ def test_by_hand() -> None:
             points((9.5, 0.5, 0.5)),
         ]
     )
-    found = describe_surroundings(segments, parameters=TWO_RINGS).reshape(3, 2, 2)
+    found = describe_neighborhood(segments, parameters=TWO_RINGS).reshape(3, 2, 2)
     one, two = np.log(2) / 16, np.log(3) / 16
     assert found[0] == pytest.approx(np.array([[0, one], [one, two]]))
 
@@ -57,9 +57,9 @@ def test_sectors_are_a_sixteenth_of_the_compass() -> None:
     angles = np.radians(np.arange(2.5, 360, 5))
     around = np.stack([8 * np.cos(angles), 8 * np.sin(angles), np.zeros(72)], axis=1)
     segments = scene([points((0, 0, 0)), around.astype(np.float32)])
-    wide = SurroundingsParameters(voxel=0.1, rings=(20,), heights=())
+    wide = NeighborhoodParameters(voxel=0.1, rings=(20,), heights=())
     sectors = np.bincount((np.arange(2.5, 360, 5) / 22.5).astype(int))
-    assert describe_surroundings(segments, parameters=wide)[0] == pytest.approx(
+    assert describe_neighborhood(segments, parameters=wide)[0] == pytest.approx(
         np.log1p(sectors).mean()
     )
 
@@ -68,31 +68,31 @@ def test_a_voxel_of_several_points_counts_once_at_their_mean() -> None:
     voxels, owners = voxels_by_owner(
         scene([points((0.9, 0.9, 0.1), (1.1, 1.1, 0.1)), points((0.2, 0, 0), (5.0, 0, 0))]), 1.0
     )
-    # Though a grid of whole metres would part the first two.
+    # Though a grid of whole meters would part the first two.
     assert voxels == pytest.approx(np.array([[1.0, 1.0, 0.1], [0.2, 0, 0], [5.0, 0, 0]]))
     assert owners.tolist() == [0, 1, 1]
 
 
-def test_a_segment_alone_has_no_surroundings() -> None:
-    assert not describe_surroundings(street(count=1)).any()
-    none = describe_surroundings(scene([]))
-    assert none.shape == (0, SURROUNDINGS_V1.size)
+def test_a_segment_alone_has_no_neighborhood() -> None:
+    assert not describe_neighborhood(street(count=1)).any()
+    none = describe_neighborhood(scene([]))
+    assert none.shape == (0, NEIGHBORHOOD_V1.size)
 
 
 def test_frames_do_not_see_one_another() -> None:
     segments = street()
     frames = np.array([7, 3] * 6)
-    found = describe_surroundings(segments, frames)
+    found = describe_neighborhood(segments, frames)
     for frame in (3, 7):
         members = np.flatnonzero(frames == frame)
-        assert (found[members] == describe_surroundings(segments.take(members))).all()
+        assert (found[members] == describe_neighborhood(segments.take(members))).all()
 
 
 def test_order_does_not_matter() -> None:
     segments = street()
     order = np.random.default_rng(1).permutation(len(segments))
-    shuffled = describe_surroundings(segments.take(order))
-    assert shuffled == pytest.approx(describe_surroundings(segments)[order], abs=1e-5)
+    shuffled = describe_neighborhood(segments.take(order))
+    assert shuffled == pytest.approx(describe_neighborhood(segments)[order], abs=1e-5)
 
 
 @pytest.mark.parametrize("degrees", [90, 37, 180])
@@ -107,7 +107,7 @@ def test_north_hardly_matters(degrees: float) -> None:
         segments.ends,
         segments.sensors,
     )
-    before, after = describe_surroundings(segments), describe_surroundings(turned)
+    before, after = describe_neighborhood(segments), describe_neighborhood(turned)
     own = [np.corrcoef(a, b)[0, 1] for a, b in zip(before, after, strict=True)]
     others = [np.corrcoef(a, b)[0, 1] for a, b in zip(before, np.roll(after, 1, 0), strict=True)]
     assert min(own) > 0.8
@@ -116,7 +116,7 @@ def test_north_hardly_matters(degrees: float) -> None:
 
 def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
     just_short = np.nextafter(np.float32(5), np.float32(0))
-    found = describe_surroundings(
+    found = describe_neighborhood(
         scene(
             [
                 points((0, 0, 0)),
@@ -129,18 +129,18 @@ def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
     ).reshape(4, 2, 2)
     assert found[0] == pytest.approx(np.array([[0, 0], [0, np.log(2) / 16]]))
     # The root of the largest number below 1,600 is 40 in float64.
-    reach = SurroundingsParameters(voxel=1.0, rings=(40,), heights=())
+    reach = NeighborhoodParameters(voxel=1.0, rings=(40,), heights=())
     for offset in (np.sqrt(np.nextafter(1600.0, 0)), 40.0):
         lone = Segments.of([points((0, 0, 0)), points((offset, 0, 0))], np.zeros((2, 3)))
-        describe_surroundings(lone, parameters=reach)
+        describe_neighborhood(lone, parameters=reach)
     with pytest.raises(ValueError, match="16"):
-        SurroundingsParameters(sectors=8)
+        NeighborhoodParameters(sectors=8)
 
 
-def all_pairs(segments: Segments, parameters: SurroundingsParameters) -> np.ndarray:
+def all_pairs(segments: Segments, parameters: NeighborhoodParameters) -> np.ndarray:
     """Reference: each voxel compared with each centroid."""
     voxels, owners = voxels_by_owner(segments, parameters.voxel)
-    rings, reach = parameters.ring_of_metre(), parameters.rings[-1]
+    rings, reach = parameters.ring_of_meter(), parameters.rings[-1]
     logarithms = np.log1p(np.arange(len(voxels) + 1))
     found = np.zeros((len(segments), *parameters.shape), dtype=np.float32)
     for segment, centroid in enumerate(segments.centroids()):
@@ -152,9 +152,9 @@ def all_pairs(segments: Segments, parameters: SurroundingsParameters) -> np.ndar
             layers = (away[:, 2][:, None] >= np.array(parameters.heights)).sum(axis=1)
             sectors = (y > np.tan(np.pi / 8) * x) + 0 + (y > x) + (x < np.tan(np.pi / 8) * y)
             sectors += 4 * (voxels[:, 0] < centroid[0]) + 8 * (voxels[:, 1] < centroid[1])
-        metres = np.minimum(np.sqrt(squared[near]).astype(int), reach - 1)
+        meters = np.minimum(np.sqrt(squared[near]).astype(int), reach - 1)
         counts = np.zeros((*parameters.shape, 16), dtype=np.int64)
-        np.add.at(counts, (rings[metres], layers[near], sectors[near]), 1)
+        np.add.at(counts, (rings[meters], layers[near], sectors[near]), 1)
         total = np.zeros(parameters.shape)
         for sector in range(16):
             total = total + logarithms[counts[:, :, sector]]
@@ -188,8 +188,8 @@ def on_a_grid() -> Segments:
     ],
 )
 def test_A4_cells_give_what_all_pairs_give_bit_for_bit(segments: Segments) -> None:
-    for parameters in (SURROUNDINGS_V1, TWO_RINGS):
-        found = describe_surroundings(segments, parameters=parameters)
+    for parameters in (NEIGHBORHOOD_V1, TWO_RINGS):
+        found = describe_neighborhood(segments, parameters=parameters)
         assert found.tobytes() == all_pairs(segments, parameters).tobytes()
 
 
@@ -222,11 +222,11 @@ def test_A4_crafted_voxels_do_not_collide() -> None:
 
 def test_A4_seed_makes_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
     segments = street(seed=9)
-    before = describe_surroundings(segments)
+    before = describe_neighborhood(segments)
     voxels, owners = voxels_by_owner(segments, 0.6)
     monkeypatch.setattr("placecell.descriptors.neighborhood.SEED", SEED + np.uint64(12_346))
     again, owners_again = voxels_by_owner(segments, 0.6)
-    assert describe_surroundings(segments).tobytes() == before.tobytes()
+    assert describe_neighborhood(segments).tobytes() == before.tobytes()
     assert again.tobytes() == voxels.tobytes()
     assert owners_again.tolist() == owners.tolist()
 
@@ -245,11 +245,11 @@ def test_A4_seed_is_of_the_process() -> None:
 def test_A4_cancelled_work_stops() -> None:
     segments = street()
     voxels, owners = voxels_by_owner(segments, 0.6)
-    counted = np.zeros((len(segments), *SURROUNDINGS_V1.shape), dtype=np.float32)
+    counted = np.zeros((len(segments), *NEIGHBORHOOD_V1.shape), dtype=np.float32)
     with cancelled_by(CancelToken()) as token:
         token.cancel()
         with pytest.raises(Cancelled):
             voxels_by_owner(segments, 0.6)
         with pytest.raises(Cancelled):
-            count_voxels(voxels, owners, segments.centroids(), SURROUNDINGS_V1, counted)
+            count_voxels(voxels, owners, segments.centroids(), NEIGHBORHOOD_V1, counted)
     assert not counted.any()  # it did not go on to the end

@@ -63,7 +63,7 @@ def test_world_turned_and_moved_makes_no_difference() -> None:
         segments.ends,
         (segments.sensors @ turn.T + shift).astype(np.float32),
     )
-    # float32 coordinates of 120 m are good to 8 micrometres.
+    # float32 coordinates of 120 m are good to 8 micrometers.
     assert align(moved) == pytest.approx(align(segments), abs=1e-4)
 
 
@@ -107,13 +107,13 @@ def test_against_numpy_bit_for_bit() -> None:
     yaw = np.array([0.0, 1.0, -2.0, 3.0])
     turn = yaw - sensor_bearings(segments)
     for index in range(len(segments)):
-        centred = segments.cloud(index) - segments.centroids()[index]
+        centered = segments.cloud(index) - segments.centroids()[index]
         cosine, sine = np.cos(turn)[index], np.sin(turn)[index]
         by_hand = np.stack(
             [
-                cosine * centred[:, 0] - sine * centred[:, 1],
-                sine * centred[:, 0] + cosine * centred[:, 1],
-                centred[:, 2],
+                cosine * centered[:, 0] - sine * centered[:, 1],
+                sine * centered[:, 0] + cosine * centered[:, 1],
+                centered[:, 2],
             ],
             axis=1,
         ).astype(np.float32)
@@ -121,7 +121,7 @@ def test_against_numpy_bit_for_bit() -> None:
 
 
 def test_centroid_is_the_mean_in_double_precision() -> None:
-    # In float32 the sum of 15,000 coordinates of 1 km would be off by centimetres.
+    # In float32 the sum of 15,000 coordinates of 1 km would be off by centimeters.
     points = np.random.default_rng(0).uniform(999, 1000, (15_000, 3)).astype(np.float32)
     (centroid,) = one_segment(points).centroids()
     assert centroid == pytest.approx(points.astype(np.float64).mean(axis=0), abs=1e-9)

@@ -81,7 +81,7 @@ def scene(
 
     Args:
         found: share of the segments that have their own row among the candidates.
-        noise: of the centroids, standard deviation along each axis, metres.
+        noise: of the centroids, standard deviation along each axis, meters.
         k: candidates of each.
         rows: of the map.
         pose: of the robot's frame in the map's.

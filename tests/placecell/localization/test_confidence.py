@@ -50,7 +50,7 @@ def test_features_by_hand() -> None:
             "inliers": np.log(4),
             "share": 0.25,
             "residual": 0.5,
-            "spread": np.log1p(np.sqrt(2)),  # 2 metres squared across, 4.5 along
+            "spread": np.log1p(np.sqrt(2)),  # 2 meters squared across, 4.5 along
         }
     )
 

@@ -4,7 +4,7 @@ import pytest
 from placecell.core.types import Float64
 from placecell.localization.consistency import consistent
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from tests.placecell.localization.scene_builders import a_pose, any_rotation
 
 
@@ -18,7 +18,7 @@ def pairs(source: Float64, target: Float64) -> Correspondences:
 def agree(here: list[float], there: list[float], **changes: float | str) -> bool:
     """Whether the origin and these two points are the same pair, seen in two frames."""
     source, target = np.array([[0.0] * 3, here]), np.array([[0.0] * 3, there])
-    parameters = LocalisationParameters(**changes)  # type: ignore[arg-type]
+    parameters = LocalizationParameters(**changes)  # type: ignore[arg-type]
     return bool(consistent(pairs(source, target), parameters)[0, 1])
 
 
@@ -30,7 +30,7 @@ def agree(here: list[float], there: list[float], **changes: float | str) -> bool
         ([10, 0, 0], [0, 11.1, 0], False),
         ([10, 0, 0], [0, 8.9, 0], False),
         ([0.3, 0, 0], [0, 0, 0], True),
-        # Heights: half a metre, and 2 degrees, which are 0.35 m at 10 m.
+        # Heights: half a meter, and 2 degrees, which are 0.35 m at 10 m.
         ([10, 0, 0], [10, 0, 0.84], True),
         ([10, 0, 0], [10, 0, 0.86], False),
         ([0, 0, 3], [0, 0, -3], False),
@@ -55,7 +55,7 @@ def test_nothing_agrees_with_itself_its_query_or_its_place() -> None:
     )
     expected = np.zeros((3, 3), dtype=bool)
     expected[1, 2] = expected[2, 1] = True
-    np.testing.assert_array_equal(consistent(found, LocalisationParameters()), expected)
+    np.testing.assert_array_equal(consistent(found, LocalizationParameters()), expected)
 
 
 @pytest.mark.parametrize(("model", "move"), [("yaw", a_pose), ("se3", any_rotation)])
@@ -63,7 +63,7 @@ def test_a_motion_keeps_everything_consistent(model: str, move: object) -> None:
     random = np.random.default_rng(0)
     source = random.uniform(-40, 40, (40, 3))
     pose = move(random)  # type: ignore[operator]
-    parameters = LocalisationParameters(model=model)  # type: ignore[arg-type]
+    parameters = LocalizationParameters(model=model)  # type: ignore[arg-type]
     graph = consistent(pairs(source, pose.apply(source)), parameters)
     assert graph.sum() == 40 * 39
     # And of other points there are few.

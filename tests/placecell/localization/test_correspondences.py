@@ -9,10 +9,10 @@ from placecell.core.grid_cells import neighboring
 from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
 from placecell.localization.correspondences import Correspondences, correspond, number_places
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from tests.placecell.localization.scene_builders import take
 
-PARAMETERS = LocalisationParameters()
+PARAMETERS = LocalizationParameters()
 
 
 def candidates(
@@ -134,7 +134,7 @@ def test_the_order_of_queries_makes_no_difference() -> None:
 def test_of_too_many_candidates_the_likeliest_are_taken() -> None:
     places = [[(10.0 * i, 0.0, 0.0) for i in range(6)]]
     given = candidates(places, [[0.1, 0.9, 0.3, 0.8, 0.2, 0.7]])
-    found = correspond(given, LocalisationParameters(most_candidates=3))
+    found = correspond(given, LocalizationParameters(most_candidates=3))
     assert sorted(found.target[:, 0].tolist()) == [10, 30, 50]
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from placecell.localization.covariance import covariance_of, cross
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.registration import register
 from tests.placecell.localization.scene_builders import a_pose, street
@@ -18,7 +18,7 @@ def test_a_cross_product_is_a_matrix() -> None:
 def test_it_is_how_much_poses_scatter(model: str, away: float) -> None:
     """Registered again and again under new noise, poses scatter as the covariance says."""
     random = np.random.default_rng(1)
-    parameters = LocalisationParameters(model=model, inflation=1.0)  # type: ignore[arg-type]
+    parameters = LocalizationParameters(model=model, inflation=1.0)  # type: ignore[arg-type]
     source = street(random, 60.0, 40) + (away, 0, 0)
     true = a_pose(random)
     errors, stated = [], []
@@ -46,7 +46,7 @@ def test_it_is_how_much_poses_scatter(model: str, away: float) -> None:
 def test_exact_segments_are_not_believed_to_be_so() -> None:
     source = street(np.random.default_rng(2), 60.0, 10)
     covariance = covariance_of(
-        Pose.of_yaw(0, np.zeros(3)), source, source, LocalisationParameters()
+        Pose.of_yaw(0, np.zeros(3)), source, source, LocalizationParameters()
     )
     assert np.sqrt(np.diag(covariance)[:3]).min() > 0.02
 
@@ -62,32 +62,32 @@ def test_exact_segments_are_not_believed_to_be_so() -> None:
 def test_what_determines_no_yaw_says_so(source: np.ndarray) -> None:
     identity = Pose.of_yaw(0, np.zeros(3))
     assert np.isinf(
-        np.diag(covariance_of(identity, source, source, LocalisationParameters()))
+        np.diag(covariance_of(identity, source, source, LocalizationParameters()))
     ).all()
 
 
 def test_segments_in_a_row_determine_a_yaw_but_no_roll() -> None:
     row = np.outer(np.arange(5.0), [1, 0, 0])
     identity = Pose.of_yaw(0, np.zeros(3))
-    assert np.isfinite(covariance_of(identity, row, row, LocalisationParameters())).all()
-    covariance = covariance_of(identity, row, row, LocalisationParameters(model="se3"))
+    assert np.isfinite(covariance_of(identity, row, row, LocalizationParameters())).all()
+    covariance = covariance_of(identity, row, row, LocalizationParameters(model="se3"))
     assert np.isinf(np.diag(covariance)).all()
 
 
 @pytest.mark.parametrize("model", ["yaw", "se3"])
-@pytest.mark.parametrize("metres", [60.0, 6_000.0, 600_000.0])
-def test_a_long_street_determines_all(model: str, metres: float) -> None:
-    source = street(np.random.default_rng(4), metres, 200)
-    parameters = LocalisationParameters(model=model)  # type: ignore[arg-type]
+@pytest.mark.parametrize("meters", [60.0, 6_000.0, 600_000.0])
+def test_a_long_street_determines_all(model: str, meters: float) -> None:
+    source = street(np.random.default_rng(4), meters, 200)
+    parameters = LocalizationParameters(model=model)  # type: ignore[arg-type]
     covariance = covariance_of(Pose.of_yaw(0, np.zeros(3)), source, source, parameters)
     assert np.isfinite(covariance).all()
     # The longer, the surer of the direction.
-    assert covariance[-1, -1] * metres**2 == pytest.approx(0.0012, rel=0.3)
+    assert covariance[-1, -1] * meters**2 == pytest.approx(0.0012, rel=0.3)
 
 
 def test_overlap_makes_it_larger() -> None:
     source = street(np.random.default_rng(3), 60.0, 10)
     pose = Pose.of_yaw(0, np.zeros(3))
-    plain = covariance_of(pose, source, source, LocalisationParameters(inflation=1.0))
-    larger = covariance_of(pose, source, source, LocalisationParameters(inflation=4.0))
+    plain = covariance_of(pose, source, source, LocalizationParameters(inflation=1.0))
+    larger = covariance_of(pose, source, source, LocalizationParameters(inflation=4.0))
     np.testing.assert_allclose(larger, 4 * plain)

@@ -2,17 +2,17 @@ import numpy as np
 import pytest
 
 from placecell.core.types import Float64
-from placecell.localization import LocalisationParameters, Pose, localize
+from placecell.localization import LocalizationParameters, Pose, localize
 from placecell.localization.evidence import History, middle_of
 from placecell.localization.hypothesis import Hypothesis
 from tests.placecell.localization.scene_builders import scene
 from tests.placecell.localization.test_localize import look_alikes
 
-PARAMETERS = LocalisationParameters(memory=10.0, half_life=3.0, past_weight=0.5, remembered=4)
+PARAMETERS = LocalizationParameters(memory=10.0, half_life=3.0, past_weight=0.5, remembered=4)
 
 
 def hypothesis(x: float, score: float, yaw: float = 0.0) -> Hypothesis:
-    """At x metres along the map; its segments lie about the robot."""
+    """At x meters along the map; its segments lie about the robot."""
     source = np.array([[-10.0, 0, 0], [10, 0, 0], [0, 10, 0], [0, -10, 0]])
     numbers = np.arange(4)
     pose = Pose.of_yaw(yaw, np.array([x, 0.0, 0.0]))
@@ -20,12 +20,12 @@ def hypothesis(x: float, score: float, yaw: float = 0.0) -> Hypothesis:
 
 
 def at(x: float) -> Float64:
-    """The middle of what is seen from x metres along the robot's way."""
+    """The middle of what is seen from x meters along the robot's way."""
     return np.array([x, 0.0, 0.0])
 
 
 def driven(history: History, start: float, end: float, *found: Hypothesis) -> None:
-    """Five requests, four metres apart, that all found the same; then the robot is at 0."""
+    """Five requests, four meters apart, that all found the same; then the robot is at 0."""
     for number, time in enumerate(np.linspace(start, end, 5)):
         history.add(float(time), at(4.0 * number - 20), found)
 
@@ -95,7 +95,7 @@ def test_what_was_known_before_decides_between_two_places() -> None:
     """The robot saw where it turned into one of two streets that are alike."""
     made = look_alikes(2, 60.0)
     assert localize(made.candidates).reason == "ambiguous"
-    history = History(LocalisationParameters())
+    history = History(LocalizationParameters())
     second = Pose.of_yaw(0.0, np.array([60.0, 0, 0]))
     there = hypothesis(60.0, 100.0)
     assert there.pose.difference(second, np.zeros(3)) == (0, 0)
@@ -107,13 +107,13 @@ def test_what_was_known_before_decides_between_two_places() -> None:
 
 def test_the_past_alone_is_no_place() -> None:
     """Nothing of what the robot sees now is where it was before."""
-    history = History(LocalisationParameters())
+    history = History(LocalizationParameters())
     history.add(50.0, at(-5), [hypothesis(1e4, 1000.0)])
     made = scene(1)
     found = localize(made.candidates, evidence=history.at(50.1, at(0)))
     assert found.pose is not None
-    metres, _ = found.pose.difference(made.pose, np.zeros(3))
-    assert metres < 0.5
+    meters, _ = found.pose.difference(made.pose, np.zeros(3))
+    assert meters < 0.5
     noise = scene(2, found=0.0)
     assert localize(noise.candidates, evidence=history.at(50.1, at(0))).pose is None
 
@@ -121,11 +121,11 @@ def test_the_past_alone_is_no_place() -> None:
 def test_a_place_of_the_past_is_looked_at_again() -> None:
     """Too few agree to be found among all, but enough where the robot is expected."""
     made = scene(3, segments=60, found=0.12, k=25)
-    history = History(LocalisationParameters())
+    history = History(LocalizationParameters())
     source = made.candidates.centroids[:4]
     before = Hypothesis(made.pose, np.eye(4), 60.0, np.arange(4), np.arange(4), source, np.zeros(4))
     driven(history, 50.0, 50.4, before)
     found = localize(made.candidates, evidence=history.at(50.5, at(0)))
     assert found.best is not None
-    metres, _ = found.best.pose.difference(made.pose, source.mean(axis=0))
-    assert metres < 0.5
+    meters, _ = found.best.pose.difference(made.pose, source.mean(axis=0))
+    assert meters < 0.5

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from placecell.core.spatial import within
 from placecell.core.types import Float64, Int64
-from placecell.localization import Candidates, Hypothesis, LocalisationParameters, Pose, localize
+from placecell.localization import Candidates, Hypothesis, LocalizationParameters, Pose, localize
 from placecell.localization.guided_matching import AmongCandidates, look_again
 
-PARAMETERS = LocalisationParameters()
+PARAMETERS = LocalizationParameters()
 HERE = Pose.of_yaw(0.0, np.zeros(3))
 
 
@@ -21,8 +21,8 @@ class Things:
         self.centroids = centroids
         self.looks = likely
 
-    def about(self, places: Float64, metres: float) -> tuple[Int64, Float64]:
-        rows = within(self.centroids, places, metres)
+    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
+        rows = within(self.centroids, places, meters)
         return rows, np.asarray(self.centroids[rows])
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
@@ -59,7 +59,7 @@ def worth(likely: float, believed: float = 0.5) -> float:
 def test_by_hand() -> None:
     off = np.array([[0.0, 0, 0], [0.5, 0, 0], [0, 1.4, 0], [0, 0, 1.6]])
     there = Things(grid(4) + off, np.diag([0.8, 0.4, 0.5, 1.0]))
-    # Geman and McClure: 1 where they meet, a quarter at half a metre; nothing beyond 1.5 m.
+    # Geman and McClure: 1 where they meet, a quarter at half a meter; nothing beyond 1.5 m.
     expected = worth(0.8) + worth(0.4) / 4 + worth(0.5) / (1 + 2.8**2) ** 2
     assert score(grid(4), there) == pytest.approx(expected)
 

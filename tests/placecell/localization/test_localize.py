@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from placecell.core.types import Float64
-from placecell.localization import Candidates, Localisation, LocalisationParameters, Pose, localize
+from placecell.localization import Candidates, Localization, LocalizationParameters, Pose, localize
 from placecell.localization.localize import chance_of_direction
 from tests.placecell.localization.scene_builders import (
     Scene,
@@ -19,21 +19,21 @@ from tests.placecell.localization.scene_builders import (
     take,
 )
 
-SE3 = LocalisationParameters(model="se3")
+SE3 = LocalizationParameters(model="se3")
 seeds = st.integers(0, 100_000)
 
 
-def off(found: Localisation, truth: Pose) -> tuple[float, float]:
+def off(found: Localization, truth: Pose) -> tuple[float, float]:
     """Metres and degrees that the pose is off, in the midst of the segments."""
     assert found.pose is not None, (found.reason, found.detail)
     assert found.best is not None
-    metres, angle = found.pose.difference(truth, found.best.source.mean(axis=0))
-    return metres, float(np.degrees(angle))
+    meters, angle = found.pose.difference(truth, found.best.source.mean(axis=0))
+    return meters, float(np.degrees(angle))
 
 
-def assert_right(found: Localisation, truth: Pose) -> None:
-    metres, degrees = off(found, truth)
-    assert metres < 0.3
+def assert_right(found: Localization, truth: Pose) -> None:
+    meters, degrees = off(found, truth)
+    assert meters < 0.3
     assert degrees < 1.0
 
 
@@ -92,9 +92,9 @@ def test_in_space_any_turn_is_followed(seed: int) -> None:
     random = np.random.default_rng(seed)
     made = scene(seed, found=0.8).in_map(any_rotation(random)).seen_from(any_rotation(random))
     found = localize(made.candidates, SE3)
-    metres, degrees = off(found, made.pose)
+    meters, degrees = off(found, made.pose)
     # Segments along a street fix the roll about it less well than the rest.
-    assert metres < 0.5
+    assert meters < 0.5
     assert degrees < 5.0
     assert found.best is not None
     assert found.best.covariance.shape == (6, 6)
@@ -126,8 +126,8 @@ def test_outliers_leave_the_pose_where_it_is(seed: int, outliers: int) -> None:
     both = concatenate(made.candidates, strange)
     best = localize(both).best
     assert best is not None
-    metres, angle = best.pose.difference(made.pose, best.source.mean(axis=0))
-    assert metres < 0.4
+    meters, angle = best.pose.difference(made.pose, best.source.mean(axis=0))
+    assert meters < 0.4
     assert np.degrees(angle) < 1.5
 
 
@@ -144,8 +144,8 @@ def test_of_a_few_segments_the_pose_is_right_or_none(seed: int) -> None:
         few = scene(seed, segments=24, found=found)
         told = localize(few.candidates)
         if told.pose is not None:
-            metres, degrees = off(told, few.pose)
-            assert metres < 1
+            meters, degrees = off(told, few.pose)
+            assert meters < 1
             assert degrees < 3
 
 
@@ -174,8 +174,8 @@ def test_identical_places_are_ambiguous(places: int, turned: bool) -> None:
     assert found.probability < 0.56  # one of two, if the second is as good as 80%
     assert found.best is not None
     assert found.second is not None
-    metres, _ = found.best.pose.difference(found.second.pose, found.best.source.mean(axis=0))
-    assert metres > 30
+    meters, _ = found.best.pose.difference(found.second.pose, found.best.source.mean(axis=0))
+    assert meters > 30
 
 
 def houses(landmarks: int) -> Candidates:
@@ -226,8 +226,8 @@ def test_one_segment_a_thousand_times_around_the_robot() -> None:
     repeated = concatenate(given, take(given, np.zeros(1_000, dtype=np.int64)))
     found = localize(repeated)
     assert found.best is not None
-    metres, _ = found.best.pose.difference(made.pose, found.best.source.mean(axis=0))
-    assert metres < 0.5
+    meters, _ = found.best.pose.difference(made.pose, found.best.source.mean(axis=0))
+    assert meters < 0.5
     # The thousand count as one.
     alone = localize(given).best
     assert alone is not None

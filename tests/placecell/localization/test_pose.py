@@ -30,9 +30,9 @@ def test_yaw_turns_x_to_y() -> None:
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, np.pi - 1e-7, np.pi])
 def test_the_difference_is_at_a_point(angle: float) -> None:
     one, other = Pose.of_yaw(0.0, np.zeros(3)), Pose.of_yaw(angle, np.array([0.0, 0, 4]))
-    metres, found = one.difference(other, np.zeros(3))
-    assert metres == pytest.approx(4)
+    meters, found = one.difference(other, np.zeros(3))
+    assert meters == pytest.approx(4)
     assert found == pytest.approx(angle, abs=1e-7)
-    # Ten metres off the axis a turn is a chord.
-    metres, _ = one.difference(Pose.of_yaw(angle, np.zeros(3)), np.array([10.0, 0, 0]))
-    assert metres == pytest.approx(20 * np.sin(angle / 2))
+    # Ten meters off the axis a turn is a chord.
+    meters, _ = one.difference(Pose.of_yaw(angle, np.zeros(3)), np.array([10.0, 0, 0]))
+    assert meters == pytest.approx(20 * np.sin(angle / 2))

@@ -3,7 +3,7 @@ import pytest
 
 from placecell.core.types import Float64, Int64
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import kernel, one_to_one, refine, residuals
 
@@ -40,15 +40,15 @@ def test_refinement_gathers_what_agrees_and_leaves_out_what_does_not() -> None:
     target[25:] += random.uniform(2, 40, (15, 3))
     found = pairs(list(range(40)), list(range(40)), source, target)
     begun = Pose.of_yaw(0.32, np.array([10.8, 19.5, 1]))
-    pose, agreeing = refine(begun, found, LocalisationParameters())
+    pose, agreeing = refine(begun, found, LocalizationParameters())
     assert agreeing.tolist() == list(range(25))
-    metres, angle = pose.difference(true, np.zeros(3))
-    assert metres < 0.1
+    meters, angle = pose.difference(true, np.zeros(3))
+    assert meters < 0.1
     assert np.degrees(angle) < 0.3
 
 
 def test_where_nothing_agrees_nothing_changes() -> None:
     found = pairs([0, 1], [0, 1], np.zeros((2, 3)), np.full((2, 3), 50.0))
-    pose, agreeing = refine(IDENTITY, found, LocalisationParameters())
+    pose, agreeing = refine(IDENTITY, found, LocalizationParameters())
     assert pose is IDENTITY
     assert not len(agreeing)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.parameters import LocalisationParameters
+from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.voting import most_voted
 
@@ -25,15 +25,15 @@ def haystack(right: int, wrong: int, seed: int = 0) -> tuple[Correspondences, np
 @pytest.mark.parametrize("seed", range(5))
 def test_what_moves_together_is_kept(seed: int) -> None:
     found, right = haystack(30, 9_970, seed)
-    kept = most_voted(found, LocalisationParameters())
-    assert len(kept) == LocalisationParameters().most
+    kept = most_voted(found, LocalizationParameters())
+    assert len(kept) == LocalizationParameters().most
     assert np.isin(right, kept.queries).all()
     assert (np.diff(kept.queries) > 0).all()  # in their old order
 
 
 def test_few_are_all_kept() -> None:
     found, _ = haystack(30, 100)
-    assert most_voted(found, LocalisationParameters()) is found
+    assert most_voted(found, LocalizationParameters()) is found
 
 
 def test_a_query_counts_once_in_a_cell() -> None:
@@ -49,5 +49,5 @@ def test_a_query_counts_once_in_a_cell() -> None:
         np.ones(len(found) + 1_000),
         len(found) + 1,
     )
-    kept = most_voted(crowd, LocalisationParameters(most=300))
+    kept = most_voted(crowd, LocalizationParameters(most=300))
     assert np.isin(right, kept.queries).all()

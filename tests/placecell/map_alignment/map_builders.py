@@ -19,7 +19,7 @@ class Street:
     """Things along the x axis.
 
     Attributes:
-        places: float64 (n, 3), metres.
+        places: float64 (n, 3), meters.
         looks: float64 (n, DIMENSION), descriptors.
     """
 
@@ -85,7 +85,7 @@ def chance(distances: Float64) -> Float64:
 def street(
     random: np.random.Generator, length: float, gap: float = 3.0, begin: float = 0.0
 ) -> Street:
-    """Things on both sides, one each so many metres, all of which look different."""
+    """Things on both sides, one each so many meters, all of which look different."""
     count = int(length / gap)
     places = np.stack(
         [
@@ -111,7 +111,7 @@ def drive(
     """What a robot maps that drives from one x to another, and looks around each 5 m.
 
     Args:
-        noise: of the centroids, along each axis, metres.
+        noise: of the centroids, along each axis, meters.
         blur: of the descriptors.
         missed: share of the things that are not seen, each time.
     """
@@ -160,13 +160,13 @@ def off(found: MapAlignment, truth: Pose) -> tuple[float, float]:
     """Metres and degrees that the pose is off, in the midst of the overlap."""
     assert found.pose is not None, (found.reason, found.detail)
     assert found.best is not None
-    metres, angle = found.pose.difference(truth, found.best.source.mean(axis=0))
-    return metres, float(np.degrees(angle))
+    meters, angle = found.pose.difference(truth, found.best.source.mean(axis=0))
+    return meters, float(np.degrees(angle))
 
 
-def assert_right(found: MapAlignment, truth: Pose, metres: float = 0.5) -> None:
+def assert_right(found: MapAlignment, truth: Pose, meters: float = 0.5) -> None:
     away, degrees = off(found, truth)
-    assert away < metres
+    assert away < meters
     assert degrees < 1.0
 
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from placecell.localization import LocalisationParameters, Pose
+from placecell.localization import LocalizationParameters, Pose
 from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
 from placecell.map_alignment.align import guess
 from placecell.map_alignment.submaps import cut
@@ -23,7 +23,7 @@ from tests.placecell.map_alignment.map_builders import (
     street,
 )
 
-SE3 = AlignmentParameters(local=LocalisationParameters(model="se3"))
+SE3 = AlignmentParameters(local=LocalizationParameters(model="se3"))
 seeds = st.integers(0, 100_000)
 
 
@@ -37,10 +37,10 @@ def aligned(made: Pair, parameters: AlignmentParameters | None = None) -> MapAli
 def test_maps_that_overlap_are_aligned(seed: int, shared: float) -> None:
     made = pair(seed, shared)
     found = aligned(made)
-    assert_right(found, made.truth, metres=0.3)
+    assert_right(found, made.truth, meters=0.3)
     best = found.best
     assert best is not None
-    # What agrees is the same thing, one to one, but for a few neighbours that look alike.
+    # What agrees is the same thing, one to one, but for a few neighbors that look alike.
     assert len(set(best.rows_a)) == len(set(best.rows_b)) == len(best)
     same = made.a.things[best.rows_a] == made.b.things[best.rows_b]
     assert same.mean() > 0.95
@@ -56,13 +56,13 @@ def test_maps_that_overlap_are_aligned(seed: int, shared: float) -> None:
 
 
 @pytest.mark.slow
-def test_maps_of_kilometres_are_aligned() -> None:
+def test_maps_of_kilometers_are_aligned() -> None:
     random = np.random.default_rng(5)
     along = street(random, 5_000.0)
     a, b = (drive(along, 0.0, 5_000.0, random) for _ in range(2))
     truth = a_pose(random)
     moved = MadeMap(b.view.moved(truth.inverse()), b.looks, b.things)
-    assert_right(aligned(Pair(a, moved, truth)), truth, metres=0.3)
+    assert_right(aligned(Pair(a, moved, truth)), truth, meters=0.3)
 
 
 @pytest.mark.slow
@@ -75,8 +75,8 @@ def test_guesses_are_poses_of_submaps(seed: int) -> None:
     right = 0
     for each in guesses:
         np.testing.assert_array_equal(each.middle, submaps[each.submap].middle)
-        metres, _ = each.pose.difference(made.truth, each.middle)
-        right += metres < 1.0
+        meters, _ = each.pose.difference(made.truth, each.middle)
+        right += meters < 1.0
     assert right >= 4
 
 
@@ -91,8 +91,8 @@ def test_if_either_map_moves_the_pose_moves_along(seed: int) -> None:
     )
     assert_right(aligned(moved), moved.truth)
     # As it was, but for how submaps are cut.
-    metres, degrees = off(aligned(moved), one.after(pose_of(made)).after(other.inverse()))
-    assert metres < 0.1
+    meters, degrees = off(aligned(moved), one.after(pose_of(made)).after(other.inverse()))
+    assert meters < 0.1
     assert degrees < 0.2
 
 
@@ -113,8 +113,8 @@ def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
     one, other = aligned(made), aligned(shuffled)
     # But for which views of a thing ask, and so where refinement begins.
     assert one.pose is not None
-    metres, degrees = off(other, one.pose)
-    assert metres < 0.1
+    meters, degrees = off(other, one.pose)
+    assert meters < 0.1
     assert degrees < 0.05
     assert one.best is not None
     assert other.best is not None
@@ -127,8 +127,8 @@ def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
 def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
     made = pair(seed)
     back = aligned(Pair(made.b, made.a, made.truth.inverse()))
-    metres, degrees = off(back, pose_of(made).inverse())
-    assert metres < 0.1
+    meters, degrees = off(back, pose_of(made).inverse())
+    assert meters < 0.1
     assert degrees < 0.1
     there = aligned(made)
     assert there.best is not None
@@ -161,8 +161,8 @@ def test_segments_like_nothing_leave_the_pose_where_it_is(seed: int, count: int)
     found = aligned(noisy)
     best = found.best
     assert best is not None
-    metres, angle = best.pose.difference(pose_of(made), best.source.mean(axis=0))
-    assert metres < 0.1
+    meters, angle = best.pose.difference(pose_of(made), best.source.mean(axis=0))
+    assert meters < 0.1
     assert np.degrees(angle) < 0.2
     # The more there is that the other did not see, the less agrees; but so much is borne.
     assert found.reason is None, found.detail

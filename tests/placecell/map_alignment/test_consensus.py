@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from placecell.localization import LocalisationParameters, Pose
+from placecell.localization import LocalizationParameters, Pose
 from placecell.map_alignment import AlignmentParameters
 from placecell.map_alignment.consensus import Guess, agreement, common_pose, consensus
 
@@ -26,7 +26,7 @@ def test_two_agree_if_each_puts_the_other_near_where_it_puts_itself() -> None:
     base = guess(0, 0.0)
     for other, agrees in [
         (guess(1, 100.0, (2.9, 0.0)), True),
-        # Three metres, and 3 cm more for each metre between them.
+        # Three meters, and 3 cm more for each meter between them.
         (guess(1, 100.0, (5.9, 0.0)), True),
         (guess(1, 100.0, (6.1, 0.0)), False),
         (guess(1, 0.0, (2.9, 0.0)), True),
@@ -88,7 +88,7 @@ def test_a_thousand_guesses_are_sorted_out() -> None:
 
 @pytest.mark.parametrize("model", ["yaw", "se3"])
 def test_the_common_pose_is_between_them_by_their_scores(model: str) -> None:
-    parameters = AlignmentParameters(local=LocalisationParameters(model=model))  # type: ignore[arg-type]
+    parameters = AlignmentParameters(local=LocalizationParameters(model=model))  # type: ignore[arg-type]
     # Two guesses about one place: a shift of 0 with score 3, of 1 m with score 1.
     two = [guess(0, 0.0, score=3.0), guess(0, 0.0, (1.0, 0.0), score=1.0)]
     np.testing.assert_allclose(

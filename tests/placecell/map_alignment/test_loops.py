@@ -17,7 +17,7 @@ WRONG = Pose.of_yaw(2.0, np.array([40.0, -7.0, 0.0]))
 
 
 def frames(count: int, seed: int = 0) -> list[Pose]:
-    """Where maps truly lie, kilometres apart; the first lies at the origin."""
+    """Where maps truly lie, kilometers apart; the first lies at the origin."""
     random = np.random.default_rng(seed)
     return [Pose.of_yaw(0.0, np.zeros(3)), *(a_pose(random) for _ in range(count - 1))]
 
@@ -55,23 +55,23 @@ def test_a_loop_is_measured() -> None:
     (loop,) = check_loops(edges).loops
     assert sorted(loop.maps) == sorted(loop.alignments) == [0, 1, 2]
     # A turn about the origin of the first map, where all that is shared is, and a shift.
-    assert loop.metres == pytest.approx(2.0, abs=0.4)
+    assert loop.meters == pytest.approx(2.0, abs=0.4)
     assert loop.degrees == pytest.approx(3.0)
     assert loop.closes
 
 
 @pytest.mark.parametrize(
-    ("metres", "degrees", "closes"),
+    ("meters", "degrees", "closes"),
     [(2.9, 0.0, True), (3.1, 0.0, False), (0.0, 5.9, True), (0.0, 6.1, False)],
 )
 def test_a_loop_may_miss_by_so_much_for_each_alignment(
-    metres: float, degrees: float, closes: bool
+    meters: float, degrees: float, closes: bool
 ) -> None:
     truth = [Pose.of_yaw(0.0, np.zeros(3))] * 3
-    error = Pose.of_yaw(np.radians(degrees), np.array([metres, 0.0, 0.0]))
+    error = Pose.of_yaw(np.radians(degrees), np.array([meters, 0.0, 0.0]))
     edges = [*ring(truth)[:2], alignment(truth, 0, 2, error=error)]
     (loop,) = loops_of(edges)
-    assert (loop.metres, loop.degrees) == pytest.approx((metres, degrees))
+    assert (loop.meters, loop.degrees) == pytest.approx((meters, degrees))
     assert loop.closes == closes
 
 
@@ -134,8 +134,8 @@ class ByTruth:
         self.asked.append(index)
         edge = self.edges[index]
         true = self.truth[edge.one].inverse().after(self.truth[edge.other])
-        metres, angle = pose.difference(true, edge.pose.inverse().apply(edge.middle))
-        return index not in self.untold and metres < 1.0 and angle < 0.01
+        meters, angle = pose.difference(true, edge.pose.inverse().apply(edge.middle))
+        return index not in self.untold and meters < 1.0 and angle < 0.01
 
 
 @pytest.mark.parametrize("wrong", [0, 1, 2])
@@ -280,4 +280,4 @@ def test_an_alignment_is_told_from_either_side() -> None:
     for first in (there, back):
         edges = [first, alignment(truth, 1, 2), alignment(truth, 2, 0)]
         (loop,) = check_loops(edges).loops
-        assert loop.metres < 1e-6
+        assert loop.meters < 1e-6

@@ -129,11 +129,11 @@ def test_one_segment_a_thousand_times_is_nowhere(count: int, box: tuple[float, .
     found = aligned(a, b)
     assert found.reason in {"ambiguous", "inconsistent"}
     assert found.detail
-    # Nor is it on itself, but for about where it lies: nobody can tell one from its neighbour.
+    # Nor is it on itself, but for about where it lies: nobody can tell one from its neighbor.
     itself = aligned(a, a)
     if itself.pose is not None:
-        metres, degrees = off(itself, SAME)
-        assert metres < 3.0
+        meters, degrees = off(itself, SAME)
+        assert meters < 3.0
         assert degrees < 10.0
 
 
@@ -180,7 +180,7 @@ def measured(a: MadeMap, b: MadeMap) -> tuple[MapAlignment, ByDistance, float]:
         tracemalloc.stop()
 
 
-def test_ten_thousand_segments_in_a_square_metre_are_not_all_compared() -> None:
+def test_ten_thousand_segments_in_a_square_meter_are_not_all_compared() -> None:
     made = heap(10_000, (1.0, 1.0, 1.0))
     found, looks, memory = measured(made, made)
     # There are 10^8 pairs of them.
@@ -200,7 +200,7 @@ def test_ten_thousand_segments_in_a_yard_are_aligned() -> None:
 
 
 def drifting(made: MadeMap, random: np.random.Generator) -> MadeMap:
-    """As odometry has it: the heading wanders 0.05 degrees per root metre, and scale is 1% off."""
+    """As odometry has it: the heading wanders 0.05 degrees per root meter, and scale is 1% off."""
     order = np.unique(made.view.stands[:, 0])
     steps = np.diff(order, prepend=order[0])
     heading = np.cumsum(random.normal(size=len(order)) * np.radians(0.05) * np.sqrt(steps))
@@ -244,7 +244,7 @@ def test_maps_that_drift_are_right_at_the_overlap_or_not_aligned(shared: float) 
         # Maps that are bent lie on each other in a part of the overlap: where they agree.
         here, there = a.things[found.best.rows_a], b.things[found.best.rows_b]
         assert (here == there).mean() > 0.95
-        metres, degrees = off(found, laid_by_truth(a, b, np.unique(here[here == there])))
-        assert metres < 0.5
+        meters, degrees = off(found, laid_by_truth(a, b, np.unique(here[here == there])))
+        assert meters < 0.5
         assert degrees < 1.0
     assert told >= (2 if shared < 200 else 1)

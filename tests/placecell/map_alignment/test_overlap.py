@@ -76,7 +76,7 @@ def test_the_figures_of_an_overlap() -> None:
     ]  # fmt: skip
     assert len(found) == 4
     assert found.expected == (5, 5)
-    # Residuals of some centimetres cost next to nothing.
+    # Residuals of some centimeters cost next to nothing.
     assert found.score == pytest.approx(0.9 + 3 * 0.8, rel=0.05)
     assert found.found == pytest.approx((found.score, found.score))
     assert found.agreement == pytest.approx(found.score / 5)
@@ -102,7 +102,7 @@ def test_the_agreement_is_that_of_the_map_of_which_it_is_less() -> None:
 
 
 def test_what_lies_off_is_worth_less() -> None:
-    # Four pairs hold the pose; a fifth is half a metre off, where the kernel is a quarter.
+    # Four pairs hold the pose; a fifth is half a meter off, where the kernel is a quarter.
     a = view([*corner(), (0, -5, 0)], [(0, 0, 0)] * 5)
     b = view([*corner(), (0.5, -5, 0)], [(0, 0, 0)] * 5)
     table = np.diag([1e3, 1e3, 1e3, 1e3, 1.0])  # so heavy that they alone count in the score
@@ -115,7 +115,7 @@ def test_what_lies_off_is_worth_less() -> None:
     assert without.score == pytest.approx(4_000.0)
 
 
-def test_the_pose_is_refined_from_a_metre_off() -> None:
+def test_the_pose_is_refined_from_a_meter_off() -> None:
     truth = Pose.of_yaw(2.0, np.array([900.0, -50.0, 3.0]))
     random = np.random.default_rng(0)
     places = random.uniform((-15, -15, 0), (15, 15, 3), (30, 3))

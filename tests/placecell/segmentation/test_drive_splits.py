@@ -19,7 +19,7 @@ def check_partition(drive: MemoryDrive) -> None:
     assert sorted(scans) == list(range(len(drive)))
 
 
-def test_long_drive_alternates_every_12_metres() -> None:
+def test_long_drive_alternates_every_12_meters() -> None:
     drive = drive_along(*np.arange(61.0))  # 60 m: five blocks of 12 m
     maps, queries = alternate_blocks(drive)
     # The last scan, at 60 m, closes the last block.

@@ -61,13 +61,13 @@ def test_parked_car_hides_the_ground_below_it() -> None:
 def test_sensor_height_makes_no_difference(sensor_height: float) -> None:
     things = [box((2, 3, 0.1), CAR), box((-6, -4, -0.2), TRUNK)]
     scene = np.concatenate([plane(15, slope=0.04), *things])
-    # Heights in whole 128ths of a metre: no rounding decides about points at the limit.
+    # Heights in whole 128ths of a meter: no rounding decides about points at the limit.
     scene[:, 2] = np.round(scene[:, 2] * 128) / 128
     lowered = scene - np.array([0, 0, round(sensor_height * 128) / 128], np.float32)
     assert np.array_equal(is_ground(lowered, PROTOCOL_V1), is_ground(scene, PROTOCOL_V1))
 
 
-def test_reflection_below_the_ground_does_not_ruin_its_surroundings() -> None:
+def test_reflection_below_the_ground_does_not_ruin_its_neighborhood() -> None:
     reflection = np.array([[1.3, 2.2, -2.0]], dtype=np.float32)
     car = box((3.5, 2.0, 0.0), CAR)
     of_ground, of_car, of_reflection = removed(plane(20), car, reflection)
@@ -76,7 +76,7 @@ def test_reflection_below_the_ground_does_not_ruin_its_surroundings() -> None:
     assert not of_car[above(car, 0.31)].any()
 
 
-def test_kerb_is_ground() -> None:
+def test_curb_is_ground() -> None:
     ground = plane(20)
     ground[ground[:, 1] > 4.1, 2] += 0.12
     assert is_ground(ground, PROTOCOL_V1).all()
@@ -107,7 +107,7 @@ def test_tiny_flat_clouds_are_ground(count: int) -> None:
 
 
 def test_map_narrower_than_the_window() -> None:
-    # Some metres of a street, and a post: too small for the reflected border.
+    # Some meters of a street, and a post: too small for the reflected border.
     post = box((0.1, 0.1, 0.0), (0.2, 0.2, 2.0))
     of_ground, of_post = removed(plane(3), post)
     assert of_ground.all()

@@ -85,7 +85,7 @@ def test_range_counts_from_the_sensor_that_saw_it_not_from_the_world() -> None:
 
 
 def markers(scans: int, parameters: Parameters, first: int = 0) -> list[set[int]]:
-    """Which scans feed each frame's map: scan i holds one point at the height of i/2 metres."""
+    """Which scans feed each frame's map: scan i holds one point at the height of i/2 meters."""
     drive = MemoryDrive([cloud((5, 0, index / 2)) for index in range(scans)], [pose()] * scans)
     accumulator = Accumulator(drive, parameters, first)
     return [

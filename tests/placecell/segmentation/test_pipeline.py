@@ -10,7 +10,7 @@ from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float32, Float64
 from placecell.datasets import Drive, open_drive
 from placecell.descriptors.orientation import align
-from placecell.descriptors.voxels import voxelise
+from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.local_map import transform
 from placecell.segmentation.pipeline import packed_grids, record, segment_frames, segment_map
 from placecell.segmentation.recording import Recording
@@ -127,7 +127,7 @@ def test_standing_still_gives_duplicates(recording: Recording) -> None:
 
 
 def test_duplicates_against_slow_reference(recording: Recording) -> None:
-    grids = voxelise(recording.segments, PROTOCOL_V1)[0].astype(bool)
+    grids = voxelize(recording.segments, PROTOCOL_V1)[0].astype(bool)
     kept: list[int] = []
     for index, group in enumerate(recording.groups):
         others = [other for other in kept if recording.groups[other] == group]
@@ -212,7 +212,7 @@ def test_segments_of_an_empty_map() -> None:
 @pytest.mark.parametrize("batch", [1, 3, 7, 1000])
 def test_packed_grids_in_batches(batch: int) -> None:
     segments = many_segments([50] * 7)
-    grids = voxelise(segments, PROTOCOL_V1)[0].reshape(7, -1)
+    grids = voxelize(segments, PROTOCOL_V1)[0].reshape(7, -1)
     packed = packed_grids(segments, PROTOCOL_V1, batch)
     assert packed.shape == (7, 38 * 38 * 18 // 8)
     assert np.array_equal(np.unpackbits(packed, axis=1, count=grids.shape[1]), grids)
@@ -240,7 +240,7 @@ def test_golden_input_of_the_network() -> None:
     cells = (aligned - middle) / 0.2
     assert 0.2 * np.abs(cells - np.rint(cells)).min() > 1e-5
 
-    occupancy, extents = voxelise(segment, PROTOCOL_V1)
+    occupancy, extents = voxelize(segment, PROTOCOL_V1)
     assert occupancy.sum() == 122
     assert hashlib.sha256(np.packbits(occupancy).tobytes()).hexdigest() == (
         "a4174e43260ffcfeac7701a568683b5284e32a5e6dbaffe30610c83f873954c2"

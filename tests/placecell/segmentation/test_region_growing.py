@@ -55,7 +55,7 @@ def test_linked_across_cell_borders_in_every_direction(direction: tuple[int, int
         assert grow_regions(pair, 0.25).tolist() == [0, 0]
 
 
-def test_first_layer_is_not_taken_for_the_neighbour_of_the_last() -> None:
+def test_first_layer_is_not_taken_for_the_neighbor_of_the_last() -> None:
     # Two cells that follow one another in the order of keys but lie far apart.
     cloud = points((0, 0, 3), (0, 0.3, 0), (0, 3, 0), (0.3, 0, 0), (0.3, 3, 3), (0.6, 0, 0))
     assert grow_regions(cloud, 0.25).tolist() == [0, 1, 2, 3, 4, 5]

@@ -10,7 +10,7 @@ import pytest
 from placecell_client.http.parsing import info
 from placecell_client.http.response import Answer
 
-from placecell.core.parameters import SURROUNDINGS_V1
+from placecell.core.parameters import NEIGHBORHOOD_V1
 from placecell.core.segments import Segments
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import voxels_by_owner
@@ -52,7 +52,7 @@ def test_ordinary_and_largest_requests_are_not_refused() -> None:
     limits = Limits()
     for size in (0.8, 10.0, 100.0):
         whole = scan(limits.segments, limits.points // limits.segments, 40.0, size)
-        cost = cost_of_describing(whole.points, whole.counts, SURROUNDINGS_V1)
+        cost = cost_of_describing(whole.points, whole.counts, NEIGHBORHOOD_V1)
         check_cost(cost + cost_of_search(1_000, 1_000_000, 25, 1), limits.cost_seconds)
     check_cost(cost_of_search(113, 20_000_000, 25, 1), limits.cost_seconds)
     sizes = [160_000, 160_000]
@@ -62,10 +62,10 @@ def test_ordinary_and_largest_requests_are_not_refused() -> None:
 @pytest.mark.parametrize(("extent", "size"), [(40.0, 0.8), (500.0, 0.8), (60.0, 15.0)])
 def test_near_voxels_are_told_within_a_factor(extent: float, size: float) -> None:
     segments = scan(80, 60, extent, size)
-    voxels, owners = voxels_by_owner(segments, SURROUNDINGS_V1.voxel)
+    voxels, owners = voxels_by_owner(segments, NEIGHBORHOOD_V1.voxel)
     away = np.linalg.norm(voxels[:, None, :2] - segments.centroids()[None, :, :2], axis=2)
     truly = int(np.count_nonzero(away < 40.0))
-    told = near_voxels(segments.points, segments.counts, SURROUNDINGS_V1)
+    told = near_voxels(segments.points, segments.counts, NEIGHBORHOOD_V1)
     assert 0.8 * truly <= told
     assert told <= min(len(segments) * len(segments.points), max(4 * truly, len(owners) * 20))
 
@@ -73,7 +73,7 @@ def test_near_voxels_are_told_within_a_factor(extent: float, size: float) -> Non
 def test_costs_grow_with_the_work() -> None:
     small, large = scan(20, 50, 40.0, 2.0), scan(40, 50, 40.0, 2.0)
     one, other = (
-        cost_of_describing(each.points, each.counts, SURROUNDINGS_V1) for each in (small, large)
+        cost_of_describing(each.points, each.counts, NEIGHBORHOOD_V1) for each in (small, large)
     )
     assert other.points == pytest.approx(2 * one.points)
     assert other.network == pytest.approx(2 * one.network)
@@ -91,7 +91,7 @@ def test_costs_grow_with_the_work() -> None:
 
 def test_no_segments_cost_nothing() -> None:
     nothing = scan(1, 5, 1.0, 1.0).take([])
-    assert cost_of_describing(nothing.points, nothing.counts, SURROUNDINGS_V1) == Cost()
+    assert cost_of_describing(nothing.points, nothing.counts, NEIGHBORHOOD_V1) == Cost()
 
 
 def test_refusal_tells_the_cost_the_limit_and_what_to_do() -> None:

@@ -30,7 +30,7 @@ def test_descriptors_are_the_librarys(start: Any, models_dir: Path, model: str) 
     with start(model=model) as service:
         response = service.post("/describe", json=request_of(clouds))
     np.testing.assert_allclose(column(response, "descriptor"), expected, atol=1e-5)
-    codes = extractor.manifest.quantiser.encode(expected)
+    codes = extractor.manifest.quantizer.encode(expected)
     np.testing.assert_array_equal(column(response, "codes"), codes)
     means = np.array([points.mean(axis=0) for points in clouds])
     np.testing.assert_allclose(column(response, "centroid"), means, atol=1e-5)
@@ -38,7 +38,7 @@ def test_descriptors_are_the_librarys(start: Any, models_dir: Path, model: str) 
     assert response.json()["dimension"] == extractor.manifest.dimension
 
 
-def test_map_coordinates_of_hundreds_of_kilometres_lose_nothing(service: Any) -> None:
+def test_map_coordinates_of_hundreds_of_kilometers_lose_nothing(service: Any) -> None:
     clouds = [cloud(seed) for seed in range(20)]
     shift = np.array([5e5, 5.4e6, 300.0])
     here = service.post("/describe", json=request_of(clouds))

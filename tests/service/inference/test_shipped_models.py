@@ -11,7 +11,7 @@ from placecell.descriptors import pair_classifier
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.pair_classifier import load_pair_classifier
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
 from tests.service.conftest import Start
 from tests.service.service_builders import cloud, map_of, packed, post_packed, request_of
@@ -26,7 +26,7 @@ def test_descriptor_and_probability_through_http_are_the_librarys(name: str, sta
     manifest = extractor.manifest
     segments = Segments.of([item.astype(np.float32) for item in CLOUDS], np.tile(SENSOR, (6, 1)))
     expected = extractor.describe(segments)
-    codes = manifest.quantiser.encode(expected)
+    codes = manifest.quantizer.encode(expected)
     with start(models_dir=MODELS_FOLDER, model=name) as client:
         assert client.get("/info").json()["model"]["model_id"] == manifest.model_id
         described = client.post("/describe", json=request_of(CLOUDS, SENSOR)).json()
@@ -39,14 +39,14 @@ def test_descriptor_and_probability_through_http_are_the_librarys(name: str, sta
         # The segments of a request surround one another, where the model looks around.
         single = client.post("/describe", json=request_of(CLOUDS[:1], SENSOR)).json()
         same = single["descriptors"][0]["codes"] == codes[0].tolist()
-        assert same == (manifest.surroundings is None)
+        assert same == (manifest.neighborhood is None)
         client.put("/maps/m", content=encode(map_of(codes, manifest.model_id, first_id=0)))
         matched = client.post("/match", json=request_of(CLOUDS, SENSOR) | {"k": 6}).json()
     classifier = load_pair_classifier(MODELS_FOLDER / name, manifest)
     assert classifier is not None
     for query, answer in zip(codes, matched["queries"], strict=True):
         found = answer["candidates"]
-        assert found[0]["distance"] == pytest.approx(0.0, abs=2 * manifest.quantiser.step)
+        assert found[0]["distance"] == pytest.approx(0.0, abs=2 * manifest.quantizer.step)
         against = codes[[candidate["id"] for candidate in found]]
         probability = classifier.probabilities(
             np.repeat(query[None], len(against), axis=0), against
@@ -72,13 +72,13 @@ def test_A7_pairs_are_classified_in_parts(monkeypatch: pytest.MonkeyPatch) -> No
     whole = classifier.probabilities(a, b)
     monkeypatch.setattr(pair_classifier, "PAIRS", 7)
     sizes: list[int] = []
-    decode = Quantiser.decode
+    decode = Quantizer.decode
 
-    def noted(self: Quantiser, some: Int8) -> Float32:
+    def noted(self: Quantizer, some: Int8) -> Float32:
         sizes.append(len(some))
         return decode(self, some)
 
-    monkeypatch.setattr(Quantiser, "decode", noted)
+    monkeypatch.setattr(Quantizer, "decode", noted)
     np.testing.assert_allclose(classifier.probabilities(a, b), whole, atol=1e-6)
     assert sizes == [7, 7, 7, 7, 6, 6]
     assert classifier.probabilities(a[:0], b[:0]).shape == (0,)

@@ -15,7 +15,7 @@ from placecell_client.maps.edit import apply, empty, take, with_optional
 
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from service.maps import deduplication
 from service.maps.deduplication import (
     NONE,
@@ -30,7 +30,7 @@ from service.maps.deduplication import (
 from tests.service.core.test_auth import made
 from tests.service.service_builders import assert_problem
 
-QUANTISER = Quantiser(1.0)
+QUANTIZER = Quantizer(1.0)
 NOTHING = empty("m", "1", "town", 7)
 
 
@@ -75,7 +75,7 @@ def joined(*parts: CompactMap) -> CompactMap:
 
 def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> Sighting:
     # Codes apart by 1 are 7 ** 0.5 steps apart.
-    return sighting(upload, stored, SameView(QUANTISER, 2 * 7**0.5), views=views)
+    return sighting(upload, stored, SameView(QUANTIZER, 2 * 7**0.5), views=views)
 
 
 def told(content: CompactMap) -> list[tuple[int, int, int]]:
@@ -206,7 +206,7 @@ def test_what_was_taken_in_is_known_from_then_on(
 
 
 def test_over_http(service: Any, manifest: Manifest) -> None:
-    same = int(SAME_VIEW * manifest.pair_threshold / manifest.quantiser.step / 7**0.5)
+    same = int(SAME_VIEW * manifest.pair_threshold / manifest.quantizer.step / 7**0.5)
 
     def send(time: float, ids: list[int], places: list[float], codes: list[int]) -> Any:
         upload = seen_at(time, ids, places, codes, model_id=manifest.model_id)
@@ -299,7 +299,7 @@ def compared_with_all(
     )
     moments = np.concatenate([each.frame_times[each.frame_index] for each in both])
     stands = np.concatenate([each.frame_positions[each.frame_index] for each in both])
-    levels = same.quantiser.levels(codes).astype(np.float32)
+    levels = same.quantizer.levels(codes).astype(np.float32)
     kept = list(range(len(known)))
     for row in range(len(known), len(seen)):
         apart = np.linalg.norm(centroids[kept] - centroids[row], axis=1)
@@ -358,7 +358,7 @@ def scattered(
 def test_A1_bounded_comparison_gives_what_comparing_all_gives(
     extent: float, moments: int, steps: float, itself: bool
 ) -> None:
-    same = SameView(Quantiser(0.01, 2), steps)
+    same = SameView(Quantizer(0.01, 2), steps)
     for seed in range(4):
         random = np.random.default_rng(seed)
         upload = scattered(random, 160, extent, 0, moments)
@@ -372,7 +372,7 @@ def test_A1_bounded_comparison_gives_what_comparing_all_gives(
 
 def peak_bytes(upload: CompactMap) -> int:
     """Memory that a comparison takes beside its arguments."""
-    nothing, same = take(upload, slice(0)), SameView(Quantiser(0.01), 1.0)
+    nothing, same = take(upload, slice(0)), SameView(Quantizer(0.01), 1.0)
     sighting(take(upload, slice(3)), nothing, same)
     tracemalloc.start()
     sighting(upload, nothing, same)
@@ -399,7 +399,7 @@ def test_A1_segment_is_compared_with_the_latest_so_many(
         frame_index=np.array([0] * 60 + [1], np.uint32),
         codes=np.array([0, *range(1, 60), 0], np.int8)[:, None],
     )
-    same = SameView(Quantiser(0.01), 0.5)
+    same = SameView(Quantizer(0.01), 0.5)
     nothing = take(upload, slice(0))
     for most, repeats in ((60, 1), (59, 0), (0, 0)):
         monkeypatch.setattr(deduplication, name, most)
@@ -411,4 +411,4 @@ def test_A1_comparison_stops_when_nobody_waits() -> None:
     with cancelled_by(CancelToken()) as token:
         token.cancel()
         with pytest.raises(Cancelled):
-            sighting(upload, take(upload, slice(0)), SameView(Quantiser(0.01), 1.0))
+            sighting(upload, take(upload, slice(0)), SameView(Quantizer(0.01), 1.0))

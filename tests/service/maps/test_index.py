@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from placecell.core.types import Bool, Float64, Int8, Int64
-from placecell.descriptors.quantizer import LEVELS, Quantiser
+from placecell.descriptors.quantizer import LEVELS, Quantizer
 from service.maps import index as map_index
 from service.maps.index import MARGIN, FlatIndex, NibbleIndex, index_of
 
@@ -17,11 +17,11 @@ def codes_of(rows: int, per_byte: int, width: int = 12, seed: int = 0) -> Int8:
 
 
 def by_hand(
-    stored: Int8, asked: Int8, quantiser: Quantiser, k: int, gone: Bool | None = None
+    stored: Int8, asked: Int8, quantizer: Quantizer, k: int, gone: Bool | None = None
 ) -> tuple[Float64, Int64]:
     """Every pair compared; ties by row."""
-    levels = quantiser.levels(stored).astype(np.int64)
-    apart = quantiser.levels(asked).astype(np.int64)[:, None] - levels[None]
+    levels = quantizer.levels(stored).astype(np.int64)
+    apart = quantizer.levels(asked).astype(np.int64)[:, None] - levels[None]
     squared = (apart**2).sum(axis=2).astype(float)
     if gone is not None:
         squared[:, gone] = np.inf
@@ -33,12 +33,12 @@ def by_hand(
 @pytest.mark.parametrize("rows", [1, 5, MARGIN + 9, 3000])
 @pytest.mark.parametrize("queries", [1, 19, 64])
 def test_the_nearest_are_those_of_comparing_all(per_byte: int, rows: int, queries: int) -> None:
-    quantiser = Quantiser(0.01, per_byte)
+    quantizer = Quantizer(0.01, per_byte)
     stored = codes_of(rows, per_byte)
     asked = codes_of(queries, per_byte, seed=1)
     asked[:rows:2] = stored[: len(asked[:rows:2])]
-    distances, found = index_of(stored, quantiser).search(asked, 10)
-    wanted, places = by_hand(stored, asked, quantiser, min(10, rows))
+    distances, found = index_of(stored, quantizer).search(asked, 10)
+    wanted, places = by_hand(stored, asked, quantizer, min(10, rows))
     np.testing.assert_array_equal(found, places)
     np.testing.assert_allclose(distances, wanted)
 
@@ -46,18 +46,18 @@ def test_the_nearest_are_those_of_comparing_all(per_byte: int, rows: int, querie
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 def test_ties_go_by_row_however_many(per_byte: int) -> None:
     # More rows equally near than are fetched at first.
-    quantiser = Quantiser(1.0, per_byte)
+    quantizer = Quantizer(1.0, per_byte)
     stored = np.repeat(codes_of(4, per_byte), 200, axis=0)
     stored[::200] = stored[0] * 0 - 100  # the farthest corner: sums as large as they can be
     asked = stored[[1, 201, 401]]
-    _, found = index_of(stored, quantiser).search(asked, 25)
-    np.testing.assert_array_equal(found, by_hand(stored, asked, quantiser, 25)[1])
+    _, found = index_of(stored, quantizer).search(asked, 25)
+    np.testing.assert_array_equal(found, by_hand(stored, asked, quantizer, 25)[1])
 
 
 def test_beyond_a_number_of_ties_any_of_them_will_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(map_index, "MOST", 64)
     stored = np.repeat(codes_of(1, 4), 5000, axis=0)
-    distances, found = index_of(stored, Quantiser(1.0, 4)).search(stored[:2], 40)
+    distances, found = index_of(stored, Quantizer(1.0, 4)).search(stored[:2], 40)
     assert (distances == 0).all()
     assert len(np.unique(found[0])) == 40
 
@@ -65,30 +65,30 @@ def test_beyond_a_number_of_ties_any_of_them_will_do(monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 @pytest.mark.parametrize("share", [0.1, 0.9, 0.999])
 def test_what_is_gone_is_not_found(per_byte: int, share: float) -> None:
-    quantiser = Quantiser(1.0, per_byte)
+    quantizer = Quantizer(1.0, per_byte)
     stored, asked = codes_of(3000, per_byte), codes_of(8, per_byte, seed=2)
     gone = np.random.default_rng(3).random(3000) < share
     gone[7] = False
     k = min(10, int((~gone).sum()))
-    distances, found = index_of(stored, quantiser).search(asked, 10, gone)
-    wanted, places = by_hand(stored, asked, quantiser, k, gone)
+    distances, found = index_of(stored, quantizer).search(asked, 10, gone)
+    wanted, places = by_hand(stored, asked, quantizer, k, gone)
     np.testing.assert_array_equal(found, places)
     np.testing.assert_allclose(distances, wanted)
 
 
 def test_of_nothing_nothing_is_found() -> None:
-    quantiser = Quantiser(1.0, 4)
+    quantizer = Quantizer(1.0, 4)
     stored = codes_of(3, 4)
     for k, gone, queries in ((0, None, 2), (5, np.ones(3, bool), 2), (5, None, 0)):
-        distances, rows = index_of(stored, quantiser).search(stored[:queries], k, gone)
+        distances, rows = index_of(stored, quantizer).search(stored[:queries], k, gone)
         assert distances.shape == rows.shape
         assert not rows.size
-    assert not index_of(stored[:0], quantiser).search(stored, 5)[1].size
+    assert not index_of(stored[:0], quantizer).search(stored, 5)[1].size
 
 
 def test_neither_the_batch_nor_the_order_of_queries_matters() -> None:
     stored, asked = codes_of(2000, 4, 32), codes_of(30, 4, 32, seed=4)
-    index = index_of(stored, Quantiser(1.0, 4))
+    index = index_of(stored, Quantizer(1.0, 4))
     together = index.search(asked, 10)
     for row in range(len(asked)):
         alone = index.search(asked[row : row + 1], 10)
@@ -100,14 +100,14 @@ def test_neither_the_batch_nor_the_order_of_queries_matters() -> None:
 def test_float_sums_are_exact(dimension: int) -> None:
     stored = codes_of(400, 1, dimension)
     stored[::10] = -127
-    quantiser = Quantiser(0.01)
-    distances, rows = FlatIndex(stored, quantiser).search(stored[:20], 25)
-    wanted, places = by_hand(stored, stored[:20], quantiser, 25)
+    quantizer = Quantizer(0.01)
+    distances, rows = FlatIndex(stored, quantizer).search(stored[:20], 25)
+    wanted, places = by_hand(stored, stored[:20], quantizer, 25)
     np.testing.assert_array_equal(rows, places)
     np.testing.assert_allclose(distances, wanted)
 
 
 def test_nibbles_are_taken_where_codes_are_made_of_them() -> None:
-    kinds = {per_byte: type(index_of(codes_of(9, per_byte), Quantiser(1.0, per_byte)))
+    kinds = {per_byte: type(index_of(codes_of(9, per_byte), Quantizer(1.0, per_byte)))
              for per_byte in LEVELS}  # fmt: skip
     assert kinds == {1: FlatIndex, 2: NibbleIndex, 3: FlatIndex, 4: NibbleIndex}

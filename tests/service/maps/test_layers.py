@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from placecell_client import CompactMap, Delta, encode, originated
 from placecell_client.maps.edit import apply, empty
 
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from service.maps.index import LayeredIndex, index_of
 from service.maps.layers import MapLayers, robots_of
 from tests.service.service_builders import map_of
 
-QUANTISER = Quantiser(0.1)
+QUANTIZER = Quantizer(0.1)
 NOTHING = empty("m", "1", "town", 7)
 
 
@@ -117,8 +117,8 @@ def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], 
         layers = layers.after(each)
     flat = layers.content()
     queries = segments(list(range(13)), 1).codes
-    distances, rows = LayeredIndex.of(layers, QUANTISER).search(layers, queries, k)
-    expected, places = index_of(flat.codes, QUANTISER).search(queries, k)
+    distances, rows = LayeredIndex.of(layers, QUANTIZER).search(layers, queries, k)
+    expected, places = index_of(flat.codes, QUANTIZER).search(queries, k)
     np.testing.assert_array_equal(distances, expected)
     np.testing.assert_array_equal(layers.column("ids", rows), flat.ids[places])
     np.testing.assert_array_equal(layers.column("centroids", rows), flat.centroids[places])

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 from cli import app
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from service.core.settings import Limits
 from service.maps.cache import MapCache
 from service.maps.index import FlatIndex, MapIndex, NibbleIndex, Nibbles
@@ -53,16 +53,16 @@ def traced(make: Any) -> tuple[Any, int, int]:
 @pytest.mark.slow
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 def test_A2_an_index_of_nothing_takes_no_memory(per_byte: int) -> None:
-    codes, quantiser = np.zeros((0, 32), np.int8), Quantiser(0.01, per_byte)
+    codes, quantizer = np.zeros((0, 32), np.int8), Quantizer(0.01, per_byte)
     kind = FlatIndex if per_byte == 1 else NibbleIndex
-    kind(codes, quantiser)  # what all of a kind share
-    indexes, held, _ = traced(lambda: [kind(codes, quantiser) for _ in range(1_000)])
+    kind(codes, quantizer)  # what all of a kind share
+    indexes, held, _ = traced(lambda: [kind(codes, quantizer) for _ in range(1_000)])
     assert len(indexes) == 1_000
     assert held < 1_000 * 1_000
 
 
 def test_A2_indexes_of_one_code_share_their_tables() -> None:
-    one, other = (NibbleIndex(random_codes(9, n), Quantiser(0.1 + n, 4)) for n in range(2))
+    one, other = (NibbleIndex(random_codes(9, n), Quantizer(0.1 + n, 4)) for n in range(2))
     assert one._tables is other._tables is Nibbles.of(4)
     assert Nibbles.of(2) is not Nibbles.of(4)
 
@@ -309,7 +309,7 @@ def test_B19_free_memory_goes_back_after_many_writes(
 @pytest.mark.slow
 def test_B19_an_index_is_made_in_pieces() -> None:
     codes = random_codes(100_000, dimension=8)
-    for kind, quantiser in ((NibbleIndex, Quantiser(1.0, 4)), (FlatIndex, Quantiser(1.0))):
-        _, _, most = traced(lambda kind=kind, quantiser=quantiser: kind(codes, quantiser))
+    for kind, quantizer in ((NibbleIndex, Quantizer(1.0, 4)), (FlatIndex, Quantizer(1.0))):
+        _, _, most = traced(lambda kind=kind, quantizer=quantizer: kind(codes, quantizer))
         # NumPy's indices of all codes would take eight times their bytes.
         assert most < 4 * codes.nbytes

@@ -8,14 +8,14 @@ from placecell_client import CompactMap, originated
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.edit import difference, empty
 
-from placecell.descriptors.quantizer import Quantiser
+from placecell.descriptors.quantizer import Quantizer
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from service.maps.deduplication import RADIUS, VIEWS, SameView
 from service.merging.join import ROUNDED, MergePart, PartOutcome, join, join_settled, known_pose
 
 PARAMETERS = AlignmentParameters()
-SAME = SameView(Quantiser(0.01), 40.0)
+SAME = SameView(Quantizer(0.01), 40.0)
 NAMES = ("a", "b", "c")
 
 

@@ -60,8 +60,8 @@ def pose_told(pose: dict[str, Any]) -> Pose:
 def assert_aligned(told: dict[str, Any], truth: Pose, at: np.ndarray) -> None:
     assert told["aligned"], told
     assert (told["reason"], told["detail"]) == (None, "")
-    metres, angle = pose_told(told["pose"]).difference(truth, at)
-    assert metres < 0.3
+    meters, angle = pose_told(told["pose"]).difference(truth, at)
+    assert meters < 0.3
     assert np.degrees(angle) < 0.5
 
 
@@ -96,8 +96,8 @@ def test_the_other_way_around_it_is_the_inverse(stocked: Any) -> None:
     assert_aligned(back, relative("west", "east"), middle(stocked, "east"))
     there = stocked.post("/maps/east/align/west").json()
     around = pose_told(there["pose"]).after(pose_told(back["pose"]))
-    metres, angle = around.difference(Pose.of_yaw(0.0, np.zeros(3)), middle(stocked, "east"))
-    assert metres < 0.1
+    meters, angle = around.difference(Pose.of_yaw(0.0, np.zeros(3)), middle(stocked, "east"))
+    assert meters < 0.1
     assert np.degrees(angle) < 0.2
 
 

@@ -8,7 +8,7 @@ from placecell_client import CompactMap, moved, originated
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.edit import take
 
-from placecell.localization import LocalisationParameters, Pose
+from placecell.localization import LocalizationParameters, Pose
 from placecell.map_alignment import AlignmentParameters
 from service.merging.join import known_pose
 from tests.service.merging.merged_map_builders import driven
@@ -38,7 +38,7 @@ def turned(part: CompactMap) -> CompactMap:
 
 
 def assert_laid(part: CompactMap, site: CompactMap, motion: str = "yaw") -> None:
-    local = LocalisationParameters(model="se3" if motion == "se3" else "yaw")
+    local = LocalizationParameters(model="se3" if motion == "se3" else "yaw")
     pose = known_pose(site, part, AlignmentParameters(local=local))
     assert pose is not None
     off = pose.apply(part.centroids) - TRUTH.apply(part.centroids)

@@ -591,9 +591,9 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
         joined.append(layers)
         return content(layers)
 
-    def indexing(codes: Any, quantiser: Any) -> Any:
+    def indexing(codes: Any, quantizer: Any) -> Any:
         indexed.append(len(codes))
-        return index_of(codes, quantiser)
+        return index_of(codes, quantizer)
 
     monkeypatch.setattr(MapLayers, "content", counted)
     monkeypatch.setattr("service.merging.alignment.index_of", indexing)

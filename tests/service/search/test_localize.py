@@ -308,7 +308,7 @@ def test_without_maps_nothing_is_said(service: Any, body: Any) -> None:
     assert answer["unusable"][0]["error"]["type"].endswith("too-few-points")
 
 
-def test_segments_are_localised_as_their_codes_are(service: Any, manifest: Manifest) -> None:
+def test_segments_are_localized_as_their_codes_are(service: Any, manifest: Manifest) -> None:
     clouds = [cloud(seed) for seed in range(30)]
     clouds[4] = clouds[4][:3]
     described = service.post("/describe", json=request_of(clouds)).json()["descriptors"]

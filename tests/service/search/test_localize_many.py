@@ -11,7 +11,7 @@ from placecell_client.maps.edit import take
 
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
-from placecell.localization import LocalisationParameters
+from placecell.localization import LocalizationParameters
 from service.maps import shared_index
 from service.maps.shared_index import SharedIndexes
 from service.search import ranking
@@ -378,8 +378,8 @@ def test_B13_a_cancelled_search_stops(stocked: Any, manifest: Manifest) -> None:
     searched = tuple(maps.all())
     codes, centroids = seen_in(many(manifest)["map-001"])
     model = stocked.app.state.placecell.models.default
-    known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantiser, ())
-    parameters = LocalisationParameters()
+    known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantizer, ())
+    parameters = LocalizationParameters()
     votes = votes_of(codes, centroids, searched, known, parameters)
     assert votes.argmax() == 1
     assert votes[1] == 40
@@ -396,8 +396,8 @@ def test_B13_votes_are_counted_in_parts_where_there_are_too_many(
     searched = tuple(stocked.app.state.placecell.maps.all())
     codes, centroids = seen_in(many(manifest)["map-001"])
     model = stocked.app.state.placecell.models.default
-    known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantiser, ())
-    votes = votes_of(codes, centroids, searched, known, LocalisationParameters())
+    known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantizer, ())
+    votes = votes_of(codes, centroids, searched, known, LocalizationParameters())
     assert votes.argmax() == 1
 
 

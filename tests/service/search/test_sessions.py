@@ -3,7 +3,7 @@ import threading
 import numpy as np
 import pytest
 
-from placecell.localization import Hypothesis, LocalisationParameters, Pose
+from placecell.localization import Hypothesis, LocalizationParameters, Pose
 from service.search.sessions import SessionKey, Sessions
 
 BEFORE, NOW = np.zeros(3), np.array([5.0, 0.0, 0.0])
@@ -38,7 +38,7 @@ def clock() -> Clock:
 
 @pytest.fixture
 def sessions(clock: Clock) -> Sessions:
-    return Sessions(3, LocalisationParameters(memory=10.0), clock)
+    return Sessions(3, LocalizationParameters(memory=10.0), clock)
 
 
 def test_what_was_found_is_evidence(sessions: Sessions) -> None:
@@ -88,7 +88,7 @@ def test_of_too_many_the_one_silent_longest_goes(sessions: Sessions, clock: Cloc
 
 
 def test_A25_a_key_with_many_sessions_displaces_its_own_alone(clock: Clock) -> None:
-    sessions = Sessions(6, LocalisationParameters(memory=10.0), clock)
+    sessions = Sessions(6, LocalizationParameters(memory=10.0), clock)
     for name in ("a", "b"):
         sessions.remember(key(name, holder="quiet"), BEFORE, [hypothesis()])
     sessions.remember(key("c", holder="another"), BEFORE, [hypothesis()])
@@ -118,7 +118,7 @@ def test_a_session_keeps_so_many_requests(sessions: Sessions, clock: Clock) -> N
         sessions.remember(key(), BEFORE, [hypothesis()] * 3)
     evidence = sessions.evidence(key(), NOW)
     assert evidence is not None
-    assert len(evidence.past) == LocalisationParameters().remembered
+    assert len(evidence.past) == LocalizationParameters().remembered
 
 
 def test_many_threads_at_once() -> None:
