@@ -74,6 +74,7 @@ def newcomer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Newcomer]:
         yield Newcomer(folder, address)
 
 
+@pytest.mark.slow
 def test_first_map_is_made_and_the_other_robot_is_found_in_it(newcomer: Newcomer) -> None:
     for command in commands_of("tutorials/first-map.md", "python"):
         printed = newcomer.run(command)
@@ -86,6 +87,7 @@ def test_first_map_is_made_and_the_other_robot_is_found_in_it(newcomer: Newcomer
     assert "yard" in newcomer.run("placecell maps list")
 
 
+@pytest.mark.slow
 def test_two_robots_maps_are_aligned_and_merged(newcomer: Newcomer) -> None:
     page = "tutorials/two-robots.md"
     for command in commands_of(page, "python"):
