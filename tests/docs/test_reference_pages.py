@@ -1,6 +1,7 @@
 """Generated pages are as the code is, and hand-written lists are complete."""
 
 import ast
+import pkgutil
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -91,3 +92,18 @@ def test_metrics_that_the_documents_name_exist() -> None:
     names = named_in_docs(r"\b(placecell_(?!client)[a-z_]+)\b")
     missing = {name for name in names if not re.search(rf"^# HELP {name}\b", shown, re.MULTILINE)}
     assert not missing
+
+
+OBJECT = re.compile(r"^::: ([\w.]+)\n(?:    options:\n((?:      .*\n)+))?", re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", ["library.md", "python-client.md"])
+def test_objects_that_the_site_shows_exist(page: str) -> None:
+    # The site leaves out what a list of members names and the module lacks.
+    found = OBJECT.findall((FOLDER / page).read_text(encoding="utf-8"))
+    assert found
+    for name, options in found:
+        shown = pkgutil.resolve_name(name)
+        members = re.search(r"members: \[(.+)\]", options)
+        for member in re.split(", *", members[1]) if members else []:
+            assert hasattr(shown, member), f"{page}: {name} has no {member}"
