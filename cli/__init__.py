@@ -1,4 +1,4 @@
-"""The command line: `placecell`, one file a subcommand; heavy imports wait until it runs."""
+"""The command line `placecell`: one file per subcommand; heavy imports happen on use."""
 
 from typing import Annotated
 
@@ -23,7 +23,7 @@ from cli.town import town
 from cli.train import train
 
 OLD_SPELLINGS = {"metres": "meters", "pair-metres": "pair-meters", "licence": "license"}
-"""Options that were spelled the British way, and are still accepted so."""
+"""Former British spellings of options; they are accepted, but not shown."""
 
 
 def current_spelling(word: str) -> str:
@@ -50,7 +50,7 @@ def show_version(wanted: bool) -> None:
         try:
             typer.echo(f"placecell {metadata.version('placecell')}")
         except metadata.PackageNotFoundError:
-            typer.echo("placecell, version unknown: it is not installed")
+            typer.echo("placecell, unknown version: the package is not installed")
         raise typer.Exit
 
 
@@ -67,18 +67,21 @@ def root(
     del version
 
 
-app.command()(takes_drives(demo))
-app.command()(town)
-app.command()(takes_drives(prepare))
-app.command()(takes_drives(train))
-app.command()(takes_drives(evaluate))
-app.command()(takes_drives(evaluate_poses))
-app.command()(fit_confidence)
-app.command()(takes_drives(experiments))
-app.command()(takes_drives(study))
-app.command()(takes_drives(ablations))
-app.add_typer(bench, name="bench")
-app.command()(serve)
-app.command()(config)
-app.command()(keys)
-app.add_typer(maps, name="maps")
+RUN, MAP, EVALUATE, TRAIN, MEASURE = "Run", "Map", "Evaluate", "Train", "Measure"
+"""Panels of `placecell --help`."""
+
+app.command(rich_help_panel=RUN)(takes_drives(demo))
+app.command(rich_help_panel=RUN)(serve)
+app.command(rich_help_panel=RUN)(config)
+app.command(rich_help_panel=RUN)(keys)
+app.add_typer(maps, name="maps", rich_help_panel=MAP)
+app.command(rich_help_panel=MAP)(town)
+app.command(rich_help_panel=MAP)(takes_drives(prepare))
+app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate))
+app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_poses))
+app.command(rich_help_panel=EVALUATE)(takes_drives(study))
+app.command(rich_help_panel=TRAIN)(takes_drives(train))
+app.command(rich_help_panel=TRAIN)(fit_confidence)
+app.command(rich_help_panel=TRAIN)(takes_drives(experiments))
+app.command(rich_help_panel=TRAIN)(takes_drives(ablations))
+app.add_typer(bench, name="bench", rich_help_panel=MEASURE)

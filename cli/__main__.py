@@ -1,4 +1,4 @@
-"""`python -m cli`: the same as `placecell`."""
+"""Run the command line: `python -m cli` is the same as `placecell`."""
 
 from cli import app
 

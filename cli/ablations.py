@@ -1,4 +1,4 @@
-"""`placecell ablations`: what each part of the context model is worth."""
+"""`placecell ablations`: measures what each part of the context model contributes."""
 
 import json
 import shlex
@@ -16,27 +16,30 @@ def ablations(
     train: Annotated[
         list[str],
         typer.Option(
-            help=SOURCE_HELP + TOWN_HELP + " May be repeated.", metavar="DRIVE[@FIRST:LAST]"
+            help="Training drive; repeatable. " + SOURCE_HELP + TOWN_HELP,
+            metavar="DRIVE[@FIRST:LAST]",
         ),
     ],
-    test: Annotated[str, typer.Option(help="What to test on.", metavar="DRIVE[@FIRST:LAST]")],
+    test: Annotated[
+        str, typer.Option(help="Test drive. " + SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")
+    ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for runs, models and the report.")
+        Path, typer.Option("--output", "-o", help="Folder for the runs, the models and the report.")
     ] = Path("out/ablations"),
-    epochs: Annotated[int, typer.Option(min=1, help="Of every training.")] = 6,
-    seeds: Annotated[int, typer.Option(min=1, help="Of the model itself.")] = 3,
+    epochs: Annotated[int, typer.Option(min=1, help="Number of epochs of each training.")] = 6,
+    seeds: Annotated[int, typer.Option(min=1, help="Number of seeds for the unchanged model.")] = 3,
     part: Annotated[
         list[str] | None,
         typer.Option(
-            help="Only these: model, surroundings, data, augmentation, network, loss. "
-            "May be repeated. (default: all)"
+            help="Part to vary: model, surroundings, data, augmentation, network or loss; "
+            "repeatable. (default: all)"
         ),
     ] = None,
 ) -> None:
-    """Train the context model with one thing changed at a time, and compare.
+    """Train variants of the context model that differ in one part, and compare them.
 
-    Losses are compared at the best of the same learning rates, told by the validation groups. Run
-    it again to go on where it was stopped.
+    Each loss is trained with the same set of learning rates; the validation groups select the best
+    one. Run the same command again to continue a stopped run.
     """
     from rich.progress import Progress
 
@@ -54,7 +57,7 @@ def ablations(
         everything = list(variants(epochs, seeds))
         parts = dict.fromkeys(variant.part for variant in everything)
         if unknown := set(part or ()) - set(parts):
-            raise ValueError(f"no part {unknown.pop()!r}; there are {', '.join(parts)}")
+            raise ValueError(f"unknown part {unknown.pop()!r}; expected one of {', '.join(parts)}")
         chosen = [one for one in everything if not part or one.part in {"model", *part}]
         with Progress(console=progress_console()) as progress:
             report = run_ablations(sources(train), source(test), chosen, output, progress)
@@ -62,4 +65,4 @@ def ablations(
         (output / "ablations.json").write_text(
             json.dumps(report, indent=1) + "\n", encoding="utf-8"
         )
-    typer.echo(f"report: {file}")
+    typer.echo(f"The report is in {file}.")

@@ -1,4 +1,4 @@
-"""`placecell config`: every setting of the service, where it comes from, and what it means."""
+"""`placecell config`: shows each setting of the service, its value, source and meaning."""
 
 import json
 import os
@@ -11,10 +11,10 @@ from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 
 def config(as_json: JsonFlag = False) -> None:
-    """Show every setting of the service: its value, where that comes from, and what it means.
+    """Show each setting of the service: its value, where the value comes from, and its meaning.
 
-    Settings come from the command line of 'placecell serve', then the environment, then
-    placecell.toml (or the file that PLACECELL_CONFIG names), then the defaults.
+    The first source that has a setting wins: the options of 'placecell serve', the environment,
+    the file placecell.toml (or the file that PLACECELL_CONFIG names), the default.
     """
     from pydantic import BaseModel
 
@@ -30,7 +30,7 @@ def config(as_json: JsonFlag = False) -> None:
         settings = Settings()
         file = settings_file()
         stated = read_settings(file)
-    # Their names may be written in any case.
+    # Names of environment variables are not case-sensitive.
     environment = {
         name.upper(): value
         for name, value in os.environ.items()
@@ -65,5 +65,6 @@ def config(as_json: JsonFlag = False) -> None:
         shown = ", ".join(value) if isinstance(value, tuple) else str(value)
         table.add_row(one["setting"], shown, one["from"], one["meaning"])
     print_tables(table)
-    typer.echo(f"In a file: {file} (here {'present' if stated else 'absent'}), such as")
+    presence = "exists" if stated else "does not exist"
+    typer.echo(f"The settings file {file} {presence}. Example of its content:")
     typer.echo("    port = 9000\n    [limits]\n    k = 50")

@@ -1,4 +1,4 @@
-"""Options of every command that reads recorded drives: the layout of their files."""
+"""Options of all commands that read recorded drives: the layout of the drive's files."""
 
 import functools
 import inspect
@@ -37,7 +37,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
         Annotated[
             DType | None,
             typer.Option(
-                help="Type of a scan's values. (default: inferred from the values)",
+                help="Data type of a scan's values. (default: inferred from the values)",
                 rich_help_panel=PANEL,
             ),
         ],
@@ -47,7 +47,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
         Annotated[
             Order,
             typer.Option(
-                help="Order of a scan's values: rows (point by point) or columns (all x first).",
+                help="Memory order of a scan: rows (point by point) or columns (all x first).",
                 rich_help_panel=PANEL,
             ),
         ],
@@ -61,7 +61,9 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
         "m",
     ),
     "time_unit": (
-        Annotated[TimeUnit, typer.Option(help="Unit of times.txt.", rich_help_panel=PANEL)],
+        Annotated[
+            TimeUnit, typer.Option(help="Unit of the times in times.txt.", rich_help_panel=PANEL)
+        ],
         "s",
     ),
     "strict": (
@@ -69,7 +71,7 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
             bool,
             typer.Option(
                 "--strict",
-                help="Refuse a drive with scans that cannot be used or points that are NaN. "
+                help="Refuse a drive that has unusable scans or NaN points. "
                 "(default: skip and count them)",
                 rich_help_panel=PANEL,
             ),
@@ -80,12 +82,12 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
 
 
 def tell(message: str) -> None:
-    """Print on standard error what was found in a drive's files."""
+    """Print a finding about a drive's files on standard error."""
     typer.echo(f"placecell: {message}", err=True)
 
 
 def takes_drives(command: Callable[..., None]) -> Callable[..., None]:
-    """Add the options of recorded drives to a command; they apply while it runs."""
+    """Add the options of recorded drives to a command; they apply while the command runs."""
 
     @functools.wraps(command)
     def with_options(**words: Any) -> None:

@@ -13,10 +13,10 @@ import typer
 from typer.core import TyperGroup
 
 DEBUG_VARIABLE = "PLACECELL_DEBUG"
-"""Environment variable that shows unexpected errors with their stack trace, whatever its value."""
+"""Environment variable; if it is set, errors show their stack trace."""
 
 FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
-"""Exit statuses; the last two are 128 and the signal's number, as shells have it."""
+"""Exit statuses. The last two are 128 plus the signal's number, as in shells."""
 
 
 def fail(message: object, status: int = FAILED) -> NoReturn:
@@ -28,15 +28,15 @@ def fail(message: object, status: int = FAILED) -> NoReturn:
 
 @contextmanager
 def clear_errors() -> Iterator[None]:
-    """Show errors that the user can mend as one line, without a stack trace."""
+    """Show errors that the user can fix as one line, without a stack trace."""
     try:
         yield
     except BrokenPipeError:
-        raise  # Whoever reads our output has gone: nothing to say, and nobody to say it to.
+        raise  # The reader of the output has closed the pipe; no message is needed.
     except ModuleNotFoundError as error:
         if os.environ.get(DEBUG_VARIABLE):
             raise
-        fail(f"needs {error.name}, which is not installed: make install")
+        fail(f"The Python package {error.name} is not installed. Run 'make install'.")
     except (ValueError, OSError) as error:
         if os.environ.get(DEBUG_VARIABLE):
             raise
@@ -48,7 +48,7 @@ def plain(error: BaseException) -> str:
     if isinstance(error, OSError):
         return _plain_os_error(error)
     if isinstance(error, UnicodeError):
-        return f"text that cannot be read or written in its encoding ({error})"
+        return f"text has the wrong encoding ({error})"
     if isinstance(error, json.JSONDecodeError):
         return f"not valid JSON ({error})"
     if isinstance(error, MemoryError):
@@ -84,8 +84,7 @@ def _plain_os_error(error: OSError) -> str:
 
 
 ASCII = "placecell_ascii"
-"""ASCII under another name: Typer takes a stream of that encoding for misconfigured, and sends it
-UTF-8 all the same."""
+"""Alias of ASCII. Typer treats an ASCII stream as misconfigured and writes UTF-8 to it."""
 
 
 def _find_codec(name: str) -> codecs.CodecInfo | None:
@@ -105,7 +104,7 @@ codecs.register(_find_codec)
 
 
 def _prepare_streams() -> None:
-    """Escape characters that the terminal cannot show, so that no name ends a command."""
+    """Escape characters that the terminal cannot show, so that output never fails."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by the shell: `>&-`
@@ -117,17 +116,17 @@ def _prepare_streams() -> None:
 
 
 def _silence(stream: Any) -> None:
-    """Discard what is left in a stream's buffer, so that nothing fails at exit."""
+    """Discard the rest of a stream's buffer, so that flushing at exit does not fail."""
     try:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())
         os.close(nowhere)
     except (OSError, ValueError):
-        return  # No file behind it.
+        return  # The stream has no file descriptor.
 
 
 class Commands(TyperGroup):
-    """Root of all commands; turns exceptions into a line and an exit status."""
+    """Root command group: turns exceptions into one line and an exit status."""
 
     def main(
         self,
@@ -145,10 +144,10 @@ class Commands(TyperGroup):
         try:
             status = super().main(*words, False, windows_expand_args, **extra)
         except typer.Abort:
-            typer.echo("placecell: aborted; nothing was changed", err=True)
+            typer.echo("placecell: The command was aborted. Nothing was changed.", err=True)
             status = FAILED
         except Exception as error:
-            # Words that cannot be understood: a wrong option, a missing argument.
+            # Usage errors, such as an unknown option or a missing argument.
             if not hasattr(error, "format_message"):
                 raise
             status = _show_usage(error)
@@ -172,8 +171,8 @@ class Commands(TyperGroup):
             if hasattr(error, "format_message") or os.environ.get(DEBUG_VARIABLE):
                 raise
             fail(
-                f"{type(error).__name__}: {plain(error)} (unexpected; "
-                f"{DEBUG_VARIABLE}=1 shows where)"
+                f"Unexpected {type(error).__name__}: {plain(error)}. "
+                f"Set {DEBUG_VARIABLE}=1 to see the stack trace."
             )
 
 
@@ -182,7 +181,7 @@ def _flush() -> None:
 
     Raises:
         Exit: the output cannot be written.
-        BrokenPipeError: nobody reads it.
+        BrokenPipeError: the reader has closed the pipe.
     """
     try:
         sys.stdout.flush()
@@ -194,7 +193,7 @@ def _flush() -> None:
 
 
 def _show_usage(error: Any) -> int:
-    """Print two lines, the usage error and where to find help; return the exit status."""
+    """Print the usage error and the help command on two lines; return the exit status."""
     status = int(error.exit_code)
     context = getattr(error, "ctx", None)
     if type(error).__name__ == "NoArgsIsHelpError":

@@ -1,4 +1,4 @@
-"""`placecell evaluate`: how well the extractors recognise the segments of a drive."""
+"""`placecell evaluate`: measures how well extractors recognize the segments of a drive."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,38 +13,40 @@ ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc",
 
 def evaluate(
     drive: Annotated[
-        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
     ],
     scans: Annotated[
         str | None,
         typer.Option(
-            metavar="FIRST:LAST", help="Only groups wholly within these scans, both included."
+            metavar="FIRST:LAST",
+            help="Evaluate only groups that lie wholly within these scans, both included. "
+            "(default: all groups)",
         ),
     ] = None,
     every: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
+            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
         ),
     ] = None,
     model: Annotated[
         list[str] | None,
-        typer.Option(help="A model's name or folder; may be repeated. (default: all shipped)"),
+        typer.Option(help="Model name or folder; repeatable. (default: all shipped models)"),
     ] = None,
     json_file: JsonFile = None,
-    seed: Annotated[int, typer.Option(help="Of the pairs that are drawn.")] = 0,
+    seed: Annotated[int, typer.Option(help="Random seed for the drawn pairs.")] = 0,
 ) -> None:
-    """Measure every extractor on a drive, beside the eigenvalue baseline.
+    """Measure extractors on a drive, with the eigenvalue baseline for comparison.
 
-    Definitions of the figures: docs/results/recognition.md.
+    docs/results/recognition.md defines the figures.
     """
     from evaluation.recognition.evaluate import evaluate as evaluate_recording
     from evaluation.recognition.evaluate import open_models
 
     with clear_errors():
         limits = parse_scans(scans) if scans else None
-        # What may be wrong is looked at before the drive is cut, which takes a while.
+        # Check all arguments first; segmenting the drive takes minutes.
         models = open_models(model or ())
         if json_file:
             json_file.parent.mkdir(parents=True, exist_ok=True)
@@ -54,7 +56,7 @@ def evaluate(
 
 
 def print_table(report: dict[str, Any]) -> None:
-    """The figures as a table on the terminal."""
+    """Print the figures as a table."""
     first, last = report["scans"]
     typer.echo(
         f"{report['drive']}, scans {first} to {last}, protocol {report['protocol']}: "
@@ -76,5 +78,5 @@ def print_table(report: dict[str, Any]) -> None:
 
 
 def percent(value: float | None) -> str:
-    """A share for people to read."""
+    """Format a share as a percentage; None as a dash."""
     return "-" if value is None else f"{value:.1%}"

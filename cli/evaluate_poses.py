@@ -1,4 +1,4 @@
-"""`placecell evaluate-poses`: how well a robot finds its place in a map."""
+"""`placecell evaluate-poses`: measures how well a robot is localized in a map."""
 
 import json
 from pathlib import Path
@@ -11,61 +11,74 @@ from cli.tables import JsonFile, new_table, print_tables, write_json
 
 
 def evaluate_poses(
-    map_drive: Annotated[Path, typer.Argument(help="Folder of the drive that the map is made of.")],
+    map_drive: Annotated[Path, typer.Argument(help="Drive folder for the map.")],
     query_drive: Annotated[
         Path | None,
         typer.Argument(
-            help="Folder of the drive that asks, through the same town. Left out: alternate blocks "
-            "of the one drive are map and queries."
+            help="Drive folder for the queries, in the same place. (default: alternate blocks of "
+            "MAP_DRIVE are map and queries)"
         ),
     ] = None,
     model: Annotated[
         str | None,
-        typer.Option(help="A model's name or folder. (default: the one that is served)"),
+        typer.Option(help="Model name or folder. (default: the service's default model)"),
     ] = None,
     every: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
+            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
         ),
     ] = None,
-    k: Annotated[int, typer.Option(min=1, help="Candidates a segment.")] = 25,
+    k: Annotated[int, typer.Option(min=1, help="Number of candidates per segment.")] = 25,
     motion: Annotated[
-        str, typer.Option(help="yaw: yaw and translation, for gravity is known; se3: all six.")
+        str,
+        typer.Option(
+            help="Degrees of freedom: yaw (x, y, z, yaw; gravity is known) or se3 (all six)."
+        ),
     ] = "yaw",
     session: Annotated[
-        bool, typer.Option(help="Requests of one session: those of the last seconds count too.")
+        bool,
+        typer.Option(
+            help="Send all queries in one session: the requests of the last seconds also count."
+        ),
     ] = False,
     queries: Annotated[
-        int | None, typer.Option(min=1, help="So many, spread evenly. (default: all frames)")
+        int | None,
+        typer.Option(min=1, help="Number of queries, spread evenly. (default: all captures)"),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of the asking robot's own frame.")] = 0,
+    seed: Annotated[
+        int, typer.Option(help="Random seed for the query robot's coordinate frame.")
+    ] = 0,
     map_recording: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="What 'placecell prepare' made of MAP_DRIVE, so as not to cut it again.",
+            help="Recording of MAP_DRIVE from 'placecell prepare'; saves segmenting it again.",
         ),
     ] = None,
     query_recording: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="The same of QUERY_DRIVE.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Recording of QUERY_DRIVE from 'placecell prepare'."),
     ] = None,
     json_file: JsonFile = None,
     answers: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Write what became of each query here, a line of JSON each."
+            metavar="FILE", help="File for the result of each query, one JSON object per line."
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Draw precision, recall and reliability into this PNG."),
+        typer.Option(
+            metavar="FILE", help="PNG file for a plot of precision, recall and reliability."
+        ),
     ] = None,
 ) -> None:
-    """Measure localisation: every frame of one drive is asked in the map of another.
+    """Measure localization: each capture of one drive is localized in the map of another drive.
 
-    Through the service's own code, in this process. Definitions: docs/results/localization.md.
+    The command runs the service's code in its own process. docs/results/localization.md defines
+    the figures.
     """
     from evaluation.poses.evaluate import draw, evaluate
     from evaluation.poses.queries import Pair
@@ -74,7 +87,7 @@ def evaluate_poses(
 
     with clear_errors():
         if motion not in {"yaw", "se3"}:
-            raise ValueError(f"--motion is yaw or se3, not {motion!r}")
+            raise ValueError(f"Invalid --motion {motion!r}: expected yaw or se3.")
         pair = Pair.of(map_drive, query_drive, every, (map_recording, query_recording), show)
         parameters = LocalizationParameters(model="se3" if motion == "se3" else "yaw")
         folder = model_folder(model or DEFAULT_MODEL)
@@ -89,7 +102,7 @@ def evaluate_poses(
 
 
 def print_report(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     where = "by blocks" if report["blocks"] else f"in the map of {report['map_drive']}"
     typer.echo(
         f"{report['query_drive']} {where}, protocol {report['protocol']}, {report['model_id']}: "
@@ -105,10 +118,11 @@ def print_report(report: dict[str, Any]) -> None:
     if beyond["queries"]:
         counts = beyond["counts"]
         typer.echo(
-            f"beyond the map {beyond['queries']:,} more: {counts['localised_right']} right, "
-            f"{counts['wrong_but_sure']} wrong but sure, {counts['not_localised']} not localised"
+            f"outside the map: {beyond['queries']:,} queries, {counts['localised_right']} right, "
+            f"{counts['wrong_but_sure']} wrong but sure, {counts['not_localised']} not localized"
         )
     typer.echo(
-        f"median error {report['median_position_error_m']} m, {report['median_yaw_error_deg']} "
-        f"deg; {report['p50_ms']} ms (p50), {report['p99_ms']} ms (p99) from descriptors to pose"
+        f"Median error: {report['median_position_error_m']} m, {report['median_yaw_error_deg']} "
+        f"deg. Time from descriptors to pose: {report['p50_ms']} ms (p50), "
+        f"{report['p99_ms']} ms (p99)."
     )

@@ -1,4 +1,4 @@
-"""`placecell experiments`: the paper's experiments, from trainings to the report."""
+"""`placecell experiments`: runs the paper's experiments and writes a report."""
 
 import shlex
 from pathlib import Path
@@ -14,47 +14,51 @@ def experiments(
     train: Annotated[
         list[str] | None,
         typer.Option(
-            help=SOURCE_HELP + TOWN_HELP + " May be repeated.", metavar="DRIVE[@FIRST:LAST]"
+            help="Training drive; repeatable. " + SOURCE_HELP + TOWN_HELP,
+            metavar="DRIVE[@FIRST:LAST]",
         ),
     ] = None,
     test: Annotated[
-        str | None, typer.Option(help="What to test on.", metavar="DRIVE[@FIRST:LAST]")
+        str | None, typer.Option(help="Test drive. " + SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")
     ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
             "--output",
             "-o",
-            help="Folder for runs, models and the report. "
-            "(default: out/experiments, with --quick out/experiments-quick)",
+            help="Folder for the runs, the models and the report. "
+            "(default: out/experiments; out/experiments-quick with --quick)",
         ),
     ] = None,
     network: Annotated[
         list[str] | None,
         typer.Option(
-            help="Networks; the first gets all seeds. (default: fast, paper-reduced, paper)"
+            help="Network; repeatable. The first one is trained with all seeds. "
+            "(default: fast, paper-reduced, paper)"
         ),
     ] = None,
-    seeds: Annotated[int, typer.Option(min=1, help="Trainings on the first network.")] = 3,
+    seeds: Annotated[int, typer.Option(min=1, help="Number of seeds for the first network.")] = 3,
     epochs: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="Of every training. (default: each method's own, fewer on the paper network)",
+            help="Number of epochs of each training. "
+            "(default: set by the method; fewer for the paper's network)",
         ),
     ] = None,
     quick: Annotated[
         bool,
-        typer.Option("--quick", help="A smoke run: few epochs, one seed, the fast network alone."),
+        typer.Option("--quick", help="Smoke test: few epochs, one seed, only the fast network."),
     ] = False,
     license_name: Annotated[
-        str, typer.Option("--license", help="License of the drives, for the models' cards.")
+        str, typer.Option("--license", help="License of the drives, written into the model cards.")
     ] = "not stated",
 ) -> None:
-    """Train the paper's three methods, compare them with the baseline, and write the report.
+    """Train the paper's three methods, compare them with the baseline, and write a report.
 
-    Without drives it drives the synthetic town: trained on robot A's drive, tested on robot B's.
-    Run it again to go on where it was stopped.
+    Without --train and --test the command simulates two drives through the synthetic town: robot
+    A's drive is for training, robot B's for testing. Run the same command again to continue a
+    stopped run.
     """
     from rich.progress import Progress
 
@@ -77,7 +81,7 @@ def experiments(
     command = shlex.join(words)
     with clear_errors():
         if bool(train) != bool(test):
-            raise ValueError("give both --train and --test, or neither for the synthetic town")
+            raise ValueError("Give both --train and --test, or neither for the synthetic town.")
         if train and test:
             training_sources, test_source = sources(train), source(test)
         else:
@@ -91,9 +95,9 @@ def experiments(
                 training_sources, test_source, plan, folder, license_name, command, progress
             )
         file = write_report(report, folder)
-    typer.echo(f"report: {file}")
+    typer.echo(f"The report is in {file}.")
 
 
 def name(source: str) -> str:
-    """A source as it is told to others: without the folders it lies in."""
+    """Return the name of a source without its folders."""
     return source.rpartition("/")[2]

@@ -1,4 +1,4 @@
-"""`placecell fit-confidence`: what the probability of a pose follows from."""
+"""`placecell fit-confidence`: fits the model of a pose's probability."""
 
 import json
 import tempfile
@@ -11,15 +11,15 @@ from cli.sources import clear_errors, show
 from cli.tables import JsonFile, write_json
 
 TOWNS = {51: 0.5, 52: 0.5, 53: 0.5, 54: 0.5, 61: 1.0, 62: 1.0, 63: 1.0}
-"""Seeds, and the share of the streets that identical houses line: where is one wrong and sure?"""
+"""Seed of each default town, and the share of its streets that have identical houses."""
 
 
 def two_drives(folder: Path, seed: int, scans: int, look_alikes: float) -> tuple[Path, Path]:
-    """Two robots' drives through the same streets of a large town, opposite ways."""
+    """Simulate two robots that drive the same streets of a large town in opposite directions."""
     from town import City, several_robots
 
     city = City.build(seed, 1.6 * scans, look_alikes)
-    # The inner lane of a turn is shorter than the middle of the street.
+    # In a curve the inner lane is shorter than the middle of the street.
     route = city.route(city.planner.every_street()).cut(0.0, max(1.1 * scans, scans + 10.0))
     one, other = several_robots(folder, city, route, 2, scans=scans, oncoming=10.0, progress=show)
     return one, other
@@ -28,32 +28,41 @@ def two_drives(folder: Path, seed: int, scans: int, look_alikes: float) -> tuple
 def fit_confidence(
     town: Annotated[
         list[int] | None,
-        typer.Option(help="Seed of a town; repeat for two or more. (default: 51 to 54, 61 to 63)"),
+        typer.Option(
+            help="Random seed of a town; repeatable, at least two. (default: 51 to 54, 61 to 63)"
+        ),
     ] = None,
     look_alikes: Annotated[
         float | None,
         typer.Option(
             min=0.0,
             max=1.0,
-            help="Share of the streets that identical houses line. (default: half; 61 to 63: all)",
+            help="Share of streets with identical houses, 0 to 1. "
+            "(default: 0.5; 1 for towns 61 to 63)",
         ),
     ] = None,
-    scans: Annotated[int, typer.Option(min=20, help="Of each robot in each town.")] = 600,
+    scans: Annotated[int, typer.Option(min=20, help="Scans per robot and town.")] = 600,
     model: Annotated[
         str | None,
-        typer.Option(help="A model's name or folder. (default: the one that is served)"),
+        typer.Option(help="Model name or folder. (default: the service's default model)"),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="(default: the one that is used)"),
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="JSON file for the constants. (default: the file that the service reads)",
+        ),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of the segments that are drawn.")] = 0,
+    seed: Annotated[int, typer.Option(help="Random seed for the drawn segments.")] = 0,
     json_file: JsonFile = None,
 ) -> None:
-    """Fit the constants of the probability that a pose is right, on drives through towns.
+    """Fit the probability that a pose is right, on simulated drives through towns.
 
-    Each model has its own. Writes them, into the model's folder or for the default model to where
-    all find them, with how true the probabilities are in towns that each was not fitted on.
+    Each model has its own constants. The command writes them into the model's folder, or for the
+    default model into the shared file. Each town is left out of the fit once, to measure how
+    reliable the probabilities are.
     """
     from evaluation.poses.confidence import fit
     from evaluation.poses.queries import Pair
@@ -67,7 +76,7 @@ def fit_confidence(
     shares = [TOWNS.get(each, 0.5) if look_alikes is None else look_alikes for each in seeds]
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-towns-") as folder:
         if len(set(seeds)) < 2:
-            raise ValueError("two or more towns are needed: each is left out in turn")
+            raise ValueError("Give two or more towns: each one is left out of the fit once.")
         drives = [
             two_drives(Path(folder) / str(each), each, scans, share)
             for each, share in zip(seeds, shares, strict=True)
@@ -79,5 +88,8 @@ def fit_confidence(
         write_json(content, json_file)
     held_out = content["held_out"]
     for row in held_out["reliability"]:
-        typer.echo(f"stated {row['stated']:.3f}: right {row['right']:.3f} of {row['count']:,}")
-    typer.echo(f"Brier score {held_out['brier']}; written to {file}")
+        typer.echo(
+            f"Stated probability {row['stated']:.3f}: "
+            f"{row['right']:.3f} of {row['count']:,} poses are right."
+        )
+    typer.echo(f"The Brier score is {held_out['brier']}. The constants are in {file}.")

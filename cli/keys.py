@@ -1,4 +1,4 @@
-"""`placecell keys`: make a key for a robot or a person."""
+"""`placecell keys`: creates an API key for a robot or a person."""
 
 import json
 import os
@@ -14,33 +14,39 @@ from cli.tables import JsonFlag, print_json
 
 
 def keys(
-    name: Annotated[str, typer.Argument(help="Whose key it is; in the audit log.")],
+    name: Annotated[str, typer.Argument(help="Name of the principal; the audit log shows it.")],
     file: Annotated[
-        Path, typer.Option("--file", "-f", help="The service's file of keys; is added to.")
+        Path,
+        typer.Option("--file", "-f", help="Keys file of the service; the new key is added to it."),
     ] = Path("keys.toml"),
-    write: Annotated[bool, typer.Option("--write", help="May change maps.")] = False,
+    write: Annotated[
+        bool, typer.Option("--write", help="Scope: allow the key to change maps.")
+    ] = False,
     admin: Annotated[
-        bool, typer.Option("--admin", help="Let the key reload models and free ids.")
+        bool, typer.Option("--admin", help="Scope: allow the key to reload models and to free ids.")
     ] = False,
     maps: Annotated[
         list[str] | None,
-        typer.Option("--map", help="Only maps of such names, with * and ?; may be repeated."),
+        typer.Option(
+            "--map",
+            help="Scope: name pattern of the maps, with * and ?; repeatable. (default: all maps)",
+        ),
     ] = None,
     robot: Annotated[
-        str | None, typer.Option(help="May upload maps of this robot's segments alone.")
+        str | None, typer.Option(help="Scope: allow uploads only of this robot's segments.")
     ] = None,
     as_json: JsonFlag = False,
 ) -> None:
-    """Make a key, add its hash to the file, and show the key once.
+    """Create an API key, add its hash to the keys file, and print the key once.
 
-    A running service takes it up at once. To withdraw a key, delete its section from the file.
+    A running service accepts the key at once. To revoke a key, delete its section from the file.
     """
     from service.core.auth import Key, new_key, read_keys
 
     with clear_errors():
-        known = {holder.name for holder in read_keys(file)} if file.exists() else set()
+        known = {each.name for each in read_keys(file)} if file.exists() else set()
         if name in known:
-            raise ValueError(f"{file}: has a key for {name!r} already; delete its section first")
+            raise ValueError(f"{file} already has a key for {name!r}. Delete its section first.")
         secret, digest = new_key()
         key = Key(sha256=digest, write=write, admin=admin, maps=tuple(maps or ["*"]), robot=robot)
         section = _section(name, key.model_dump(exclude_none=True))
@@ -50,22 +56,24 @@ def keys(
         print_json({"name": name, "key": secret, "file": str(file)})
         return
     typer.echo(secret)
-    typer.echo(f"Shown this once; {file} keeps its hash. A robot sends it as", err=True)
+    typer.echo(f"The key is shown only now; {file} keeps its hash. A client sends:", err=True)
     typer.echo("    Authorization: Bearer KEY", err=True)
 
 
 def replace(file: Path, content: str) -> None:
-    """Write the whole file, or nothing; as open as it was, and a new one to its owner alone.
+    """Replace the keys file atomically; it keeps its mode, and a new file gets mode 600.
 
     Raises:
-        ValueError: the name cannot stand in it.
+        ValueError: the content is not a valid keys file.
     """
     from service.core.auth import KEYS
 
     try:
         KEYS.validate_python(tomllib.loads(content))
     except ValueError as error:
-        raise ValueError(f"{file}: would be no file of keys any more ({error!s:.100})") from error
+        raise ValueError(
+            f"{file} would become invalid: {error!s:.100}. Choose another name."
+        ) from error
     mode = file.stat().st_mode & 0o777 if file.exists() else 0o600
     descriptor, unfinished = tempfile.mkstemp(".unfinished", ".", file.parent)
     with os.fdopen(descriptor, "w", encoding="utf-8") as written:
@@ -75,6 +83,6 @@ def replace(file: Path, content: str) -> None:
 
 
 def _section(name: str, facts: dict[str, object]) -> str:
-    """TOML of a key; JSON's strings, booleans and lists are TOML's too."""
+    """Return a key as a TOML section; JSON strings, booleans and lists are valid TOML."""
     lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in facts.items()]
     return "\n".join([f"[{json.dumps(name, ensure_ascii=False)}]", *lines]) + "\n"

@@ -1,4 +1,4 @@
-"""`placecell prepare`: the segments of drives, written once for training and evaluation."""
+"""`placecell prepare`: segments drives and stores the result for training and evaluation."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,21 +11,22 @@ from cli.tables import JsonFile, write_json
 
 def prepare(
     drives: Annotated[
-        list[Path], typer.Argument(help="Folders in the KITTI odometry or raw layout.")
+        list[Path], typer.Argument(help="Drive folders in the KITTI odometry or raw layout.")
     ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for NAME.safetensors.")
+        Path,
+        typer.Option("--output", "-o", help="Folder for the recordings, NAME.safetensors each."),
     ] = Path("data"),
     every: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="A frame every so many scans. (default: 2; 1 on drives of fewer than 100 scans)",
+            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
         ),
     ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Cut drives into segments and groups, and write each as a recording."""
+    """Segment drives, group the segments over time, and write one recording per drive."""
     rows: list[dict[str, Any]] = []
     with clear_errors():
         for folder in drives:
@@ -45,6 +46,6 @@ def prepare(
             rows.append(row)
             typer.echo(
                 f"{file}: {row['segments']:,} segments, {row['distinct']:,} without duplicates, "
-                f"{row['groups']:,} groups"
+                f"in {row['groups']:,} groups"
             )
         write_json({"recordings": rows}, json_file)

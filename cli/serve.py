@@ -1,4 +1,4 @@
-"""`placecell serve`: run the service."""
+"""`placecell serve`: runs the service."""
 
 import gc
 import ipaddress
@@ -24,60 +24,64 @@ def serve(
         str | None, typer.Option(help="Address to listen on. (default: 127.0.0.1)")
     ] = None,
     port: Annotated[
-        int | None, typer.Option(help="Port to listen on; 0: any free one. (default: 8000)")
+        int | None, typer.Option(help="TCP port to listen on; 0: any free port. (default: 8000)")
     ] = None,
     data_dir: Annotated[
-        Path | None, typer.Option(help="Folder of the maps; one service owns it. (default: var)")
+        Path | None, typer.Option(help="Folder for the maps; one service owns it. (default: var)")
     ] = None,
     model: Annotated[
         str | None, typer.Option(help="Name of the default model. (default: context)")
     ] = None,
     models_dir: Annotated[
-        Path | None, typer.Option(help="Folder of the models' folders. (default: models)")
+        Path | None, typer.Option(help="Folder that holds the model folders. (default: models)")
     ] = None,
     keys_file: Annotated[
-        Path | None, typer.Option(help="TOML file of keys; 'placecell keys' makes them.")
+        Path | None,
+        typer.Option(help="TOML file of API keys, from 'placecell keys'. (default: no keys)"),
     ] = None,
     unix_socket: Annotated[
-        Path | None, typer.Option(help="Unix socket to listen on instead of host and port.")
+        Path | None,
+        typer.Option(help="Unix socket to listen on instead of host and port. (default: none)"),
     ] = None,
     root_path: Annotated[
         str | None,
-        typer.Option(help="Path prefix that a proxy puts before all paths. (default: none)"),
+        typer.Option(help="Path prefix that a proxy adds to all paths. (default: none)"),
     ] = None,
     keep_alive_seconds: Annotated[
         int | None,
-        typer.Option(help="Seconds that an idle connection stays open. (default: 5)"),
+        typer.Option(help="Time that an idle connection stays open, seconds. (default: 5)"),
     ] = None,
     forwarded_allow_ip: Annotated[
         list[str] | None,
         typer.Option(
-            help="Address or network of a proxy whose X-Forwarded-For is trusted; repeatable."
+            help="Address or network of a proxy whose X-Forwarded-For is trusted; repeatable. "
+            "(default: none)"
         ),
     ] = None,
     cors_origin: Annotated[
         list[str] | None,
         typer.Option(
             help="Origin of web pages that may call the service, such as https://map.example; "
-            "repeatable."
+            "repeatable. (default: none)"
         ),
     ] = None,
     allow_remote: Annotated[
         bool,
         typer.Option(
             "--allow-remote",
-            help="Without keys, listen beyond this machine, though whoever reaches the port "
-            "can change the maps.",
+            help="Listen on a non-loopback address without API keys. Anyone who can reach the "
+            "port can change the maps.",
         ),
     ] = False,
 ) -> None:
     """Run the service.
 
-    What is not given here comes from the environment (PLACECELL_HOST, PLACECELL_LIMITS__K, ...),
-    from placecell.toml or the file that PLACECELL_CONFIG names, or is the default: 'placecell
-    config' shows all. SIGTERM drains: /readyz fails first, and requests at work are answered.
+    Settings that are not given as options come from the environment (PLACECELL_HOST,
+    PLACECELL_LIMITS__K, ...), from placecell.toml or the file that PLACECELL_CONFIG names, or are
+    defaults. 'placecell config' shows all settings. SIGTERM drains the service: /readyz fails, and
+    requests in progress are answered before the service ends.
     """
-    # Requests are searched side by side; threads within a search would be in each other's way.
+    # Requests are searched in parallel; threads within one search would compete with them.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     from service.api.state import StartError, open_state
     from service.app import create_app, version
@@ -102,7 +106,7 @@ def serve(
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
     except ValueError as error:
-        raise _refusal(f"settings: {_plainly(error)}") from error
+        raise _refusal(f"Invalid settings: {_plainly(error)}") from error
     logs.install(settings.log)
     memory.limit()
     open_to_all = allow_remote or settings.keys_file is not None
@@ -115,12 +119,12 @@ def serve(
                     f"(model {state.model_id}, {len(state.maps)} maps in {settings.data_dir})"
                 )
                 server = Server(create_app(settings, state), state)
-                # What was imported and loaded stays; to look through it all again and again for
-                # garbage would stop every request for a tenth of a second.
+                # Loaded objects stay in memory. A garbage collection that visits all of them would
+                # stop every request for 0.1 s.
                 gc.collect()
                 gc.freeze()
-                # At its end uvicorn raises the signal that ended it once more; that must not be
-                # the end of us before the store is closed.
+                # When uvicorn ends it raises its stop signal again. The process must not end before
+                # the store is closed.
                 signal.signal(signal.SIGTERM, lambda *_: sys.exit())
                 server.run(sockets=[listening])
         except StartError as error:
@@ -129,7 +133,7 @@ def serve(
 
 @contextmanager
 def _listening_socket(settings: "Settings", open_to_all: bool) -> Iterator[socket.socket]:
-    """A socket that listens; what connects now waits until the service is ready."""
+    """Open a listening socket; clients that connect wait until the service is ready."""
     if settings.unix_socket is not None:
         with _unix_socket(settings.unix_socket) as listening:
             yield listening
@@ -138,23 +142,23 @@ def _listening_socket(settings: "Settings", open_to_all: bool) -> Iterator[socke
     try:
         family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except (OSError, UnicodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "no name of a host"
-        raise _refusal(f"host {host!r}: {why}") from error
+        why = error.strerror if isinstance(error, OSError) else "not a valid host name"
+        raise _refusal(f"Invalid host {host!r}: {why}") from error
     parsed = ipaddress.ip_address(address[0])
     if not parsed.is_loopback and not open_to_all:
         raise _refusal(
-            f"host {host!r} can be reached from other machines, and the service has no keys: "
-            "make some (placecell keys), listen on 127.0.0.1, or say --allow-remote"
+            f"Host {host!r} can be reached from other machines, and the service has no API keys. "
+            "Create keys ('placecell keys'), listen on 127.0.0.1, or use --allow-remote."
         )
-    # All addresses of IPv6 include those of IPv4, where the system can do so.
+    # The unspecified IPv6 address includes IPv4 if the system supports it.
     both = family == socket.AF_INET6 and parsed.is_unspecified and socket.has_dualstack_ipv6()
     try:
         listening = socket.create_server(address[:2], family=family, dualstack_ipv6=both)
     except OSError as error:
-        raise _refusal(f"cannot listen on {host} port {port}: {error.strerror}") from error
+        raise _refusal(f"Cannot listen on {host} port {port}: {error.strerror}.") from error
     with listening:
-        # Accepted sockets inherit it. An answer is written in two parts, and the second would wait
-        # for the client to acknowledge the first, which it does after 40 ms.
+        # Accepted sockets inherit this option. A response has two parts; without the option the
+        # second part waits up to 40 ms for the acknowledgment of the first.
         listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         yield listening
 
@@ -169,7 +173,7 @@ def _unix_socket(path: Path) -> Iterator[socket.socket]:
             listening.bind(str(path))
             listening.listen()
         except OSError as error:
-            raise _refusal(f"cannot listen on {path}: {error.strerror or error}") from error
+            raise _refusal(f"Cannot listen on {path}: {error.strerror or error}.") from error
         try:
             yield listening
         finally:
@@ -196,7 +200,7 @@ def _shown(listening: socket.socket) -> str:
 
 
 def _raise_file_limit(connections: int) -> None:
-    """Raise the limit of open files to the number of connections and some more, if allowed."""
+    """Raise the limit of open files to fit the connections, if the system allows it."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     wanted = 2 * connections + 1_024
     if hard != resource.RLIM_INFINITY:
@@ -212,7 +216,7 @@ def _refusal(message: str) -> typer.Exit:
 
 
 def _plainly(error: ValueError) -> str:
-    """What is wrong with which setting, without the library's address."""
+    """Format a settings error as SETTING: FAULT, without the library's URL."""
     if not isinstance(error, ValidationError):
         return str(error)
     return "; ".join(f"{'.'.join(map(str, one['loc']))}: {one['msg']}" for one in error.errors())

@@ -1,4 +1,4 @@
-"""What the commands take as input: drives and prepared recordings, in part or whole."""
+"""Input of the commands: drives and recordings, whole or in part, and towns."""
 
 import re
 import tempfile
@@ -22,35 +22,35 @@ if TYPE_CHECKING:
 __all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
 
 SOURCE_HELP = (
-    "A drive's folder (KITTI odometry or raw layout) or a recording made by 'placecell prepare'; "
-    "with @FIRST:LAST only the groups wholly within these scans, both included."
+    "Drive folder (KITTI odometry or raw layout) or recording file from 'placecell prepare'. "
+    "@FIRST:LAST selects the groups that lie wholly within these scans, both included."
 )
 
-TOWN_HELP = " town:SEED is a drive through the synthetic town of that seed."
+TOWN_HELP = " town:SEED is a simulated drive through the synthetic town with that seed."
 
 TOWN_SCANS = 300
-"""Of each robot's drive through a town that is trained on."""
+"""Number of scans of each robot's drive through a training town."""
 
 
 def show(items: Iterable[int], total: int, what: str) -> Iterable[int]:
-    """Loop with a progress bar on the terminal."""
+    """Iterate with a progress bar on standard error."""
     return track(items, description=what, total=total, console=progress_console())
 
 
 def parse_scans(text: str) -> tuple[int, int]:
-    """FIRST:LAST, both included.
+    """Parse FIRST:LAST, both included.
 
     Raises:
-        ValueError: not two numbers in order.
+        ValueError: the text is not two ascending numbers.
     """
     match = re.fullmatch(r"(\d+):(\d+)", text)
     if not match or int(match[1]) > int(match[2]):
-        raise ValueError(f"scans must be FIRST:LAST, such as 300:500, not {text!r}")
+        raise ValueError(f"Invalid scans {text!r}: expected FIRST:LAST, such as 300:500.")
     return int(match[1]), int(match[2])
 
 
 def load(path: Path, every: int | None = None) -> "Recording":
-    """A prepared recording, or the segments of a drive's folder made now."""
+    """Load a recording file, or segment the drive of a folder."""
     from placecell.core.parameters import PROTOCOL_V1
     from placecell.datasets import open_drive
     from placecell.segmentation.pipeline import record
@@ -61,7 +61,7 @@ def load(path: Path, every: int | None = None) -> "Recording":
         step = recording.parameters.frame_step
         if every is not None and every != step:
             raise ValueError(
-                f"{path}: prepared with --every {step}, not {every}; prepare the drive again"
+                f"{path} was prepared with --every {step}, not {every}; prepare the drive again"
             )
         return recording
     drive = open_drive(path)
@@ -71,10 +71,10 @@ def load(path: Path, every: int | None = None) -> "Recording":
 
 
 def refuse_nothing(drive: "Drive", recordings: "Sequence[Recording]") -> None:
-    """Refuse a drive that gave no segments; the error describes its scans.
+    """Refuse a drive without segments; the error describes its scans.
 
     Raises:
-        ValueError: none of the recordings holds a segment.
+        ValueError: no recording holds a segment.
     """
     import numpy as np
 
@@ -86,14 +86,14 @@ def refuse_nothing(drive: "Drive", recordings: "Sequence[Recording]") -> None:
     raise ValueError(
         f"{drive.folder}: no segments were found in {len(drive)} scans of "
         f"{np.mean([len(scan) for scan in scans] or [0]):,.0f} points (median range "
-        f"{np.median(ranges):.1f} m), read as {drive.point_layout}. Segments are objects of 100 "
-        "points or more that stand on the ground, within 60 m of the sensor. Check that z is up, "
-        "the unit (--unit), the columns (--columns), and that the poses are the sensor's"
+        f"{np.median(ranges):.1f} m), read as {drive.point_layout}. A segment is an object of 100 "
+        "points or more that stands on the ground within 60 m of the sensor. Check that z points "
+        "up, the unit (--unit), the columns (--columns), and that the poses are sensor poses"
     )
 
 
 def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
-    """PATH or PATH@FIRST:LAST."""
+    """Split PATH or PATH@FIRST:LAST into path and scans."""
     path, at, scans = text.rpartition("@")
     if at and re.fullmatch(r"\d+:\d+", scans):
         return Path(path), parse_scans(scans)
@@ -101,9 +101,10 @@ def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
 
 
 def sources(texts: Iterable[str]) -> "list[Source]":
-    """Drives or parts of them, and towns: `town:SEED` stands for robot A's drive through it.
+    """Load drives, parts of drives, and towns; `town:SEED` is robot A's drive through that town.
 
-    Robot B sees the same houses; as a drive of its own it would teach that they are others.
+    Robot B's drive is left out: it shows the same houses, which training would treat as different
+    groups.
     """
     from training.data.training_set import Source
 
@@ -118,7 +119,7 @@ def sources(texts: Iterable[str]) -> "list[Source]":
 
 
 def town_recordings(seed: int, scans: int) -> "list[Recording]":
-    """The segments that two robots see on their drives through a synthetic town."""
+    """Simulate two robots in a synthetic town and return their recordings."""
     from town import two_robots
 
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
@@ -127,7 +128,7 @@ def town_recordings(seed: int, scans: int) -> "list[Recording]":
 
 
 def source(text: str) -> "Source":
-    """A drive or a part of it."""
+    """Load a drive or a part of it."""
     from training.data.training_set import Source
 
     path, scans = split_source(text)

@@ -1,4 +1,4 @@
-"""`placecell study`: what recognition depends on, and what limits it."""
+"""`placecell study`: measures what recognition depends on and what limits it."""
 
 import json
 from pathlib import Path
@@ -14,16 +14,16 @@ def study(
     drive: Annotated[str, typer.Argument(help=SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")],
     model: Annotated[
         list[str] | None,
-        typer.Option(help="A model's name or folder; may be repeated. (default: all shipped)"),
+        typer.Option(help="Model name or folder; repeatable. (default: all shipped models)"),
     ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for study.json and study.png.")
     ] = Path("out/study"),
     json_file: JsonFile = None,
 ) -> None:
-    """Measure recognition by size, viewpoint, occlusion, density, storage; sort the misses.
+    """Measure recognition by size, viewpoint, occlusion, density and storage; classify the misses.
 
-    Writes the curves of each model as JSON and as a picture.
+    The command writes the curves of each model as JSON and as a plot.
     """
     from rich.progress import track
 
@@ -58,5 +58,5 @@ def study(
     studies(curves, output / "study.png")
     for name, curve in curves.items():
         shown = ", ".join(f"{what} {share:.1%}" for what, share in curve["misses"].items())
-        typer.echo(f"{name}: {shown}")
-    typer.echo(f"curves: {output / 'study.png'}")
+        typer.echo(f"Misses of {name}: {shown}")
+    typer.echo(f"The curves are in {output / 'study.png'}.")

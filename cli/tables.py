@@ -1,4 +1,4 @@
-"""Tables and JSON on standard output: colored on a terminal, plain and uncut in a pipe."""
+"""Tables and JSON on standard output: colored on a terminal, plain and complete in a pipe."""
 
 import json
 import sys
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
 
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 JsonFile = Annotated[
-    Path | None, typer.Option("--json", metavar="FILE", help="File for the figures as JSON.")
+    Path | None, typer.Option("--json", metavar="FILE", help="JSON file for the figures.")
 ]
 
 UNBOUNDED = 1_000_000
-"""Width of a table in a pipe, columns: large enough that nothing is cut or wrapped."""
+"""Width of a table in a pipe, characters: large enough that nothing is cut or wrapped."""
 
 
 def console() -> "Console":
@@ -57,7 +57,7 @@ def print_tables(*tables: "Table") -> None:
     """Print tables, one below the other.
 
     Raises:
-        BrokenPipeError: nobody reads them.
+        BrokenPipeError: the reader has closed the pipe.
     """
     to = console()
     with to.capture() as captured:

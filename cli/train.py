@@ -1,4 +1,4 @@
-"""`placecell train`: an extractor from drives, by one of the paper's methods."""
+"""`placecell train`: trains an extractor on drives with one of the paper's methods."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Method(StrEnum):
-    """What can be trained."""
+    """Training methods."""
 
     GROUP = "group"
     SIAMESE = "siamese"
@@ -25,42 +25,44 @@ class Method(StrEnum):
 
 
 def train(
-    method: Annotated[Method, typer.Argument(help="How to learn.")],
+    method: Annotated[Method, typer.Argument(help="Training method.")],
     drives: Annotated[
         list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
     ],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="The model's folder. (default: models/METHOD)"),
+        typer.Option("--output", "-o", help="Folder for the model. (default: models/METHOD)"),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of everything random.")] = 0,
+    seed: Annotated[int, typer.Option(help="Random seed of the training.")] = 0,
     network: Annotated[
         str | None,
         typer.Option(
-            help="The extractor's network: fast, wide, paper or paper-reduced. "
-            "(default: wide for context, else fast)"
+            help="Network of the extractor: fast, wide, paper or paper-reduced. "
+            "(default: wide for context, otherwise fast)"
         ),
     ] = None,
     epochs: Annotated[
         int | None,
-        typer.Option(min=1, help="Passes over the training set. (default: the method's own)"),
+        typer.Option(
+            min=1, help="Number of passes over the training set. (default: set by the method)"
+        ),
     ] = None,
-    runs: Annotated[Path, typer.Option(help="Folder for checkpoints and histories.")] = Path(
-        "runs"
-    ),
+    runs: Annotated[
+        Path, typer.Option(help="Folder for checkpoints and training histories.")
+    ] = Path("runs"),
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on from this run's last checkpoint.")
+        bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")
     ] = False,
     license_name: Annotated[
-        str, typer.Option("--license", help="License of the drives, for the model's card.")
+        str, typer.Option("--license", help="License of the drives, written into the model card.")
     ] = "not stated",
 ) -> None:
-    """Train an extractor and write it as a model's folder: ONNX, manifest, card.
+    """Train an extractor and write a model folder: ONNX file, manifest, model card.
 
-    group: every group of segments is a class (paper, section III-C). siamese: random pairs, and a
-    third network that says whether they match (III-D). contrastive: hard pairs and a margin
-    (III-E). context: the group-based network, and what stands around each segment. eigenvalue:
-    SegMatch's features, standardised on the drives; the baseline.
+    group: each group of segments is a class (paper, section III-C). siamese: random pairs, and a
+    third network that predicts whether they match (III-D). contrastive: hard pairs and a margin
+    (III-E). context: the group-based network plus the neighborhood of each segment. eigenvalue:
+    the baseline, SegMatch's features standardized on the drives.
     """
     from placecell.core.parameters import NEIGHBORHOOD_V1
     from placecell.descriptors.shipped_models import MODELS_FOLDER
@@ -80,7 +82,7 @@ def train(
             manifest = publish_eigenvalue(folder, data)
         else:
             manifest = learn(method, folder, data, seed, network or own, epochs, runs, resume)
-    typer.echo(f"{folder}: {manifest.model_id}")
+    typer.echo(f"Model {manifest.model_id} is in {folder}.")
 
 
 def learn(
@@ -93,7 +95,7 @@ def learn(
     runs: Path,
     resume: bool,
 ) -> "Manifest":
-    """Train a network, with a progress bar, and publish what it learned."""
+    """Train a network with a progress bar and write its model folder."""
     from rich.progress import Progress
 
     from training.export.publishing import fingerprint, publish_network
@@ -105,7 +107,7 @@ def learn(
         (checkpoints / "checkpoint.pt").unlink(missing_ok=True)
     with Progress(console=progress_console()) as progress:
         changes = {"epochs": epochs}
-        # As the experiments name their runs: what they trained can be published from here.
+        # Runs have the same names as in the experiments, so their networks can be published here.
         identity = fingerprint(data, method, network, changes)
         run = Run(checkpoints, seed, identity, progress)
         trained = registry.train(method, data.training, data.validation, run, network, **changes)

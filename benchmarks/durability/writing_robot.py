@@ -129,7 +129,7 @@ class WritingRobot:
         since = EPOCH + self.draw.randrange(200)
         kept = take(content, np.asarray(with_optional(content, ["seen"]).seen) >= since)
         self.journal.begin("age", known.after(encode(kept)))
-        self.journal.acknowledge(client.age_map(self.journal.name, since).etag)
+        self.journal.acknowledge(client.prune_map(self.journal.name, since).etag)
 
     def _compact(self, client: Client, known: VersionHistory) -> None:
         keep = self.draw.randint(1, 4)

@@ -1,4 +1,4 @@
-"""`placecell bench`: what is measured, one file a bench."""
+"""`placecell bench`: measurements, one file per benchmark."""
 
 import typer
 
@@ -21,7 +21,9 @@ from cli.bench.town import town
 from cli.bench.views import views
 from cli.drive_options import takes_drives
 
-bench = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
+bench = typer.Typer(
+    help="Measure speed, durability and localization on this machine.", no_args_is_help=True
+)
 bench.command()(takes_drives(describe))
 bench.command()(takes_drives(serve))
 bench.command()(takes_drives(soak))

@@ -1,4 +1,4 @@
-"""`placecell bench align`: how often two maps are laid on each other rightly."""
+"""`placecell bench align`: measures how often the alignment of two maps is right."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,26 +11,31 @@ from cli.tables import new_table, print_tables
 
 
 def align(
-    town: Annotated[Path, typer.Argument(help="Folder of 'placecell town --meters M --pairs N'.")],
+    town: Annotated[
+        Path, typer.Argument(help="Folder that 'placecell town --meters M --pairs N' wrote.")
+    ],
     model: Annotated[
         str | None,
-        typer.Option(help="A model's name or folder. (default: the one that is served)"),
+        typer.Option(help="Model name or folder. (default: the service's default model)"),
     ] = None,
     recording_a: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="What 'placecell prepare' made of the first drive."),
+        typer.Option(metavar="FILE", help="Recording of the first drive from 'placecell prepare'."),
     ] = None,
-    recording_b: Annotated[Path | None, typer.Option(metavar="FILE", help="Of the second.")] = None,
+    recording_b: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Recording of the second drive."),
+    ] = None,
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Draw agreement against overlap into this PNG."),
+        typer.Option(metavar="FILE", help="PNG file for a plot of agreement against overlap."),
     ] = None,
 ) -> None:
-    """Align pairs of maps, each in a frame of its own: some overlap, some do not.
+    """Measure the alignment of map pairs; half of the pairs overlap, the others do not.
 
-    Through the service's own code, in this process. Right is within 0.5 m and 1 degree, in the
-    middle of what both maps have.
+    Each map has its own coordinate frame. The command runs the service's code in its own process.
+    An alignment is right within 0.5 m and 1 degree in the middle of the overlap.
     """
     from benchmarks.localization.align import draw_alignment, measure_alignment
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
@@ -45,7 +50,7 @@ def align(
 
 
 def print_report(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     table = new_table("", "pairs", "right", "wrong", "not aligned")
     for name in ("overlapping", "overlapping_enough", "apart"):
         if name in report:
@@ -55,7 +60,7 @@ def print_report(report: dict[str, Any]) -> None:
     print_tables(table)
     if report["median_position_error_m"] is not None:
         typer.echo(
-            f"median error {report['median_position_error_m']:.3f} m, "
+            f"Median error {report['median_position_error_m']:.3f} m, "
             f"{report['median_yaw_error_deg']:.3f} deg; "
             f"{report['p50_ms']:.0f} ms (p50), {report['p99_ms']:.0f} ms (p99)"
         )

@@ -1,4 +1,4 @@
-"""`placecell bench attack`: attack a service that the command starts."""
+"""`placecell bench attack`: attacks a service that the command starts."""
 
 from typing import Annotated, Any
 
@@ -22,22 +22,26 @@ def attack(
     ] = False,
     memory_limit_mb: Annotated[
         float,
-        typer.Option(min=100, help="Resident memory above which the service is killed, MB."),
+        typer.Option(
+            min=100,
+            help="Resident memory limit of the service, MB; above it the service is killed.",
+        ),
     ] = 1_000.0,
     victim_seconds: Annotated[
         float,
-        typer.Option(min=0.01, help="Longest wait of another key's small request, seconds."),
+        typer.Option(
+            min=0.01, help="Longest allowed wait of another key's small request, seconds."
+        ),
     ] = 1.0,
     json_file: JsonFile = None,
     seed: Drawn = 0,
 ) -> None:
-    """Attack a service, and report which attacks it withstands.
+    """Attack a service and report which attacks it withstands.
 
-    Each case starts services of its own on the loopback interface, attacks them with what one
-    client can send, and measures what another key's small requests wait meanwhile. A case fails
-    if the service dies or takes too much memory, if a victim waits too long, if an acknowledged
-    write is gone, or if the service answers other than it must. Ends with status 1 if a case
-    failed.
+    Each case starts its own service on the loopback interface, attacks it as one client could,
+    and measures how long another key's small requests (the victim) wait. A case fails if the
+    service dies or exceeds the memory limit, if the victim waits too long, if an acknowledged write
+    is lost, or if the service gives a wrong answer. The command ends with status 1 if a case fails.
     """
     from benchmarks.attack.suite import AttackPlan, failures, run_attacks
 

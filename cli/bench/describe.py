@@ -1,4 +1,4 @@
-"""`placecell bench describe`: how fast segments become descriptors."""
+"""`placecell bench describe`: measures how fast segments become descriptors."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,25 +15,25 @@ def describe(
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Draw accuracy against speed into this PNG."),
+        typer.Option(metavar="FILE", help="PNG file for a plot of accuracy against speed."),
     ] = None,
     output: Kept = Path("out/bench"),
     repeats: Annotated[
-        int, typer.Option(min=1, help="Measurements of each figure; the median is given.")
+        int, typer.Option(min=1, help="Number of measurements of each figure; the median counts.")
     ] = 5,
     seconds: Annotated[
-        float, typer.Option(min=0.0, help="Duration of each measurement, at least.")
+        float, typer.Option(min=0.0, help="Shortest duration of each measurement, seconds.")
     ] = 0.5,
     seed: Seed = 7,
 ) -> None:
     """Measure how fast segments become descriptors.
 
-    Every shipped network beside the paper's own, in turn in one run, with batches of 1, 8 and 64
-    on 1 and 2 threads; alignment and voxelisation alone; and the whole way from points to
-    descriptors with the default model. The paper's network gets random weights, for which torch
-    is needed the first time; without it the ratio to the paper is left out.
+    The command measures each shipped network and the paper's network in the same run: inference
+    with batches of 1, 8 and 64 on 1 and 2 threads, orientation and voxelization alone, and all
+    steps from points to descriptors with the default model. The paper's network has random weights;
+    torch creates it in the first run. Without torch the ratio to the paper is left out.
 
-    On a busy machine believe the ratios, not the rates. Example:
+    On a busy machine trust the ratios, not the rates. Example:
 
         placecell bench describe --json figures.json --plot speed.png
     """
@@ -51,13 +51,13 @@ def describe(
 
 
 def print_report(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     sizes, machine = report["sizes"], report["machine"]
     typer.echo(
         f"{machine['processor']}, {machine['cores']} cores; {sizes['segments']:,} segments of "
         f"{sizes['points_mean']:.0f} points on average, from {report['source']}"
     )
-    table = new_table(title="inference, segments a second")
+    table = new_table(title="inference, segments/s")
     for name in ("model", "precision", "batch", "threads", "rate", "top1"):
         table.add_column(
             name, justify="left" if name in {"model", "precision"} else "right", overflow="fold"
@@ -73,20 +73,20 @@ def print_report(report: dict[str, Any]) -> None:
         )
     print_tables(table)
     for threads, rate in report["preprocessing_segments_per_second"].items():
-        typer.echo(f"align and voxelise, {threads} threads: {rate:,.0f} segments a second")
+        typer.echo(f"orientation and voxelization, {threads} threads: {rate:,.0f} segments/s")
     for threads, rate in report["surroundings_segments_per_second"].items():
-        typer.echo(f"surroundings, {threads} threads: {rate:,.0f} segments a second")
+        typer.echo(f"neighborhoods, {threads} threads: {rate:,.0f} segments/s")
     whole = report["points_in_descriptors_out_segments_per_second"]
-    typer.echo(f"points in, descriptors out: {whole:,.0f} segments a second")
+    typer.echo(f"from points to descriptors: {whole:,.0f} segments/s")
     single = report["single_segment_ms"]
     typer.echo(f"a single segment: {single['p50']:.2f} ms (p50), {single['p99']:.2f} ms (p99)")
     for pair in report["pairs"]:
         typer.echo(
-            f"{pair['pairs']:,} probabilities by {pair['model']} ({pair['kind']}, "
+            f"{pair['pairs']:,} match probabilities of {pair['model']} ({pair['kind']}, "
             f"{pair['bytes'] / 1e6:.1f} MB): {pair['p50_ms']:.2f} ms"
         )
     times = report["default_over_paper"]
     if times is None:
-        typer.echo("the paper's network was not measured: building it needs torch")
+        typer.echo("The paper's network was not measured, because torch is not installed.")
     else:
-        typer.echo(f"{report['default']}: {times:.1f} times as fast as the paper's network")
+        typer.echo(f"{report['default']} is {times:.1f} times as fast as the paper's network.")

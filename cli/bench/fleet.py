@@ -1,4 +1,4 @@
-"""`placecell bench fleet`: robots that share a map over links that break."""
+"""`placecell bench fleet`: robots share a map over unreliable links."""
 
 from typing import Annotated
 
@@ -9,15 +9,16 @@ from cli.sources import clear_errors
 
 
 def fleet(
-    minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 5.0,
-    clients: Annotated[int, typer.Option(min=2, help="Robots.")] = 8,
+    minutes: Annotated[float, typer.Option(min=0.05, help="Duration, minutes.")] = 5.0,
+    clients: Annotated[int, typer.Option(min=2, help="Number of robots.")] = 8,
     json_file: JsonFile = None,
     seed: Drawn = 0,
 ) -> None:
     """Let robots share a map while links are cut and the service is killed and restarted.
 
-    Each edits segments of its own and pulls what the others changed. Ends with status 1 unless all
-    end with the same map, byte for byte, that holds what was acknowledged and nothing else.
+    Each robot edits its own segments and pulls the changes of the others. The command ends with
+    status 1 unless all robots end with the same map, byte for byte, and the map holds exactly the
+    acknowledged writes.
     """
     from benchmarks.durability.fleet import FleetPlan, run_fleet
 
@@ -26,13 +27,14 @@ def fleet(
         write_json(report, json_file)
     typer.echo(
         f"{report['clients']} robots, {report['edits_acknowledged']:,} edits, "
-        f"{report['pulls']:,} pulls; {report['connections_cut']} connections cut, the service "
-        f"killed {report['kills']} and stopped {report['stops']} times"
+        f"{report['pulls']:,} pulls. {report['connections_cut']} connections were cut; the service "
+        f"was killed {report['kills']} times and stopped {report['stops']} times."
     )
     typer.echo(
         f"{report['robots_with_the_service_s_map']} robots have the service's map of "
-        f"{report['segments']:,} segments; it is {'' if report['map_is_the_union'] else 'not '}"
-        f"the union of theirs; {report['ids_reserved_twice']} ids were given twice"
+        f"{report['segments']:,} segments. It is {'' if report['map_is_the_union'] else 'not '}"
+        f"the union of all acknowledged edits. {report['ids_reserved_twice']} ids were reserved "
+        "twice."
     )
     for told in report["wrong"]:
         typer.echo(told, err=True)

@@ -1,4 +1,4 @@
-"""`placecell bench floors`: measure whether /localize tells look-alike floors apart."""
+"""`placecell bench floors`: measures whether /localize distinguishes similar floors."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -19,12 +19,12 @@ def floors(
     output: Kept = Path("out/bench"),
     seed: Seed = 7,
 ) -> None:
-    """Measure how often /localize over maps of similar floors is right, ambiguous, or misleading.
+    """Measure how often /localize over maps of similar floors is right, ambiguous or wrong.
 
-    A floor has the things of another one, but for 0 to 60% that are replaced by others. Each map
-    and each robot sees them anew: descriptors differ as two views of one real segment do, centroids
-    by 0.3 m along each axis. Cases: eight segments, only what all floors have, up to twenty floors,
-    five things that differ, unequal sizes, deduplicated maps, two models, other buildings.
+    Two floors have the same segments, except for 0 to 60% that are replaced. Each map and each
+    robot has its own view: descriptors differ like two views of one real segment, centroids by
+    0.3 m along each axis. Cases: eight segments; only segments that all floors have; up to twenty
+    floors; five different segments; unequal sizes; deduplicated maps; two models; other buildings.
     """
     from benchmarks.localization.floors import load_models, measure_floors
     from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
@@ -54,9 +54,9 @@ def print_rows(report: dict[str, Any]) -> None:
     """Print the figures as a table."""
     columns = ("trials", "right", "ambiguous", "wrong", "wrong_but_sure")
     titles = ("trials", "right", "ambiguous", "wrong", "wrong but sure")
-    table = new_table("floors", *titles, title="similar floors in several maps")
+    table = new_table("floors", *titles, title="localization on similar floors")
     shares = {f"{name} changed": row for name, row in report["by_share"].items()}
-    decided = {"the difference decides": report["where_the_difference_decides"]}
+    decided = {"different segments seen": report["where_the_difference_decides"]}
     for name, row in {**report["by_case"], **shares, **decided, "all": report}.items():
         table.add_row(name, *(str(row[column]) for column in columns))
     print_tables(table)

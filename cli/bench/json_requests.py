@@ -1,4 +1,4 @@
-"""`placecell bench json`: measure the JSON request reader."""
+"""`placecell bench json`: measures the reader of JSON requests."""
 
 from typing import Annotated
 
@@ -11,13 +11,13 @@ from cli.sources import clear_errors
 def json_requests(
     json_file: JsonFile = None,
     seconds: Annotated[
-        float, typer.Option(min=0.1, help="Duration of each measurement. (default: 3)")
+        float, typer.Option(min=0.1, help="Duration of each measurement, seconds.")
     ] = 3.0,
     seed: Seed = 7,
 ) -> None:
-    """Measure the throughput of the JSON reader, and how long other threads wait for it.
+    """Measure the throughput of the JSON reader and how long it blocks other threads.
 
-    The parser of earlier versions is measured in the same run.
+    The same run measures the parser of earlier versions for comparison.
     """
     from benchmarks.load.json_requests import measure_json_requests
 
@@ -25,6 +25,6 @@ def json_requests(
         report = measure_json_requests(seconds, seed)
         write_json(report, json_file)
     typer.echo(
-        f"{report['saturation_ratio']:g} times the requests of {report['baseline']}; "
-        f"longest pause {report['longest_pause_ms']:g} ms"
+        f"The reader takes {report['saturation_ratio']:g} times the requests of "
+        f"{report['baseline']}. Its longest pause is {report['longest_pause_ms']:g} ms."
     )

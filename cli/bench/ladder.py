@@ -1,4 +1,4 @@
-"""`placecell bench ladder`: how far descriptors can be compressed."""
+"""`placecell bench ladder`: measures recognition against the bytes of a descriptor."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,23 +12,29 @@ from cli.tables import new_table, print_tables
 
 def ladder(
     drive: Annotated[
-        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
     ],
     scans: Annotated[
         str,
         typer.Option(
             metavar="FIRST:LAST",
-            help="Groups wholly within these scans are asked for; what must be fitted is fitted "
-            "to the others.",
+            help="Queries are the groups that lie wholly within these scans; quantizers are "
+            "fitted on the others.",
         ),
     ],
-    model: Annotated[str, typer.Option(help="A model's name or folder.")] = "",
+    model: Annotated[
+        str,
+        typer.Option(
+            help="Model name or folder. (default: the service's default model)", show_default=False
+        ),
+    ] = "",
     json_file: JsonFile = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Draw recognition against bytes.")
+        Path | None,
+        typer.Option(metavar="FILE", help="PNG file for a plot of recognition against bytes."),
     ] = None,
 ) -> None:
-    """Measure what each way to store descriptors costs, in bytes and in recognition."""
+    """Measure the bytes and the recognition rate of each way to store descriptors."""
     from benchmarks.storage.ladder import draw_compression, measure_compression
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
@@ -43,7 +49,7 @@ def ladder(
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     table = new_table("storage", "bytes", "top1", "cross view", "recall at 25")
     for row in report["rows"]:
         shares = (row[key] for key in ("top1", "cross_view_top1", "recall_at_25"))

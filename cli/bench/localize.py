@@ -1,4 +1,4 @@
-"""`placecell bench localize`: how quick an idle service tells a robot where it is."""
+"""`placecell bench localize`: measures the latency of /localize on an idle service."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -15,24 +15,22 @@ def localize(
     segments: Source = None,
     size: Annotated[
         list[int] | None,
-        typer.Option(min=1000, help="Segments of the map; may be repeated. (default: 10,000)"),
+        typer.Option(min=1000, help="Segments in the map; repeatable. (default: 10,000)"),
     ] = None,
     maps: Annotated[
         int,
-        typer.Option(
-            min=0, help="Number of maps searched by requests that name none; 0: not measured."
-        ),
+        typer.Option(min=0, help="Number of maps for requests that search all maps; 0 skips this."),
     ] = 0,
     map_size: Annotated[int, typer.Option(min=200, help="Segments per map of --maps.")] = 300,
-    seconds: Annotated[float, typer.Option(min=1.0, help="Of each map.")] = 30.0,
+    seconds: Annotated[float, typer.Option(min=1.0, help="Duration for each map, seconds.")] = 30.0,
     json_file: JsonFile = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,
 ) -> None:
-    """Measure /localize of 50 descriptors, one request at a time, on the real server.
+    """Measure /localize with 50 descriptors, one request at a time, on a real server.
 
-    Descriptors are those of real segments, each view of a thing with the difference that two real
-    segments of one group have.
+    The descriptors come from segmented scans. Two views of one segment differ as two segments of
+    one group do.
     """
     from benchmarks.load.localize import LocalizePlan, measure_localize
     from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
@@ -56,9 +54,9 @@ def localize(
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     names = ("p50", "p95", "p99", "max")
-    table = new_table("segments", "right", *names, "search p50", "verify p50", title="milliseconds")
+    table = new_table("segments", "right", *names, "search p50", "verify p50", title="latency, ms")
     together = report["together"]
     for row in [*report["rows"], *([together] if together else [])]:
         steps = (row["stages"][stage]["p50"] for stage in ("search", "verify"))

@@ -1,4 +1,4 @@
-"""`placecell bench maps`: maps of up to a million segments."""
+"""`placecell bench maps`: measures maps of up to a million segments."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,21 +16,24 @@ def maps(
         list[int] | None,
         typer.Option(
             min=1000,
-            help="Segments of the map; may be repeated. (default: 10,000, 100,000 and 1,000,000)",
+            help="Segments in the map; repeatable. (default: 10,000, 100,000 and 1,000,000)",
         ),
     ] = None,
-    seconds: Annotated[float, typer.Option(min=1.0, help="Of each phase.")] = 60.0,
+    seconds: Annotated[
+        float, typer.Option(min=1.0, help="Duration of each phase, seconds.")
+    ] = 60.0,
     json_file: JsonFile = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Draw latency, memory, start.")
+        Path | None,
+        typer.Option(metavar="FILE", help="PNG file for plots of latency, memory and start time."),
     ] = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,
 ) -> None:
-    """Measure large maps: bytes, memory, recall, start, and /match while others write.
+    """Measure large maps: bytes, memory, recall, start time, and /match during writes.
 
-    The real server over loopback. Descriptors are those of real segments, each view of a thing
-    with the difference that two real segments of one group have.
+    The command uses a real server over loopback. The descriptors come from segmented scans. Two
+    views of one segment differ as two segments of one group do.
     """
     from benchmarks.storage.map_writers import MapsPlan
     from benchmarks.storage.maps import draw_maps, measure_maps
@@ -52,11 +55,13 @@ def maps(
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     rows = report["rows"]
     table = new_table("", *(f"{row['segments']:,} segments" for row in rows))
     for key in rows[0]:
         if key != "segments" and not isinstance(rows[0][key], dict):
             table.add_row(key, *(f"{row[key]:,}" for row in rows))
     print_tables(table)
-    typer.echo(f"map file of 10,000: {report['file_bytes_per_segment']:.1f} bytes a segment")
+    typer.echo(
+        f"The map file of 10,000 segments has {report['file_bytes_per_segment']:.1f} bytes each."
+    )

@@ -1,4 +1,4 @@
-"""What the benches share: where segments come from, where figures go."""
+"""Options that several benchmarks share: source of the segments, output folder, seed."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -19,22 +19,22 @@ Source = Annotated[
     typer.Option(
         "--segments",
         metavar="PATH",
-        help="A drive's folder or a recording of 'placecell prepare' to take segments from. "
+        help="Drive folder or recording file from 'placecell prepare' with the segments. "
         "(default: a short drive through the synthetic town)",
     ),
 ]
 Kept = Annotated[
     Path,
     typer.Option(
-        "--output", "-o", help="Folder that keeps the town's drive and the paper's network."
+        "--output", "-o", help="Folder that caches the town's drive and the paper's network."
     ),
 ]
-Seed = Annotated[int, typer.Option(help="Of the town, and of everything that is drawn.")]
-Drawn = Annotated[int, typer.Option("--seed", help="Of everything that is drawn.")]
+Seed = Annotated[int, typer.Option(help="Random seed of the town and of all random choices.")]
+Drawn = Annotated[int, typer.Option("--seed", help="Random seed of all random choices.")]
 
 
 def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 20) -> "Recording":
-    """The recording of a drive, or of a drive of so many scans through the town."""
+    """Return the recording of a drive; by default simulate a drive through the town."""
     from benchmarks.scans import town_recording
 
     if segments is None:
@@ -43,7 +43,7 @@ def recording_from(segments: Path | None, output: Path, seed: int, scans: int = 
 
 
 def scans_from(segments: Path | None, output: Path, seed: int) -> "tuple[list[Segments], str]":
-    """The segments of each scan, and where they are from."""
+    """Return the segments of each scan and the name of their source."""
     from benchmarks.scans import scans_in
 
     recording = recording_from(segments, output, seed)

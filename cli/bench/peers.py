@@ -1,4 +1,4 @@
-"""`placecell bench peers`: other systems on the scans that ours is measured on."""
+"""`placecell bench peers`: measures other systems on the same scans."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,51 +13,54 @@ DEFAULT_PYTHON = Path(".venv-peers/bin/python")
 
 
 def peers(
-    map_drive: Annotated[Path, typer.Argument(help="A drive's folder: the map.")],
+    map_drive: Annotated[Path, typer.Argument(help="Drive folder for the map.")],
     query_drive: Annotated[
         Path | None,
         typer.Argument(
-            help="The drive that asks, in a frame known to both ('placecell town' makes such "
-            "pairs). (default: the map's own, by alternate blocks)"
+            help="Drive folder for the queries, in a known common frame, as from "
+            "'placecell town'. (default: alternate blocks of MAP_DRIVE)"
         ),
     ] = None,
     peer: Annotated[
-        list[str] | None, typer.Option(help="A peer's name; may be repeated. (default: all)")
+        list[str] | None, typer.Option(help="Name of the other system; repeatable. (default: all)")
     ] = None,
     json_file: JsonFile = None,
     radius: Annotated[
         float | None,
         typer.Option(
-            min=10.0, help="Of the local maps, metres. (default: as our segments are cut from)"
+            min=10.0,
+            help="Radius of the local maps, meters. (default: the radius of the segmentation)",
         ),
     ] = None,
     queries: Annotated[
-        int | None, typer.Option(min=1, help="So many, spread evenly. (default: all frames)")
+        int | None,
+        typer.Option(min=1, help="Number of queries, spread evenly. (default: all captures)"),
     ] = None,
     refine: Annotated[
-        bool, typer.Option(help="Also with poses refined by generalised ICP.")
+        bool, typer.Option(help="Also measure poses that generalized ICP refined.")
     ] = True,
     python: Annotated[
-        Path, typer.Option(help="Interpreter of the peers' environment: make peers.")
+        Path,
+        typer.Option(help="Python interpreter of the other systems; 'make peers' installs it."),
     ] = DEFAULT_PYTHON,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the local maps and the answers.")
+        Path, typer.Option("--output", "-o", help="Folder for the local maps and the results.")
     ] = Path("out/peers"),
-    seed: Annotated[int, typer.Option(help="Of the queries' headings.")] = 0,
+    seed: Annotated[int, typer.Option(help="Random seed for the queries' headings.")] = 0,
     resume: Annotated[
         bool,
         typer.Option(
             "--resume",
-            help="Go on with what a stopped run of the same words left in the folder: its local "
-            "maps, and the answers of the peers that had finished.",
+            help="Continue a stopped run with the same options: reuse its local maps and the "
+            "results of the systems that had finished.",
         ),
     ] = False,
 ) -> None:
     """Measure other systems: MapClosures, KISS-Matcher, Scan Context.
 
-    They see the local maps that our segments are cut from, each query turned by a random angle,
-    and answer in an environment of their own. Times are from a local map's points to the pose, on
-    this machine as busy as it is: believe their ratios. A kilometre takes 0.9 GB for local maps.
+    They get the same local maps that Placecell segments. Each query is rotated by a random angle.
+    The systems run in their own Python environment. Times are from the points of a local map to
+    the pose; on a busy machine trust the ratios. The local maps take 0.9 GB per kilometer.
     """
     from benchmarks.peers.compare import compare_peers
     from benchmarks.peers.runner import PEERS
@@ -65,7 +68,7 @@ def peers(
     with clear_errors():
         names = list(peer or PEERS)
         if unknown := [name for name in names if name not in PEERS]:
-            raise ValueError(f"no peer {unknown[0]!r}; there are {', '.join(PEERS)}")
+            raise ValueError(f"unknown peer {unknown[0]!r}; expected one of {', '.join(PEERS)}")
         mapped, asking = stretches(map_drive, query_drive, radius)
         report = compare_peers(
             mapped,
@@ -84,7 +87,7 @@ def peers(
 
 
 def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -> Any:
-    """What makes the map, and what asks."""
+    """Return the stretch of the map and the stretch of the queries."""
     import numpy as np
 
     from benchmarks.peers.frames import stretches_of_one, stretches_of_two
@@ -100,13 +103,13 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     typer.echo(
         f"{report['rows'][0]['queries']} queries of {report['query_drive']} in a map of "
-        f"{report['map_frames']} frames of {report['map_drive']}, {report['accumulated_scans']} "
-        f"scans each, within {report['local_map_radius']:.0f} m"
+        f"{report['map_frames']} captures of {report['map_drive']}; local maps of "
+        f"{report['accumulated_scans']} scans, radius {report['local_map_radius']:.0f} m"
     )
-    table = new_table("", "right", "wrong", "unknown", "m", "deg", "p50 ms", "p99 ms")
+    table = new_table("", "right", "wrong", "not localized", "m", "deg", "p50 ms", "p99 ms")
     for row in report["rows"]:
         table.add_row(
             row["name"],
@@ -122,5 +125,5 @@ def print_rows(report: dict[str, Any]) -> None:
 
 
 def percent(value: float | None) -> str:
-    """A share for people to read."""
+    """Format a share as a percentage; None as a dash."""
     return "-" if value is None else f"{value:.1%}"

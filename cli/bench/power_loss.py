@@ -1,4 +1,4 @@
-"""`placecell bench powerloss`: a power cut at every moment."""
+"""`placecell bench powerloss`: simulates power cuts during writes."""
 
 from typing import Annotated
 
@@ -9,19 +9,23 @@ from cli.sources import clear_errors, show
 
 
 def powerloss(
-    writes: Annotated[int, typer.Option(min=2, help="To the service.")] = 60,
+    writes: Annotated[int, typer.Option(min=2, help="Number of writes to the service.")] = 60,
     cuts: Annotated[
-        int, typer.Option(min=0, help="Moments at which the power is cut, about; 0: all.")
+        int,
+        typer.Option(
+            min=0, help="Approximate number of simulated power cuts; 0: one at every moment."
+        ),
     ] = 0,
     json_file: JsonFile = None,
     seed: Drawn = 0,
 ) -> None:
-    """Cut the power at every moment, and see whether anything is lost.
+    """Simulate power cuts at every moment, and check that nothing is lost.
 
-    Needs strace. The real server is written to; what it does to its disk is recorded and replayed
-    up to every moment, onto a disk that keeps what was synced, and of the rest nothing, all, or
-    what chance will, down to single sectors. What is left is opened with the store. Ends with
-    status 1 if an acknowledged write is not there, or the maps are of no one moment.
+    The command needs strace. It writes to a real server and records the server's disk operations.
+    It replays them up to each moment on a simulated disk, which keeps all synced data and none, all
+    or a random part of the rest, down to single sectors. Then it opens the result with the store.
+    It ends with status 1 if an acknowledged write is lost, or if the maps do not belong to one
+    moment.
     """
     from benchmarks.durability.power_loss.power_cuts import PowerLossPlan, run_power_cuts
 
@@ -30,7 +34,7 @@ def powerloss(
         write_json(report, json_file)
     typer.echo(
         f"{report['power_cuts']:,} power cuts, {report['distinct_disks']:,} different disks: "
-        f"{report['losses']} with a loss, {report['half_seen']} with a map half there"
+        f"{report['losses']} lost a write, {report['half_seen']} hold a partial map"
     )
     for told in report["wrong"]:
         typer.echo(told, err=True)

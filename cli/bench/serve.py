@@ -1,4 +1,4 @@
-"""`placecell bench serve`: the service under load."""
+"""`placecell bench serve`: measures the service under load."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -14,17 +14,21 @@ def serve(
     segments: Source = None,
     json_file: JsonFile = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Draw latency against load into this PNG.")
+        Path | None,
+        typer.Option(metavar="FILE", help="PNG file for a plot of latency against load."),
     ] = None,
     output: Kept = Path("out/bench"),
-    seconds: Annotated[float, typer.Option(min=0.5, help="Duration of each level of load.")] = 10.0,
+    seconds: Annotated[
+        float, typer.Option(min=0.5, help="Duration of each load level, seconds.")
+    ] = 10.0,
     seed: Seed = 7,
 ) -> None:
-    """Measure how the service bears load.
+    """Measure throughput and latency of the service under load.
 
-    A generator of its own process sends /match requests on schedule, whether or not answers come,
-    to the real server over loopback: 50 segments a request in msgpack and in JSON, and 5 with and
-    without batching across requests; from a quarter of what the service bears to twice that.
+    A load generator in its own process sends /match requests to a real server over loopback, on
+    schedule even if answers are late (open loop). Requests hold 50 segments, in msgpack and in
+    JSON, and 5 segments, with and without batching across requests. The load grows from a quarter
+    of the saturation rate to twice that rate.
     """
     from benchmarks.load.serve import LoadPlan, draw_load, measure_load
 
@@ -39,7 +43,7 @@ def serve(
 
 
 def print_load(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     names = (
         "case",
         "offered",
@@ -52,7 +56,7 @@ def print_load(report: dict[str, Any]) -> None:
         "p99 of 429",
         "batch",
     )
-    table = new_table(*names, title="/match: segments a second, milliseconds")
+    table = new_table(*names, title="/match: load in segments/s, latency in ms")
     for row in report["rows"]:
         spent = row["milliseconds"]
         table.add_row(
@@ -66,7 +70,7 @@ def print_load(report: dict[str, Any]) -> None:
         )
     print_tables(table)
     typer.echo(
-        f"saturation: {report['saturation_segments_per_second']:,.0f} segments a second, "
-        f"{report['http_over_library']:.0%} of the library alone; /match of 50 at half of it: "
-        f"p99 {report['match_50_p99_ms_at_half_saturation']:.1f} ms"
+        f"Saturation is at {report['saturation_segments_per_second']:,.0f} segments/s, "
+        f"{report['http_over_library']:.0%} of the library alone. At half of it the p99 of /match "
+        f"with 50 segments is {report['match_50_p99_ms_at_half_saturation']:.1f} ms."
     )

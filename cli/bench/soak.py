@@ -1,4 +1,4 @@
-"""`placecell bench soak`: the service among clients that misbehave."""
+"""`placecell bench soak`: runs the service under load with clients that misbehave."""
 
 from pathlib import Path
 from typing import Annotated
@@ -11,18 +11,18 @@ from cli.sources import clear_errors
 
 def soak(
     segments: Source = None,
-    minutes: Annotated[float, typer.Option(min=0.05, help="How long.")] = 10.0,
+    minutes: Annotated[float, typer.Option(min=0.05, help="Duration, minutes.")] = 10.0,
     json_file: JsonFile = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Draw memory over time into this PNG.")
+        Path | None, typer.Option(metavar="FILE", help="PNG file for a plot of memory over time.")
     ] = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,
 ) -> None:
-    """Run the service for minutes at 80% of what it bears, among clients that misbehave.
+    """Run the service at 80% of its saturation rate, together with clients that misbehave.
 
-    Some die in the midst of a request, some send slowly, some send garbage. Ends with status 1 if
-    any client that behaved got an answer that is not expected.
+    Some clients die during a request, some send slowly, some send garbage. The command ends with
+    status 1 if a correct client gets an unexpected answer.
     """
     from benchmarks.load.soak import SoakPlan, draw_memory, run_soak
 
@@ -34,13 +34,13 @@ def soak(
         if plot:
             draw_memory(report, plot)
     typer.echo(
-        f"{report['requests']:,} requests: {report['statuses']}, p99 "
-        f"{report['milliseconds']['p99']} ms; bad clients: {report['bad_clients']}"
+        f"{report['requests']:,} requests, statuses {report['statuses']}, p99 "
+        f"{report['milliseconds']['p99']} ms; clients that misbehave: {report['bad_clients']}"
     )
     typer.echo(
         f"memory {report['memory_mb_first_half']:.0f} MB in the first half, "
-        f"{report['memory_mb_second_half']:.0f} MB in the second; at most "
-        f"{report['descriptors_most']:.0f} file descriptors, {report['descriptors_last']:.0f} after"
+        f"{report['memory_mb_second_half']:.0f} MB in the second; file descriptors at most "
+        f"{report['descriptors_most']:.0f}, at the end {report['descriptors_last']:.0f}"
     )
     if report["unexpected"]:
         raise typer.Exit(1)

@@ -1,4 +1,4 @@
-"""`placecell bench town`: what streets cost."""
+"""`placecell bench town`: measures the simulation and segmentation of town streets."""
 
 import json
 from pathlib import Path
@@ -11,16 +11,18 @@ from cli.sources import clear_errors, show
 
 
 def town(
-    meters: Annotated[float, typer.Option(help="Of streets in the town.")] = 5000.0,
-    scans: Annotated[int, typer.Option(min=2, help="Scans that are driven and measured.")] = 400,
-    spacing: Annotated[float, typer.Option(min=0.05, help="Metres between scans.")] = 1.0,
+    meters: Annotated[
+        float, typer.Option(help="Total street length of the town, meters.")
+    ] = 5000.0,
+    scans: Annotated[int, typer.Option(min=2, help="Number of simulated scans.")] = 400,
+    spacing: Annotated[float, typer.Option(min=0.05, help="Distance between scans, meters.")] = 1.0,
     json_file: JsonFile = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,
 ) -> None:
-    """Measure what streets cost: simulating scans of a large town, and cutting them into segments.
+    """Measure how long a large town takes to simulate and to segment.
 
-    Processor time of one thread, and what all of the town's streets come to at that rate.
+    The figures are processor times of one thread, and their extrapolation to all streets.
     """
     from benchmarks.town import measure_town
 

@@ -1,4 +1,4 @@
-"""`placecell bench views`: what several views of a thing are worth."""
+"""`placecell bench views`: measures the value of several stored views of one object."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,17 +12,24 @@ from cli.tables import new_table, print_tables
 
 def views(
     drive: Annotated[
-        Path, typer.Argument(help="A drive's folder, or a recording of 'placecell prepare'.")
+        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
     ],
     scans: Annotated[
         str,
-        typer.Option(metavar="FIRST:LAST", help="Groups wholly within these scans are taken."),
+        typer.Option(
+            metavar="FIRST:LAST", help="Use the groups that lie wholly within these scans."
+        ),
     ],
-    model: Annotated[str, typer.Option(help="A model's name or folder.")] = "",
+    model: Annotated[
+        str,
+        typer.Option(
+            help="Model name or folder. (default: the service's default model)", show_default=False
+        ),
+    ] = "",
     json_file: JsonFile = None,
     seed: Seed = 7,
 ) -> None:
-    """Measure how many segments a map needs if things are stored once, or from several sides."""
+    """Measure map size and recognition if objects are stored once or from several viewpoints."""
     from benchmarks.storage.views import measure_views
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
@@ -35,7 +42,7 @@ def views(
 
 
 def print_rows(report: dict[str, Any]) -> None:
-    """The figures on the terminal."""
+    """Print the figures."""
     table = new_table("kept", "views", "segments", "cross view, top1", "cross view, recall at 25")
     for row in report["rows"]:
         shares = (row[key] for key in ("cross_view_top1", "cross_view_recall_at_25"))

@@ -1,4 +1,4 @@
-"""Which service the commands speak to, and maps by name or file."""
+"""Connection of the commands to a service, and access to maps by name, version or file."""
 
 import os
 from collections.abc import Iterator
@@ -19,15 +19,15 @@ Url = Annotated[
 ]
 LOCAL = "http://127.0.0.1:8000"
 
-Name = Annotated[str, typer.Argument(metavar="MAP", help="The map's name.")]
+Name = Annotated[str, typer.Argument(metavar="MAP", help="Name of the map.")]
 
 KEY_VARIABLE = "PLACECELL_KEY"
-"""A key on the command line could be read by everyone on the machine."""
+"""Environment variable with the API key. Other users could read a key on the command line."""
 
 
 @contextmanager
 def service(url: str) -> Iterator["Client"]:
-    """A client of the service; what it refuses ends the command with a line."""
+    """Open a client of the service; a refused or failed request ends the command with one line."""
     import httpx
     from placecell_client import Client, ServiceError
     from placecell_client.http.retry import may_be_done
@@ -41,19 +41,14 @@ def service(url: str) -> Iterator["Client"]:
         except httpx.TransportError as error:
             if may_be_done(error):
                 fail(f"{url} did not answer: {error} The request may still have been carried out.")
-            fail(f"{url} cannot be reached: {error}")
-
-
-def is_delta(data: bytes) -> bool:
-    """Whether a file says of itself that it is a delta file; it may be cut all the same."""
-    return b"placecell-delta" in data[:4096]
+            fail(f"Cannot reach {url}: {error}")
 
 
 def map_from(client: "Client", source: str) -> "CompactMap":
-    """A map: of a file, or by name, or an earlier version as NAME@VERSION.
+    """Load a map from a file, or from the service by NAME or NAME@VERSION.
 
     Raises:
-        ValueError: neither a file nor what could be a version.
+        ValueError: the source is not a file, and its version is not a number.
     """
     from placecell_client import decode
 
@@ -61,5 +56,5 @@ def map_from(client: "Client", source: str) -> "CompactMap":
         return decode(Path(source).read_bytes())
     name, _, version = source.partition("@")
     if version and not version.isdigit():
-        raise ValueError(f"{source}: a version is a number, such as {name}@3")
+        raise ValueError(f"Invalid version in {source!r}: expected a number, such as {name}@3.")
     return client.get_map(name, int(version) if version else None)

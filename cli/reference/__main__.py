@@ -1,4 +1,4 @@
-"""Write the generated parts of docs/reference anew: `python -m cli.reference`, `make reference`."""
+"""Write the generated parts of docs/reference: `python -m cli.reference`, `make reference`."""
 
 from cli.reference.pages import PAGES, generate
 
@@ -9,7 +9,7 @@ def main() -> None:
         before, after = generate(page)
         if after != before:
             page.write_text(after, encoding="utf-8")
-            print(f"{page.name}: written")
+            print(f"Page {page.name} is updated.")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The command line: one section a command, from its help texts."""
+"""Command-line reference: one section per command, made from the help texts."""
 
 import re
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Tables, and the marked parts of a page that are generated."""
+"""Markdown tables, and the generated parts of a page between markers."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -36,10 +36,10 @@ def paragraphs(text: str) -> str:
 
 
 def filled(page: str, parts: Mapping[str, str]) -> str:
-    """Return a page with all its generated parts made again.
+    """Return a page with new content in all its generated parts.
 
     Raises:
-        ValueError: the page lacks one of the parts, or has one that is not known.
+        ValueError: the page lacks a part or has an unknown one.
     """
     found = [match["name"] for match in _PART.finditer(page)]
     missing, unknown = sorted(set(parts) - set(found)), sorted(set(found) - set(parts))

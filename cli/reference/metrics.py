@@ -1,4 +1,4 @@
-"""The service's metrics, from the registry that `/metrics` shows."""
+"""Metrics reference, made from the registry that `/metrics` serves."""
 
 from prometheus_client import Histogram
 

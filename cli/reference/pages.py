@@ -1,4 +1,4 @@
-"""The pages of docs/reference that have generated parts."""
+"""Pages of docs/reference with generated parts."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -18,14 +18,14 @@ PAGES: Mapping[Path, Callable[[], dict[str, str]]] = {
     FOLDER / "metrics.md": metric_pages,
     FOLDER / "settings.md": setting_pages,
 }
-"""Pages, each with what makes its generated parts."""
+"""Each page and the function that makes its generated parts."""
 
 
 def generate(page: Path) -> tuple[str, str]:
-    """Return a page as it is, and as it should be.
+    """Return the present and the new text of a page.
 
     Raises:
-        ValueError: the page lacks a part that is generated, or marks one that is not known.
+        ValueError: the page lacks a generated part or has an unknown one.
     """
     before = page.read_text(encoding="utf-8")
     return before, filled(before, PAGES[page]())

@@ -1,4 +1,4 @@
-"""Paths of this checkout, as the pages show them."""
+"""Paths of this checkout in the form that the pages show."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The HTTP API: parameters and answers of each route, and all schemas, from OpenAPI."""
+"""HTTP API reference: parameters and responses of each route, and all schemas, from OpenAPI."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -20,7 +20,7 @@ def openapi() -> dict[str, Any]:
 
 
 def route_pages() -> dict[str, str]:
-    """Return the generated parts of the page on routes: one a route, and the schemas."""
+    """Return the generated parts of the page on routes: one per route, and the schemas."""
     document = openapi()
     parts = {name: _route(route) for name, route in routes_of(document)}
     schemas = document["components"]["schemas"]
@@ -69,7 +69,7 @@ def _route(route: dict[str, Any]) -> str:
 
 
 def _content(content: dict[str, Any]) -> str:
-    """Return the schemas and media types of a body; a msgpack twin is not named again."""
+    """Return the schemas and media types of a body; msgpack variants share the JSON schema."""
     shown = []
     for media, each in content.items():
         schema = each.get("schema", {})

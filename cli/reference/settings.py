@@ -1,4 +1,4 @@
-"""The service's settings: one table a group."""
+"""Settings reference: one table per group of settings."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`placecell town`: drives through a synthetic town."""
+"""`placecell town`: simulates drives through a synthetic town."""
 
 import json
 import time
@@ -36,17 +36,17 @@ def town(
     picture: options.Picture = None,
     json_file: options.JsonFile = None,
 ) -> None:
-    """Drive robots through a synthetic town, the same streets in opposite directions.
+    """Simulate robots that drive the same streets of a synthetic town in opposite directions.
 
-    Writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout: 64 beams, parked cars
-    changed between the drives. The same seed gives the same files.
+    The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. The LiDAR
+    has 64 beams; parked cars change between the drives. The same seed gives the same files.
 
-    With --meters the town is large, and the drives have a second file of poses, poses_odometry.txt,
-    in which the robots' odometry drifts. Five kilometres of streets, all of them driven both ways:
+    With --meters the town is large, and each drive has a second pose file, poses_odometry.txt, with
+    drifting odometry. This example has 5 km of streets; each street is driven in both directions:
 
         placecell town out/town5 --meters 5000 --picture out/town5.png
 
-    A scan takes about a megabyte and a fortieth of a second: see docs/explanation/town.md.
+    A scan takes about 1 MB and 25 ms. See docs/explanation/town.md.
     """
     with clear_errors():
         if meters is None:
@@ -54,12 +54,12 @@ def town(
             small_town(output, seed, scans or options.SCANS, spacing, columns, overwrite)
             return
         if pairs and robots < 2:
-            raise ValueError("--pairs needs two robots or more")
+            raise ValueError("--pairs needs two robots or more; increase --robots")
         from town import HDL_64E, City, Odometry, several_robots
 
         city = City.build(seed, meters, look_alikes)
         way = city.route(planned(city, route), lane)
-        # Before anything is driven, for there may be none.
+        # Draw the pairs before the simulation, because there may be none.
         drawn = pairs_of(city, way, scans, spacing, start, pairs, pair_meters) if pairs else None
         started = time.perf_counter()
         drives = several_robots(
@@ -95,10 +95,10 @@ def town(
 
 
 def refuse_options_of_large_towns(context: typer.Context) -> None:
-    """Say that an option would have no effect.
+    """Refuse options that have no effect in the small town.
 
     Raises:
-        ValueError: one of the large town's was given.
+        ValueError: an option of the large town was given.
     """
     for parameter in context.command.params:
         source = context.get_parameter_source(str(parameter.name))
@@ -110,7 +110,7 @@ def refuse_options_of_large_towns(context: typer.Context) -> None:
 def small_town(
     output: Path, seed: int, scans: int, spacing: float, columns: int, overwrite: bool
 ) -> None:
-    """Two robots in the town that is built whole."""
+    """Simulate two robots in the small town."""
     from town import two_robots
 
     drives = two_robots(
@@ -123,4 +123,4 @@ def small_town(
         progress=show,
     )
     for drive in drives:
-        typer.echo(f"{drive}: {scans} scans")
+        typer.echo(f"Drive {drive} has {scans} scans.")

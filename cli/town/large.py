@@ -1,4 +1,4 @@
-"""What the options of a large town ask for: which way, which pairs."""
+"""Large towns: parses --route and draws pairs of stretches."""
 
 import re
 from typing import TYPE_CHECKING, Any
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 def planned(city: "City", text: str) -> "Way":
-    """The way that `--route` asks for.
+    """Plan the route that `--route` names.
 
     Raises:
-        ValueError: no such way.
+        ValueError: the text is not a valid route.
     """
     rng = np.random.default_rng([city.seed, 11])
     number = r"(\d+(?:\.\d*)?)"
@@ -28,7 +28,8 @@ def planned(city: "City", text: str) -> "Way":
         a, b, c, d = (int(part) for part in match.groups())
         return city.planner.between((a, b), (c, d))
     raise ValueError(
-        f"--route is all, wander:METRES, loop:METRES, loop:METRES:LAPS or C,R:C,R, not {text!r}"
+        f"Invalid --route {text!r}: expected all, wander:METERS, loop:METERS, loop:METERS:LAPS or "
+        "C,R:C,R."
     )
 
 
@@ -41,7 +42,7 @@ def pairs_of(
     count: int,
     meters: float,
 ) -> dict[str, Any]:
-    """Pairs of stretches of the first two robots' drives along a route."""
+    """Draw pairs of stretches from the first two robots' drives along a route."""
     from town import Traversal, draw_pairs, way_of
 
     ways = [way_of(number, route, scans, spacing, start) for number in (0, 1)]

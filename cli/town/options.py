@@ -1,4 +1,4 @@
-"""The options of `placecell town`."""
+"""Options of `placecell town`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,27 +6,27 @@ from typing import Annotated
 import typer
 
 SCANS = 120
-"""Of a drive through the small town."""
+"""Default number of scans of a drive through the small town."""
 
 LARGE = "Large town (with --meters)"
 
 Output = Annotated[Path, typer.Argument(help="Folder for the drives.")]
 Seed = Annotated[
-    int, typer.Option(min=0, help="Of the town, the route, the parked cars and the noise.")
+    int, typer.Option(min=0, help="Random seed of town, route, parked cars and sensor noise.")
 ]
 Scans = Annotated[
     int | None,
     typer.Option(
-        min=1, help=f"Scans a drive. (default: {SCANS}; in a large town all of the route)"
+        min=1, help=f"Scans per drive. (default: {SCANS}; in a large town the whole route)"
     ),
 ]
-Spacing = Annotated[float, typer.Option(min=0.05, help="Metres between scans.")]
-Columns = Annotated[int, typer.Option(min=16, help="Azimuth steps a turn of the sensor.")]
-Overwrite = Annotated[bool, typer.Option(help="Replace drives that are there.")]
+Spacing = Annotated[float, typer.Option(min=0.05, help="Distance between scans, meters.")]
+Columns = Annotated[int, typer.Option(min=16, help="Azimuth steps per revolution of the sensor.")]
+Overwrite = Annotated[bool, typer.Option(help="Replace existing drives.")]
 Meters = Annotated[
     float | None,
     typer.Option(
-        help="Of streets, up to 200,000: a large town; only what is near the sensor is built.",
+        help="Total street length in meters (at most 200,000); enables the large, tiled town.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -35,17 +35,16 @@ LookAlikes = Annotated[
     typer.Option(
         min=0.0,
         max=1.0,
-        help="Share of the streets that rows of identical houses line.",
+        help="Share of streets with rows of identical houses, 0 to 1.",
         rich_help_panel=LARGE,
     ),
 ]
 RouteText = Annotated[
     str,
     typer.Option(
-        help="all: each street at least once, in as few metres as can be; wander:METRES: at "
-        "random; loop:METRES or loop:METRES:LAPS: round, ending with the street it began with; "
-        "C,R:C,R: the shortest way between two crossings (column, row; from 0,0 in the "
-        "south-west).",
+        help="Route. all: the shortest route with every street; wander:METERS: a random route; "
+        "loop:METERS or loop:METERS:LAPS: a closed loop that ends on its first street; C,R:C,R: "
+        "the shortest route between two crossings (column, row; 0,0 is in the south-west).",
         rich_help_panel=LARGE,
     ),
 ]
@@ -54,7 +53,7 @@ Start = Annotated[
     typer.Option(
         "--from",
         min=0.0,
-        help="Metres of its way after which each drive begins.",
+        help="Distance from the start of the route at which each drive begins, meters.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -63,7 +62,8 @@ Robots = Annotated[
     typer.Option(
         min=1,
         max=26,
-        help="Drives along the route, every second one the other way; other cars are parked.",
+        help="Number of drives along the route; every second one is in the opposite direction. "
+        "Each drive has its own parked cars.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -72,7 +72,7 @@ Lane = Annotated[
     typer.Option(
         min=-3.0,
         max=3.0,
-        help="Metres to the right of the middle of the street; negative: against the traffic.",
+        help="Distance to the right of the street's middle, meters; negative: on the left.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -81,7 +81,7 @@ Oncoming = Annotated[
     typer.Option(
         min=0.0,
         max=100.0,
-        help="Cars that come the other way, a kilometre.",
+        help="Oncoming cars per kilometer.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -90,7 +90,7 @@ Rain = Annotated[
     typer.Option(
         min=0.0,
         max=100.0,
-        help="Millimetres an hour: far and dark surfaces are not seen.",
+        help="Rain, millimeters per hour; it hides far and dark surfaces.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -99,8 +99,8 @@ YawDrift = Annotated[
     typer.Option(
         min=0.0,
         max=90.0,
-        help="Of poses_odometry.txt: the heading's standard deviation after one metre, in "
-        "degrees; it grows with the root of the metres.",
+        help="Heading drift in poses_odometry.txt: standard deviation after one meter, degrees; "
+        "it grows with the square root of the distance.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -109,8 +109,8 @@ ScaleDrift = Annotated[
     typer.Option(
         min=0.0,
         max=0.3,
-        help="Of poses_odometry.txt: standard deviation of the share by which all of a drive's "
-        "distances are off.",
+        help="Scale error in poses_odometry.txt: standard deviation of a drive's relative error "
+        "of all distances.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -118,19 +118,20 @@ Pairs = Annotated[
     int,
     typer.Option(
         min=0,
-        help="Write OUTPUT/pairs.json: so many pairs of stretches of the first two drives that "
-        "overlap by 10% to 100%, and as many that do not overlap.",
+        help="Number of pairs of stretches of the first two drives that overlap by 10% to 100%, "
+        "and of pairs that do not overlap; written to OUTPUT/pairs.json. 0: none.",
         rich_help_panel=LARGE,
     ),
 ]
 PairMeters = Annotated[
-    float, typer.Option(min=1.0, help="Of each such stretch.", rich_help_panel=LARGE)
+    float,
+    typer.Option(min=1.0, help="Length of each stretch of --pairs, meters.", rich_help_panel=LARGE),
 ]
 Picture = Annotated[
     Path | None,
     typer.Option(
         metavar="FILE",
-        help="Draw streets, route and odometry into this PNG.",
+        help="PNG file for a drawing of streets, route and odometry.",
         rich_help_panel=LARGE,
     ),
 ]
@@ -139,7 +140,7 @@ JsonFile = Annotated[
     typer.Option(
         "--json",
         metavar="FILE",
-        help="Write what was driven, and how long it took.",
+        help="JSON file for the lengths, the scans and the duration.",
         rich_help_panel=LARGE,
     ),
 ]

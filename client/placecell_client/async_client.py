@@ -205,7 +205,7 @@ class AsyncClient(Caller):
         """`Client.restore_map`."""
         return await self._send(self._calls.restore_map(name, version, if_match))
 
-    async def age_map(
+    async def prune_map(
         self,
         name: str,
         unseen_since: float,
@@ -213,8 +213,8 @@ class AsyncClient(Caller):
         *,
         if_match: str | None = None,
     ) -> Written:
-        """`Client.age_map`."""
-        return await self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
+        """`Client.prune_map`."""
+        return await self._send(self._calls.prune_map(name, unseen_since, dry_run, if_match))
 
     async def align_maps(
         self,

@@ -46,7 +46,7 @@ class Client(Caller):
     `httpx.TransportError` when it cannot be reached or does not answer in time. Before that, what
     may pass by itself is tried again: unless the call may have been carried out, and to do so again
     could undo what others wrote since. An `if_match` that is an ETag makes every write safe to
-    repeat; without it `restore_map`, `age_map`, `merge_maps`, `compact_map`, `delete_map`, and what
+    repeat; without it `restore_map`, `prune_map`, `merge_maps`, `compact_map`, `delete_map`, and what
     is written with `if_match="*"`, are not repeated then.
 
     Args:
@@ -315,7 +315,7 @@ class Client(Caller):
         """
         return self._send(self._calls.restore_map(name, version, if_match))
 
-    def age_map(
+    def prune_map(
         self,
         name: str,
         unseen_since: float,
@@ -331,7 +331,7 @@ class Client(Caller):
             dry_run: only tell how many they are.
             if_match: ETag of the version to do it to.
         """
-        return self._send(self._calls.age_map(name, unseen_since, dry_run, if_match))
+        return self._send(self._calls.prune_map(name, unseen_since, dry_run, if_match))
 
     def align_maps(
         self,

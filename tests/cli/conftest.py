@@ -1,4 +1,4 @@
-"""A running service, and a map for it."""
+"""Fixtures: a running service, and a map for it."""
 
 from collections.abc import Iterator
 from pathlib import Path

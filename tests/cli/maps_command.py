@@ -1,4 +1,4 @@
-"""`placecell maps`, as a person types it."""
+"""Helpers that run `placecell maps` in this process."""
 
 from typer.testing import CliRunner, Result
 

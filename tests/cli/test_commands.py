@@ -1,4 +1,4 @@
-"""The command line, the whole way on a small town: town, prepare, train, evaluate, demo."""
+"""Tests of the commands on a small town: town, prepare, train, evaluate, demo."""
 
 import json
 import shutil
@@ -45,7 +45,7 @@ def run(*words: str | Path | int, status: int = 0) -> Result:
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two town drives, prepared, and a model trained on robot A's."""
+    """Simulate and prepare two town drives, and train a model on robot A's."""
     folder = tmp_path_factory.mktemp("workshop")
     run("town", folder / "drives", "--scans", 40, "--columns", 500, "--seed", 3)
     drives = [folder / "drives" / name for name in ("robot_a", "robot_b")]
@@ -59,7 +59,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def small_town() -> tuple[Recording, Recording]:
-    """What two robots see of a small part of the town of seed 5."""
+    """Simulate two robots in a small part of the town with seed 5."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("town.two_robots", partial(town.two_robots, columns=500))
         first, second = town_recordings(5, scans=14)
@@ -68,7 +68,7 @@ def small_town() -> tuple[Recording, Recording]:
 
 @pytest.fixture
 def towns(monkeypatch: pytest.MonkeyPatch, small_town: tuple[Recording, Recording]) -> None:
-    """`town:5` is driven through once, and not as far."""
+    """Replace the drives of `town:5` by shorter ones that are simulated once."""
 
     def driven(seed: int, scans: int) -> list[Recording]:
         assert (seed, scans) == (5, TOWN_SCANS)
@@ -77,7 +77,7 @@ def towns(monkeypatch: pytest.MonkeyPatch, small_town: tuple[Recording, Recordin
     monkeypatch.setattr("cli.sources.town_recordings", driven)
 
 
-def test_training_writes_a_model_with_its_card_and_provenance(workshop: Path) -> None:
+def test_train_writes_model_card_and_provenance(workshop: Path) -> None:
     manifest = Manifest.load(workshop / "tiny")
     (source,) = manifest.training["sources"]
     assert source["drive"] == "robot_a"
@@ -90,7 +90,7 @@ def test_training_writes_a_model_with_its_card_and_provenance(workshop: Path) ->
     assert "free" in card
 
 
-def test_evaluate_writes_the_contract(workshop: Path) -> None:
+def test_evaluate_writes_the_documented_json_keys(workshop: Path) -> None:
     file = workshop / "figures.json"
     result = run(
         *("evaluate", workshop / "data" / "robot_a.safetensors"),
@@ -112,7 +112,7 @@ def test_evaluate_writes_the_contract(workshop: Path) -> None:
     assert not report["extractors"]["eigenvalue"]["seen"]
 
 
-def test_evaluate_takes_a_drive_as_it_lies_and_sees_no_training_in_later_scans(
+def test_evaluate_of_later_scans_of_a_drive_folder_is_not_seen(
     workshop: Path,
 ) -> None:
     file = workshop / "later.json"
@@ -125,7 +125,7 @@ def test_evaluate_takes_a_drive_as_it_lies_and_sees_no_training_in_later_scans(
     assert report["every"] == 2
 
 
-def test_a_model_in_a_folder_named_as_the_baseline_is_not_dropped(
+def test_model_folder_named_like_the_baseline_is_evaluated_too(
     workshop: Path, tmp_path: Path
 ) -> None:
     namesake = tmp_path / "eigenvalue"
@@ -140,7 +140,7 @@ def test_a_model_in_a_folder_named_as_the_baseline_is_not_dropped(
     assert found[str(namesake)]["model_id"] == Manifest.load(workshop / "tiny").model_id
 
 
-def test_a_training_that_cannot_begin_destroys_nothing(workshop: Path) -> None:
+def test_failed_start_of_a_training_keeps_the_checkpoint(workshop: Path) -> None:
     checkpoint = workshop / "runs" / "group-fast-0" / "checkpoint.pt"
     before = checkpoint.read_bytes()
     words = ("train", "group", "nowhere", "--runs", workshop / "runs")
@@ -148,7 +148,7 @@ def test_a_training_that_cannot_begin_destroys_nothing(workshop: Path) -> None:
     assert checkpoint.read_bytes() == before
 
 
-def test_resuming_on_other_drives_is_refused(workshop: Path, tmp_path: Path) -> None:
+def test_resume_on_other_drives_is_refused(workshop: Path, tmp_path: Path) -> None:
     words = ("train", "group", workshop / "data" / "robot_b.safetensors", "--epochs", 1)
     folders = ("--runs", workshop / "runs", "--output", tmp_path / "m")
     assert "other drives" in run(*words, *folders, "--resume", status=1).output
@@ -158,7 +158,7 @@ def test_help_shows_the_defaults() -> None:
     assert "default: 2" in " ".join(run("evaluate", "--help").output.split())
 
 
-def test_a_prepared_recording_refuses_another_step(workshop: Path) -> None:
+def test_evaluate_refuses_another_frame_step_than_the_recordings(workshop: Path) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
     result = run("evaluate", recording, "--every", 3, status=1)
     assert "prepare the drive again" in result.output
@@ -174,18 +174,18 @@ def test_a_prepared_recording_refuses_another_step(workshop: Path) -> None:
         (["demo", "--drive", "nowhere"], "nowhere"),
     ],
 )
-def test_errors_are_a_line_that_says_what_is_wrong(words: list[str], said: str) -> None:
+def test_wrong_arguments_are_named_without_a_stack_trace(words: list[str], said: str) -> None:
     result = run(*words, status=1)
     assert said in result.output
     assert "Traceback" not in result.output
 
 
-def test_no_segments_within_the_scans_is_said(workshop: Path) -> None:
+def test_evaluate_of_scans_without_groups_is_an_error(workshop: Path) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
     assert "no group" in run("evaluate", recording, "--scans", "900:901", status=1).output
 
 
-def test_B4_a_drive_without_segments_is_no_success(tmp_path: Path) -> None:
+def test_B4_prepare_of_a_drive_without_segments_fails(tmp_path: Path) -> None:
     points = np.random.default_rng(0).normal(size=(40, 3)) + [8, 0, 0]
     drive = write_odometry(tmp_path / "bare", [points] * 3, [pose(x) for x in range(3)])
     said = run("prepare", drive, "--output", tmp_path / "data", status=1).output
@@ -233,7 +233,7 @@ def test_an_altered_model_is_refused(workshop: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.integration
-def test_the_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> None:
+def test_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> None:
     result = run("demo", "--drive", workshop / "drives" / "robot_b", "--output", tmp_path)
     figures = json.loads((tmp_path / "figures.json").read_text())
     assert figures["queries_findable"] > 0
@@ -245,12 +245,12 @@ def test_the_demo_runs_on_a_recorded_drive(workshop: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     "command", [[], ["town"], ["prepare"], ["train"], ["evaluate"], ["serve"], ["demo"]]
 )
-def test_help_tells(command: list[str]) -> None:
+def test_help_shows_the_usage(command: list[str]) -> None:
     assert "Usage" in run(*command, "--help").output
 
 
 def in_raw_layout(drive: Path, folder: Path, scans: int) -> Path:
-    """A drive's begin as KITTI raw data: oxts in place of poses, scans under other names."""
+    """Convert the begin of a drive to the KITTI raw layout: oxts files instead of poses."""
     poses = open_drive(drive).poses[:scans]
     east, north, up = poses[:, :3, 3].T
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_euler("ZYX")
@@ -267,7 +267,7 @@ def in_raw_layout(drive: Path, folder: Path, scans: int) -> Path:
     return folder
 
 
-def test_the_experiments_run_on_a_raw_drive_and_a_second_call_trains_nothing(
+def test_experiments_run_on_a_raw_drive_and_repeat_no_training(
     workshop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("training.export.pair_classifier.TREES", 4)
@@ -289,7 +289,7 @@ def test_the_experiments_run_on_a_raw_drive_and_a_second_call_trains_nothing(
         assert f"({picture}.png)" in text
         assert (tmp_path / f"{picture}.png").read_bytes().startswith(b"\x89PNG")
     before = {file: file.stat().st_mtime_ns for file in (tmp_path / "models").rglob("*.onnx")}
-    # What was measured once need not be again here: it is the training that must not come twice.
+    # Reuse the figures of the first run; the test is about the training.
     monkeypatch.setattr(
         "training.experiments.experiments.compare",
         lambda folder, *_, **__: report["models"][folder.name],
@@ -298,7 +298,7 @@ def test_the_experiments_run_on_a_raw_drive_and_a_second_call_trains_nothing(
     assert {f: f.stat().st_mtime_ns for f in (tmp_path / "models").rglob("*.onnx")} == before
 
 
-def test_training_on_too_little_or_by_an_unknown_network_says_so(
+def test_train_refuses_too_few_groups_and_an_unknown_network(
     workshop: Path, tmp_path: Path
 ) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
@@ -309,7 +309,7 @@ def test_training_on_too_little_or_by_an_unknown_network_says_so(
     assert not (tmp_path / "m").exists()
 
 
-def test_experiments_on_other_drives_want_another_folder(workshop: Path, tmp_path: Path) -> None:
+def test_experiments_on_other_drives_refuse_the_same_folder(workshop: Path, tmp_path: Path) -> None:
     (tmp_path / "identity").write_text("of other drives")
     data = workshop / "data"
     words = ("--train", data / "robot_a.safetensors", "--test", data / "robot_b.safetensors")
@@ -317,7 +317,7 @@ def test_experiments_on_other_drives_want_another_folder(workshop: Path, tmp_pat
     assert "other drives" in said
 
 
-def test_experiments_refuse_to_test_on_what_they_learned_from(
+def test_experiments_refuse_test_scans_that_are_training_scans(
     workshop: Path, tmp_path: Path
 ) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
@@ -326,7 +326,7 @@ def test_experiments_refuse_to_test_on_what_they_learned_from(
     assert "shares scans" in " ".join(said.split())
 
 
-def test_the_context_model_looks_around_and_towns_are_drives(
+def test_context_model_uses_neighborhoods_and_trains_on_towns(
     workshop: Path, tmp_path: Path, towns: None
 ) -> None:
     recording = workshop / "data" / "robot_a.safetensors"
@@ -343,7 +343,7 @@ def test_the_context_model_looks_around_and_towns_are_drives(
     assert 0 < figures["alone"]["top1_in_map"] < figures["top1"]
 
 
-def test_the_study_draws_its_curves(workshop: Path, tmp_path: Path) -> None:
+def test_study_writes_its_curves(workshop: Path, tmp_path: Path) -> None:
     recording = workshop / "data" / "robot_b.safetensors"
     result = run("study", recording, "--model", "eigenvalue", "--output", tmp_path)
     assert "near_place" in result.output
@@ -351,12 +351,14 @@ def test_the_study_draws_its_curves(workshop: Path, tmp_path: Path) -> None:
     assert set(json.loads((tmp_path / "study.json").read_text())["models"]) == {"eigenvalue"}
 
 
-def test_experiments_want_both_drives_or_none(workshop: Path) -> None:
+def test_experiments_need_both_drives_or_none(workshop: Path) -> None:
     drive = workshop / "data" / "robot_a.safetensors"
     assert "both" in run("experiments", "--train", drive, status=1).output
 
 
-def test_ablations_compare_and_go_on(workshop: Path, tmp_path: Path, towns: None) -> None:
+def test_ablations_compare_variants_and_continue_a_run(
+    workshop: Path, tmp_path: Path, towns: None
+) -> None:
     a, b = (workshop / "data" / f"robot_{name}.safetensors" for name in "ab")
     words = ("ablations", "--train", a, "--train", "town:5", "--test", b, "--part", "data")
     shape = ("--epochs", 1, "--seeds", 1, "--output", tmp_path)
@@ -375,7 +377,7 @@ def test_ablations_compare_and_go_on(workshop: Path, tmp_path: Path, towns: None
     assert "augmentation" in run(*words, *shape, "--part", "luck", status=1).output
 
 
-def test_config_tells_every_setting_and_its_source(
+def test_config_shows_each_setting_and_its_source(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "own.toml"
@@ -406,7 +408,7 @@ POSES = {
 }
 
 
-def test_evaluate_poses_writes_the_contract(workshop: Path, tmp_path: Path) -> None:
+def test_evaluate_poses_writes_the_documented_json_keys(workshop: Path, tmp_path: Path) -> None:
     drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
     file, plot = tmp_path / "poses.json", tmp_path / "poses.png"
     result = run("evaluate-poses", *drives, "--json", file, "--plot", plot)
@@ -415,19 +417,19 @@ def test_evaluate_poses_writes_the_contract(workshop: Path, tmp_path: Path) -> N
     assert set(report) >= POSES
     assert (report["map_drive"], report["query_drive"]) == ("robot_a", "robot_b")
     assert report["queries"] + report["beyond_the_map"]["queries"] == 40
-    # The default model finds its way through a town that it has not seen.
+    # The default model was not trained on this town.
     assert not report["seen"]
     assert report["localised_right"] > 0.5
     assert report["wrong_but_sure"] == 0
     assert plot.read_bytes().startswith(b"\x89PNG")
-    # What it finds does not depend on the robot's own frame, nor on when the drives were cut.
+    # The result depends neither on the robot's frame nor on earlier segmentation of the drives.
     first, second = (workshop / "data" / f"{drive.name}.safetensors" for drive in drives)
     prepared = ("--map-recording", first, "--query-recording", second)
     run("evaluate-poses", *drives, *prepared, "--json", file, "--seed", 1)
     assert json.loads(file.read_text())["localised_right"] == report["localised_right"]
 
 
-def test_evaluate_poses_takes_what_is_prepared_and_tells_of_each_query(
+def test_evaluate_poses_reads_recordings_and_writes_each_answer(
     workshop: Path, tmp_path: Path
 ) -> None:
     drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
@@ -448,7 +450,9 @@ def test_evaluate_poses_takes_what_is_prepared_and_tells_of_each_query(
     assert "another drive" in wrong.output
 
 
-def test_evaluate_poses_by_blocks_in_a_session(workshop: Path, tmp_path: Path) -> None:
+def test_evaluate_poses_of_one_drive_uses_blocks_and_a_session(
+    workshop: Path, tmp_path: Path
+) -> None:
     file = tmp_path / "poses.json"
     drive = workshop / "drives" / "robot_b"
     words = ("--session", "--motion", "se3", "--model", "eigenvalue")
@@ -461,13 +465,13 @@ def test_evaluate_poses_by_blocks_in_a_session(workshop: Path, tmp_path: Path) -
     assert report["beyond_the_map"]["queries"] == 0
 
 
-def test_evaluate_poses_says_what_is_wrong(workshop: Path) -> None:
+def test_evaluate_poses_refuses_wrong_arguments(workshop: Path) -> None:
     drive = workshop / "drives" / "robot_a"
     assert "nowhere" in run("evaluate-poses", "nowhere", status=1).output
     assert "se2" in run("evaluate-poses", drive, "--motion", "se2", status=1).output
 
 
-def test_evaluate_poses_of_a_sparse_sensor_says_so(tmp_path: Path) -> None:
+def test_evaluate_poses_of_a_sparse_sensor_is_an_error(tmp_path: Path) -> None:
     few = np.random.default_rng(0).uniform(-30, 30, (60, 3))
     drive = write_odometry(tmp_path / "sparse", [few] * 26, [pose(x) for x in range(26)])
     result = run("evaluate-poses", drive, "--model", "eigenvalue", status=1)
@@ -476,7 +480,7 @@ def test_evaluate_poses_of_a_sparse_sensor_says_so(tmp_path: Path) -> None:
     assert "Traceback" not in result.output
 
 
-def test_the_probability_is_fitted_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fit_confidence_writes_constants(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     coarse = partial(town.several_robots, lidar=replace(town.HDL_64E, columns=300))
     monkeypatch.setattr("town.several_robots", coarse)
     file = tmp_path / "confidence.json"

@@ -1,4 +1,4 @@
-"""What the demo says at its end is what came out."""
+"""The demo's last lines and exit status agree with its results."""
 
 import json
 from pathlib import Path
@@ -28,12 +28,12 @@ ASIDE = Meeting([RIGHT], LAID.laid, (4.25, 0.5), 9, 1)
 NOTHING = Meeting([LOST], None, (np.inf, np.inf), 0, 0, "7 segments in a map.")
 
 SHORT, LONG = 20, 30
-"""Metres driven."""
+"""Path lengths in meters, below and above the limit of a short drive."""
 
 
 @pytest.fixture
 def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
-    """The demo of a drive of so many metres, that ends with a meeting: status and words."""
+    """Run the demo on a drive of some length with given results; return status and output."""
 
     def run(meeting: Meeting, meters: int, found: float = 0.7) -> tuple[int, str]:
         drive = MemoryDrive([np.zeros((0, 3))] * (meters + 1), [pose(x) for x in range(meters + 1)])
@@ -50,16 +50,16 @@ def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 @pytest.mark.parametrize("meters", [SHORT, LONG])
-def test_it_works_only_where_both_came_out(ended: Any, tmp_path: Path, meters: int) -> None:
+def test_demo_with_right_results_succeeds(ended: Any, tmp_path: Path, meters: int) -> None:
     status, said = ended(LAID, meters)
     assert status == 0
-    assert "It works: robot B knows where it is" in said
+    assert "It works: robot B is localized in robot A's map" in said
     assert json.loads((tmp_path / "figures.json").read_text())["model_id"] == "tiny"
 
 
-KNOWS, SHARE = "yes: robot B knows where it is", "yes: both robots share one map"
-UNKNOWN = "robot B was nowhere told its right pose; of 3 answers 1 tell a wrong one"
-REFUSED = "could not be laid on each other (7 segments in a map.)"
+KNOWS, SHARE = "yes: Robot B is localized", "yes: Both robots share one map"
+UNKNOWN = "Robot B was never localized rightly: of 3 answers 1 are wrong"
+REFUSED = "could not be aligned (7 segments in a map.)"
 
 
 @pytest.mark.parametrize(
@@ -67,16 +67,20 @@ REFUSED = "could not be laid on each other (7 segments in a map.)"
     [
         (NOWHERE, [f"no: {UNKNOWN}", SHARE], [KNOWS]),
         (APART, [KNOWS, REFUSED], [SHARE]),
-        (ASIDE, [KNOWS, "no: the two maps were laid on each other 4.2 m and 0.5 deg off"], [SHARE]),
-        (NOTHING, ["no: robot B was nowhere told", f"no: the two maps {REFUSED}"], [KNOWS, SHARE]),
+        (ASIDE, [KNOWS, "no: The alignment of the two maps is 4.2 m and 0.5 deg off"], [SHARE]),
+        (
+            NOTHING,
+            ["no: Robot B was never localized", f"no: The two maps {REFUSED}"],
+            [KNOWS, SHARE],
+        ),
     ],
 )
-def test_a_short_drive_is_told_which_of_both_came_out(
+def test_demo_on_a_short_drive_reports_each_result(
     ended: Any, meeting: Meeting, there: list[str], absent: list[str]
 ) -> None:
     status, said = ended(meeting, SHORT)
     assert status == 0
-    assert "Robot B is recognised; the drive is too short to demand more" in said
+    assert "The matches of robot B are right. The drive is too short to require more" in said
     assert all(words in said for words in there)
     assert not any(words in said for words in [*absent, "It works"])
 
@@ -85,7 +89,9 @@ def test_a_short_drive_is_told_which_of_both_came_out(
     ("meeting", "words"),
     [(NOWHERE, UNKNOWN), (APART, REFUSED), (ASIDE, "4.2 m"), (NOTHING, REFUSED)],
 )
-def test_of_a_long_drive_both_are_demanded(ended: Any, meeting: Meeting, words: str) -> None:
+def test_demo_on_a_long_drive_fails_if_one_result_is_wrong(
+    ended: Any, meeting: Meeting, words: str
+) -> None:
     status, said = ended(meeting, LONG)
     assert status == 1
     assert words in said
@@ -93,7 +99,7 @@ def test_of_a_long_drive_both_are_demanded(ended: Any, meeting: Meeting, words: 
 
 
 @pytest.mark.parametrize("meters", [SHORT, LONG])
-def test_whoever_is_not_recognized_fails(ended: Any, meters: int) -> None:
+def test_demo_with_chance_matches_fails(ended: Any, meters: int) -> None:
     status, said = ended(LAID, meters, found=0.01)
     assert status == 1
     assert "hardly better than chance" in said

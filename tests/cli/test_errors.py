@@ -1,4 +1,4 @@
-"""Errors of the command line: a line or two and an exit status, never a stack trace."""
+"""Errors of the command line: one or two lines and an exit status, never a stack trace."""
 
 import json
 import os
@@ -39,7 +39,7 @@ NO_JSON: dict[tuple[str, ...], str] = {
     ("experiments",): "writes a report's folder",
     ("ablations",): "writes a report's folder with ablations.json",
 }
-"""Commands that print no figures."""
+"""Commands without --json, each with the reason."""
 
 
 def run(*words: object, env: dict[str, str] | None = None) -> tuple[int, str]:
@@ -55,10 +55,10 @@ def test_B12_every_command_that_prints_figures_has_json(path: tuple[str, ...]) -
 
 
 @pytest.mark.parametrize("path", LEAVES, ids=" ".join)
-def test_B16_wrong_words_are_told_in_two_lines(
+def test_B16_usage_errors_take_at_most_two_lines(
     path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A wrong option, a path that is not there, a value that is no number: each with a status."""
+    """Unknown option, missing path, value that is not a number: each gives an exit status."""
     monkeypatch.chdir(tmp_path)
     command = LEAVES[path]
     status, said = run(*path, "--no-such-option")
@@ -103,11 +103,11 @@ def test_B16_wrong_words_are_told_in_two_lines(
         (ValueError("a\nb"), "a\nb"),
     ],
 )
-def test_B16_errors_of_the_system_name_the_file_first(error: Exception, words: str) -> None:
+def test_B16_system_errors_name_the_file_first(error: Exception, words: str) -> None:
     assert words in plain(error)
 
 
-def test_B16_an_unexpected_error_is_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_B16_unexpected_error_prints_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object, **__: object) -> None:
         raise KeyError("column")
 
@@ -119,7 +119,7 @@ def test_B16_an_unexpected_error_is_a_line(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize("where", ["file/below", "file"])
-def test_B16_output_below_a_file_is_told(where: str, tmp_path: Path) -> None:
+def test_B16_output_below_a_file_is_an_error(where: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
     status, said = run("town", tmp_path / where, "--scans", "1", "--columns", "16")
     assert status == 1
@@ -138,20 +138,20 @@ def shell(words: str, **env: str) -> subprocess.CompletedProcess[bytes]:
     )
 
 
-def test_B16_a_closed_pipe_is_quiet() -> None:
+def test_B16_closed_pipe_prints_nothing() -> None:
     done = shell("placecell config | true")
     assert done.returncode == 141
     assert done.stderr == b""
 
 
-def test_B16_a_full_output_is_told() -> None:
+def test_B16_full_output_device_is_an_error() -> None:
     done = shell("placecell config > /dev/full")
     assert done.returncode == 1
     assert b"no space left" in done.stderr
     assert done.stderr.count(b"\n") == 1
 
 
-def test_B16_ctrl_c_is_a_line() -> None:
+def test_B16_ctrl_c_prints_one_line() -> None:
     code = (
         "import cli, sys, time\n"
         "def wait(*_):\n    print('waits', flush=True)\n    time.sleep(60)\n"
@@ -196,7 +196,7 @@ def test_B12_B16_names_are_whole_in_a_pipe_and_escaped_on_an_ascii_terminal(
     assert json.loads(verified.stdout)["files"][0]["whole"] is True
 
 
-def test_the_version_is_told() -> None:
+def test_version_option_prints_the_version() -> None:
     status, said = run("--version")
     assert status == 0
     assert said.startswith("placecell ")

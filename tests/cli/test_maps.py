@@ -1,4 +1,4 @@
-"""`placecell maps` against a running service, as a person uses it."""
+"""Tests of `placecell maps` against a running service."""
 
 import hashlib
 import json
@@ -19,24 +19,26 @@ from service.child_process import running_service
 from tests.cli.maps_command import bad, good
 
 
-def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+def test_map_is_pushed_pulled_compared_restored_pruned_compacted_and_deleted(
+    address: str, tmp_path: Path, yard: CompactMap, monkeypatch
+) -> None:  # type: ignore[no-untyped-def]
     monkeypatch.setenv("PLACECELL_URL", address)
     file, copy = tmp_path / "yard.map", tmp_path / "copy.map"
     file.write_bytes(encode(yard))
-    assert "yard: 300 segments, version 1" in good("push", file)
-    assert "300 segments, version 0 to 1" in good("pull", "yard", copy)
+    assert "Map yard has 300 segments, version 1" in good("push", file)
+    assert "300 segments, updated from version 0 to 1" in good("pull", "yard", copy)
     assert copy.read_bytes() == file.read_bytes()
     assert "ann 300" in good("list")
     with Client(address) as client:
         gone = Delta(take(yard, np.arange(0)), np.arange(5, dtype=np.uint32))
         client.edit_map("yard", gone, robot="ann")
-    assert "0 added, 0 changed, 5 removed, 295 the same" in good("diff", copy, "yard")
+    assert "0 added, 0 changed, 5 removed, 295 unchanged" in good("diff", copy, "yard")
     assert "5 added" in good("diff", "yard", "yard@1")
-    # Seen at version 1; so what was written since is not lost.
+    # The copy is at version 1: the push must not overwrite version 2.
     copy.write_bytes(encode(take(yard, np.arange(10))))
     assert "412" in bad("push", copy, "yard")
     copy.write_bytes(file.read_bytes())
-    assert "295 segments, version 1 to 2" in good("pull", "yard", copy)
+    assert "295 segments, updated from version 1 to 2" in good("pull", "yard", copy)
     assert decode(copy.read_bytes()).ids[0] == 5
     copy.write_bytes(encode(take(yard, np.arange(10))))
     assert "10 segments, version 3" in good("push", copy, "yard")
@@ -46,27 +48,27 @@ def test_a_maps_life(address: str, tmp_path: Path, yard: CompactMap, monkeypatch
     shown = good("show", "yard", "--plot", tmp_path / "yard.png")
     assert [word in shown for word in ("put", "edit", "anyone")] == [True, True, True]
     assert (tmp_path / "yard.png").read_bytes().startswith(b"\x89PNG")
-    assert "295 segments as in version 2, now version 5" in good("restore", "yard", 2)
-    assert "295 segments would go" in good(
-        "age", "yard", "--unseen-since", "2030-01-01", "--dry-run"
+    assert "295 segments as in version 2; this is now version 5" in good("restore", "yard", 2)
+    assert "295 segments would be removed" in good(
+        "prune", "yard", "--unseen-since", "2030-01-01", "--dry-run"
     )
-    assert "0 segments removed" in good("age", "yard", "--unseen-since", "1990-01-01")
-    assert "version 4 is the oldest" in good("compact", "yard", "--keep", 2)
+    assert "0 segments were removed" in good("prune", "yard", "--unseen-since", "1990-01-01")
+    assert "Version 4 is now the oldest" in good("compact", "yard", "--keep", 2)
     assert "410" in bad("diff", "yard", "yard@1")
     assert CliRunner().invoke(app, ["maps", "delete", "yard"], input="n\n").exit_code == 1
-    assert "gone" in good("delete", "yard", "--yes")
+    assert "is deleted" in good("delete", "yard", "--yes")
     assert "404" in bad("show", "yard")
     assert "number" in bad("diff", "yard@x", "yard")
 
 
-def test_a_delta_file_is_pushed(address: str, tmp_path: Path, yard: CompactMap) -> None:
+def test_push_applies_a_delta_file(address: str, tmp_path: Path, yard: CompactMap) -> None:
     file, name = tmp_path / "site.delta", "with-delta"
     bobs = Delta(replace(take(yard, np.arange(10)), robots=("bob",)), np.array([20, 21], np.uint32))
     file.write_bytes(encode_delta(bobs))
     assert "404" in bad("push", file, name, "--url", address)
     with Client(address) as client:
         client.put_map(name, yard)
-        # They are ann's.
+        # The segments belong to ann.
         assert "409" in bad("push", file, name, "--url", address)
         told = good("push", file, name, "--replace", "--url", address)
         assert "10 changed, 2 removed" in told
@@ -76,7 +78,7 @@ def test_a_delta_file_is_pushed(address: str, tmp_path: Path, yard: CompactMap) 
     assert "cut" in bad("push", file, name, "--url", address)
 
 
-def test_an_earlier_version_is_pulled(
+def test_pull_of_an_earlier_version_writes_no_etag(
     address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -84,20 +86,20 @@ def test_an_earlier_version_is_pulled(
     with Client(address) as client:
         first = client.put_map("earlier", yard)
         client.put_map("earlier", take(yard, np.arange(9)), if_match=first.etag)
-    assert "earlier@1.map: version 1" in good("pull", "earlier", "--version", 1)
+    assert "earlier@1.map holds version 1" in good("pull", "earlier", "--version", 1)
     assert (tmp_path / "earlier@1.map").read_bytes() == encode(yard)
     assert not (tmp_path / "earlier@1.map.etag").exists()
     good("pull", "earlier")
     assert (tmp_path / "earlier.map.etag").exists()
     good("pull", "earlier", "earlier.map", "--version", 1)
-    # It is not what was seen last, so that it replaces nothing by mistake.
+    # The file is not the newest version, so it must not replace the map.
     assert "428" in bad("push", "earlier.map")
-    assert "9 segments, version 0 to 2" in good("pull", "earlier")
+    assert "9 segments, updated from version 0 to 2" in good("pull", "earlier")
     assert "404" in bad("pull", "earlier", "--version", 3)
     assert not (tmp_path / "earlier@3.map").exists()
 
 
-def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> None:
+def test_show_prints_the_sources_of_a_merged_map(address: str, yard: CompactMap) -> None:
     some = take(yard, np.arange(120))
     rest = take(yard, np.arange(120, 300))
     site = apply(rest, Delta(originated(some, "east"), np.zeros(0, np.uint32)))
@@ -105,7 +107,7 @@ def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> N
         stored = client.put_map("site", site)
         assert stored.sources == {"east": 120}
         client.put_map("plain", yard)
-        assert "300 segments, of these merged: 120 from east" in good(
+        assert "300 segments, merged from other maps: 120 from east" in good(
             "show", "site", "--url", address
         )
         assert "merged" not in good("show", "plain", "--url", address)
@@ -113,11 +115,11 @@ def test_what_was_merged_into_a_map_is_told(address: str, yard: CompactMap) -> N
         client.delete_map("plain")
 
 
-def test_what_cannot_be_reached_is_told() -> None:
+def test_unreachable_service_is_an_error() -> None:
     assert "placecell serve" in bad("list", "--url", "http://127.0.0.1:9")
 
 
-def test_what_may_be_done_is_told() -> None:
+def test_lost_answer_says_that_the_request_may_be_done() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def hang_up() -> None:
@@ -132,24 +134,26 @@ def test_what_may_be_done_is_told() -> None:
     assert "may still have been carried out" in told
 
 
-def test_files_and_folders_are_verified(
+def test_verify_checks_files_and_data_folders(
     address: str, data_dir: Path, tmp_path: Path, yard: CompactMap
 ) -> None:
     whole, delta, cut = tmp_path / "a.map", tmp_path / "a.delta", tmp_path / "cut.map"
     whole.write_bytes(encode(yard))
     delta.write_bytes(encode_delta(Delta(yard, np.zeros(0, np.uint32))))
-    assert good("verify", whole, delta).count("whole") == 2
+    assert good("verify", whole, delta).count("intact") == 2
     cut.write_bytes(whole.read_bytes()[:-1])
     assert "cut" in bad("verify", whole, cut)
     assert "holds no maps.sqlite" in bad("verify", tmp_path)
-    assert "stop it first" in bad("verify", data_dir)
+    assert "Stop the service first" in bad("verify", data_dir)
 
 
-def test_a_stopped_services_folder_is_verified(tmp_path: Path, yard: CompactMap) -> None:
+def test_verify_finds_a_damaged_map_in_a_stopped_services_folder(
+    tmp_path: Path, yard: CompactMap
+) -> None:
     with running_service(tmp_path) as address, Client(address) as client:
         client.put_map("yard", yard)
         client.put_map("other", replace(yard, frame="elsewhere"))
-    assert "whole" in good("verify", tmp_path)
+    assert "intact" in good("verify", tmp_path)
     database = tmp_path / "maps.sqlite"
     data = bytearray(database.read_bytes())
     place = data.index(yard.codes[100].tobytes())
@@ -162,10 +166,10 @@ def test_a_stopped_services_folder_is_verified(tmp_path: Path, yard: CompactMap)
         assert stored.damaged == ("yard",)
         listed = good("list", "--url", address)
     assert "other" in listed
-    assert "yard is damaged" in listed
+    assert "Map yard is damaged" in listed
 
 
-def test_B12_what_was_done_is_told_as_json(
+def test_B12_commands_print_json(
     address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PLACECELL_URL", address)
@@ -180,13 +184,13 @@ def test_B12_what_was_done_is_told_as_json(
     shown = json.loads(good("show", "told", "--json"))
     assert [one["sequence"] for one in shown["versions"]] == [2, 1]
     assert json.loads(good("restore", "told", 1, "--json"))["version"] == 3
-    aged = json.loads(good("age", "told", "--unseen-since", "1990-01-01", "--json"))
-    assert aged == {"map": "told", "removed": 0, "dry_run": False}
+    pruned = json.loads(good("prune", "told", "--unseen-since", "1990-01-01", "--json"))
+    assert pruned == {"map": "told", "removed": 0, "dry_run": False}
     assert json.loads(good("compact", "told", "--json"))["oldest"] == 3
     assert json.loads(good("delete", "told", "--yes", "--json"))["deleted"] is True
 
 
-def test_B9_large_map_file_is_pushed_in_parts(tmp_path: Path, yard: CompactMap) -> None:
+def test_B9_push_sends_a_large_map_file_in_parts(tmp_path: Path, yard: CompactMap) -> None:
     file, copy = tmp_path / "yard.map", tmp_path / "copy.map"
     data = encode(yard)
     file.write_bytes(data)
@@ -201,7 +205,7 @@ def test_B9_large_map_file_is_pushed_in_parts(tmp_path: Path, yard: CompactMap) 
             assert httpx.put(path, content=part).is_success
         assert f"{digest}: 8,000 bytes" in good("uploads", "yard", *at)
         assert "300 segments, version 1" in good("push", file, *at)
-        assert "no upload" in good("uploads", "yard", *at)
+        assert "no unfinished uploads" in good("uploads", "yard", *at)
         assert "version 0 to 1" in good("pull", "yard", copy, *at)
         assert copy.read_bytes() == data
         less = encode(take(yard, np.arange(250)))
@@ -211,7 +215,7 @@ def test_B9_large_map_file_is_pushed_in_parts(tmp_path: Path, yard: CompactMap) 
         told = json.loads(good("uploads", "yard", "--remove", "--json", *at))
         assert told["removed"]
         assert [each["bytes"] for each in told["uploads"]] == [len(data)]
-        assert "no upload" in good("uploads", "yard", *at)
+        assert "no unfinished uploads" in good("uploads", "yard", *at)
         told = json.loads(good("reset-ids", "yard", "--json", *at))
         assert told["map"] == "yard"
         assert told["first"] + told["count"] == 1 << 32

@@ -1,4 +1,4 @@
-"""`placecell town`: large towns on the command line."""
+"""Tests of `placecell town` with large towns."""
 
 import json
 from pathlib import Path
@@ -22,7 +22,7 @@ def run(*words: str | Path | float, status: int = 0) -> Result:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two robots, a scan every eight metres of a few columns, all streets of a kilometre."""
+    """Simulate two robots on 1 km of streets, one scan of a few columns every 8 m."""
     folder = tmp_path_factory.mktemp("large")
     run(
         *(folder / "drives", "--meters", 1000, "--spacing", 8, "--columns", 32),
@@ -32,7 +32,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_both_drive_all_streets(folder: Path) -> None:
+def test_robots_drive_all_streets(folder: Path) -> None:
     figures = json.loads((folder / "figures.json").read_text())
     assert 1000 <= figures["street_metres"] < 1100
     drives = [open_drive(folder / "drives" / name) for name in ("robot_a", "robot_b")]
@@ -42,7 +42,9 @@ def test_both_drive_all_streets(folder: Path) -> None:
         assert (drive.folder / ODOMETRY_FILE).exists()
 
 
-def test_a_drive_begins_further_on(folder: Path, tmp_path: Path) -> None:
+def test_option_from_starts_the_drives_further_along_the_route(
+    folder: Path, tmp_path: Path
+) -> None:
     words = ("--meters", 1000, "--spacing", 8, "--columns", 32, "--from", 400, "--scans", 3)
     run(tmp_path, *words)
     for name in ("robot_a", "robot_b"):
@@ -51,12 +53,12 @@ def test_a_drive_begins_further_on(folder: Path, tmp_path: Path) -> None:
         apart = np.linalg.norm(whole[:, None, :2, 3] - part[None, :, :2, 3], axis=2)
         assert len(part) == 3
         assert apart.min(axis=0).max() < 4.5
-        # The inner lane of a turn is shorter than the middle of the street.
+        # In a curve the inner lane is shorter than the middle of the street.
         assert apart[:, 0].argmin() == pytest.approx(400 / 8, abs=4)
     assert "too short" in run(tmp_path / "x", *words[:-4], "--from", 1e5, status=1).output
 
 
-def test_pairs_are_written(folder: Path) -> None:
+def test_option_pairs_writes_pairs(folder: Path) -> None:
     pairs = json.loads((folder / "drives" / "pairs.json").read_text())
     assert pairs["drives"] == ["robot_a", "robot_b"]
     assert len(pairs["overlapping"]) == len(pairs["apart"]) == 3
@@ -71,14 +73,14 @@ def test_pairs_are_written(folder: Path) -> None:
         assert np.shape(pair["b_to_a"]) == (4, 4)
 
 
-def test_the_picture_is_drawn(folder: Path) -> None:
+def test_option_picture_writes_a_png(folder: Path) -> None:
     assert (folder / "plan.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize(
     ("route", "meters"), [("wander:60", 60), ("loop:200:2", 400), ("0,0:0,1", 50)]
 )
-def test_routes(tmp_path: Path, route: str, meters: float) -> None:
+def test_route_has_the_length_asked_for(tmp_path: Path, route: str, meters: float) -> None:
     result = run(
         *(tmp_path, "--meters", 700, "--route", route, "--robots", 1, "--scans", 2),
         *("--columns", 16, "--lane", 0),
@@ -97,8 +99,8 @@ def test_routes(tmp_path: Path, route: str, meters: float) -> None:
         (["--meters", 0], "m of streets"),
         (["--meters", "nan"], "m of streets"),
         (["--meters", 1e9], "m of streets"),
-        (["--meters", 700, "--route", "nowhere"], "--route is all"),
-        (["--meters", 700, "--route", "loop:x"], "--route is all"),
+        (["--meters", 700, "--route", "nowhere"], "expected all, wander:METERS"),
+        (["--meters", 700, "--route", "loop:x"], "expected all, wander:METERS"),
         (["--meters", 700, "--route", "loop:100:0"], "one lap or more"),
         (["--meters", 700, "--route", "0,0:99,0"], "no crossing"),
         (["--meters", 700, "--pairs", 1, "--robots", 1], "--pairs needs two robots"),
@@ -107,7 +109,7 @@ def test_routes(tmp_path: Path, route: str, meters: float) -> None:
         (["--meters", 700, "--scans", 9999], "too short for 9999 scans"),
     ],
 )
-def test_errors_are_a_line_that_says_what_is_wrong(
+def test_wrong_option_values_are_refused(
     tmp_path: Path, words: list[str | float], said: str
 ) -> None:
     result = run(tmp_path / "drives", *words, status=1)
@@ -115,7 +117,7 @@ def test_errors_are_a_line_that_says_what_is_wrong(
     assert not (tmp_path / "drives").exists()
 
 
-def test_help_teaches() -> None:
+def test_help_shows_an_example() -> None:
     shown = " ".join(run("--help").output.split())
     assert "--meters 5000" in shown
     assert "poses_odometry.txt" in shown

@@ -62,7 +62,7 @@ def test_both_have_the_same_methods() -> None:
     assert set(public(Client)) == {
         "close", "info", "describe", "match", "localize", "maps", "put_map", "edit_map",
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
-        "age_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
+        "prune_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
         "delete_upload", "reset_ids",
     }  # fmt: skip
 
@@ -147,7 +147,7 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
             client.delete_map("yard"),
             client.edit_map("yard", Delta(MAP, np.zeros(0, np.uint32)), robot="ann", create=True),
             client.restore_map("yard", 3, if_match="e-3"),
-            client.age_map("yard", 1.5, dry_run=True),
+            client.prune_map("yard", 1.5, dry_run=True),
             client.align_maps("yard", "hall", motion="se3", pairs=True),
             client.merge_maps("site", ["yard", "shed"], deduplicate=False, if_match="s-3"),
             client.reserve_ids("yard", 2).tolist(),

@@ -50,8 +50,8 @@ def test_conditions_and_queries_are_sent_as_asked(make: Callable[..., Any]) -> N
     client.edit_map("a", Delta(OLD, NONE), robot="ann & zoe", create=True, if_match="e-3")
     client.edit_map("a", Delta(OLD, NONE))
     client.restore_map("a", 7)
-    client.age_map("a", 1e-7, dry_run=True)
-    client.age_map("a", 2, if_match="e-3")
+    client.prune_map("a", 1e-7, dry_run=True)
+    client.prune_map("a", 2, if_match="e-3")
     client.delete_map("a", if_match="e-3")
     assert seen == [
         ("PUT", "/maps/a%2Eb", '"e-3"', None),

@@ -254,7 +254,7 @@ class Calls:
         path = _path(name, f"/versions/{int(version)}/restore")
         return self._tied("POST", path, parsing.written, if_match)
 
-    def age_map(
+    def prune_map(
         self, name: str, unseen_since: float, dry_run: bool, if_match: str | None
     ) -> Call[Written]:
         """`POST /maps/{map}/age`."""

@@ -200,7 +200,7 @@ def test_a_service_that_cannot_start_says_why(
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = str(taken.getsockname()[1])
         said = refused("--port", port, models_dir=models_dir, data_dir=data_dir)
-        assert f"cannot listen on 127.0.0.1 port {port}" in said
+        assert f"Cannot listen on 127.0.0.1 port {port}" in said
 
     # How a process ends is seen; what else it says is seen without one.
     monkeypatch.setattr("service.core.logging.install", lambda *_: None)
@@ -215,7 +215,7 @@ def test_a_service_that_cannot_start_says_why(
         return result.stderr
 
     assert "--allow-remote" in why("--host", "0.0.0.0")
-    assert "host 'no.such.host.invalid'" in why("--host", "no.such.host.invalid")
+    assert "Invalid host 'no.such.host.invalid'" in why("--host", "no.such.host.invalid")
     assert "'absent' cannot be loaded" in why("--model", "absent")
     write_onnx_model(tmp_path / "models", "cut")
     model = tmp_path / "models" / "cut" / "model.onnx"

@@ -81,7 +81,7 @@ def ask(request: pytest.FixtureRequest, yard: Yard) -> Ask:
         "restore": lambda ann, etag: ann.restore_map("yard", 1, etag),
         "put": lambda ann, etag: ann.put_map("yard", other, if_match=etag or "*"),
         "edit": lambda ann, etag: ann.edit_map("yard", one, if_match=etag or "*"),
-        "age": lambda ann, etag: ann.age_map("yard", 2e9, if_match=etag),
+        "age": lambda ann, etag: ann.prune_map("yard", 2e9, if_match=etag),
         "delete": lambda ann, etag: ann.delete_map("yard", etag),
     }
     return asks[request.param]

@@ -98,7 +98,7 @@ def test_the_client_tells_what_became_of_a_map(service: Any, manifest: Manifest)
         assert [one.operation for one in client.versions("yard")] == [
             *("restore", "edit", "put", "put"),
         ]
-        assert client.age_map("yard", 2e9, dry_run=True).removed == 4
+        assert client.prune_map("yard", 2e9, dry_run=True).removed == 4
         assert client.compact_map("yard", keep=2) == 3
         assert len(client.versions("yard")) == 2
         client.delete_map("yard")
