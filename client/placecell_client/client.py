@@ -46,8 +46,8 @@ class Client(Caller):
     `httpx.TransportError` when it cannot be reached or does not answer in time. Before that, what
     may pass by itself is tried again: unless the call may have been carried out, and to do so again
     could undo what others wrote since. An `if_match` that is an ETag makes every write safe to
-    repeat; without it `restore_map`, `prune_map`, `merge_maps`, `compact_map`, `delete_map`, and what
-    is written with `if_match="*"`, are not repeated then.
+    repeat; without it `restore_map`, `prune_map`, `merge_maps`, `compact_map`, `delete_map`, and
+    what is written with `if_match="*"`, are not repeated then.
 
     Args:
         base_url: such as `http://127.0.0.1:8000`.
