@@ -20,8 +20,8 @@ from tests.cli.maps_command import bad, good
 
 
 def test_map_is_pushed_pulled_compared_restored_pruned_compacted_and_deleted(
-    address: str, tmp_path: Path, yard: CompactMap, monkeypatch
-) -> None:  # type: ignore[no-untyped-def]
+    address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("PLACECELL_URL", address)
     file, copy = tmp_path / "yard.map", tmp_path / "copy.map"
     file.write_bytes(encode(yard))

@@ -112,7 +112,7 @@ def test_a_peer_that_fails_is_named(drives: tuple[Path, Path], tmp_path: Path) -
 
 def test_unknown_peers_are_refused(drives: tuple[Path, Path], tmp_path: Path) -> None:
     shown = run(*drives, "--peer", "nobody", "--output", tmp_path / "x", status=1)
-    assert "no peer 'nobody'; there are scan-context" in shown
+    assert "unknown peer 'nobody'; expected one of scan-context" in shown
 
 
 def test_drives_without_a_common_frame_are_refused(tmp_path: Path) -> None:
