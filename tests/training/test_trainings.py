@@ -121,7 +121,7 @@ def test_group_based_training_learns(
 def test_siamese_training_learns(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
-    recipe = siamese.SiameseRecipe(epochs=8, pairs=200, sgd=SMALL)
+    recipe = siamese.SiameseRecipe(epochs=4, pairs=200, sgd=SMALL)
     run = Run(tmp_path, seed=0)
     siamese.train(shapes, other_views, run, recipe=recipe)
     assert run.history[-1]["validation_accuracy"] > 0.85
