@@ -271,7 +271,7 @@ def test_experiments_run_on_a_raw_drive_and_repeat_no_training(
     workshop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("training.export.pair_classifier.TREES", 4)
-    raw = in_raw_layout(workshop / "drives" / "robot_a", tmp_path / "drive_0018_sync", 16)
+    raw = in_raw_layout(workshop / "drives" / "robot_a", tmp_path / "drive_0018_sync", 10)
     tmp_path = tmp_path / "report"
     words = (
         *("experiments", "--quick", "--epochs", 1, "--output", tmp_path),
