@@ -83,11 +83,12 @@ def serve(
     """
     # Requests are searched in parallel; threads within one search would compete with them.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    from service.api.state import StartError, open_state
+    from service.api.state import open_state
     from service.app import create_app, version
     from service.core import logging as logs
     from service.core import memory
     from service.core.settings import Settings
+    from service.engine import StartError
     from service.server import Server
 
     given: dict[str, Any] = {
@@ -116,7 +117,8 @@ def serve(
             with open_state(settings) as state:
                 typer.echo(
                     f"Placecell {version()} listens on {_shown(listening)} "
-                    f"(model {state.model_id}, {len(state.maps)} maps in {settings.data_dir})"
+                    f"(model {state.model_id}, {len(state.engine.maps)} maps in "
+                    f"{settings.data_dir})"
                 )
                 server = Server(create_app(settings, state), state)
                 # Loaded objects stay in memory. A garbage collection that visits all of them would

@@ -1,7 +1,7 @@
 """Compilation before the first request: runs each compiled loop of recognition once.
 
-Where no cache of machine code can be read (a fresh checkout, a container whose file system is
-read-only), compiling takes longer than a request may, so the first robot would get a 504.
+Where no cache of machine code can be read, such as in a fresh checkout or on a read-only file
+system, compilation takes longer than a request may. The first robot would get a 504.
 """
 
 import logging
@@ -10,7 +10,6 @@ from contextlib import suppress
 import numpy as np
 
 from placecell.localization import Candidates, localize
-from service.api.body import json_arrays
 from service.core.problems import Problem
 from service.core.settings import Limits
 from service.core.timing import Timing
@@ -21,24 +20,25 @@ from service.search import ranking
 logger = logging.getLogger("placecell")
 
 SEGMENTS = 6
+"""Number of segments of the made-up scan."""
+
 POINTS = 60
-"""Points of each segment."""
+"""Number of points of each of these segments."""
 
 
-def warm(models: Models, limits: Limits) -> None:
-    """Compile what a request of recognition needs, by a made-up scan.
+def warm_up(models: Models, limits: Limits) -> None:
+    """Compile the loops of recognition with a made-up scan.
 
-    Whatever fails here is left to the first request: it is no condition of the start.
+    A failure does not prevent the start; the loop is then compiled in the first request.
     """
     try:
-        _warm(models, limits)
+        _compile_all(models, limits)
     except Exception:
         logger.exception("The loops of recognition were not compiled at the start.")
 
 
-def _warm(models: Models, limits: Limits) -> None:
-    json_arrays.warm()
-    ranking.warm()
+def _compile_all(models: Models, limits: Limits) -> None:
+    ranking.warm_up()
     random = np.random.default_rng(0)
     centers = random.uniform(-20, 20, (SEGMENTS, 3))
     points = min(max(limits.min_points, POINTS), limits.max_points)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from service.api.body.json_requests import read_json
+from service.api.query_parsing import read_scan
 from service.api.schemas.recognition import DescribeRequest
 from service.core.settings import Limits
 from service.inference.scan import Scan
@@ -97,9 +98,9 @@ def measure_longest_pause(read: Read, body: bytes, repeats: int = 5) -> float:
 
 def _plain(body: bytes) -> Scan:
     request = DescribeRequest.model_validate_json(body)
-    return Scan.of(request.segments, request.origin)
+    return read_scan(request.segments, request.origin)
 
 
 def _compiled(body: bytes) -> Scan:
     request = read_json(DescribeRequest, body, Limits())
-    return Scan.of(request.segments, request.origin)
+    return read_scan(request.segments, request.origin)

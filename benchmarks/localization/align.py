@@ -4,6 +4,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,6 @@ from placecell_client.maps.edit import take
 
 from evaluation.figure import figure
 from evaluation.machine import machine
-from evaluation.poses.local_service import Local
 from evaluation.poses.recordings import recording_of
 from evaluation.poses.report import bounds
 from evaluation.poses.robot import Robot
@@ -21,6 +21,7 @@ from placecell.datasets import open_drive
 from placecell.localization import Pose
 from placecell.map_alignment import MapAlignment
 from placecell.segmentation.pipeline import Progress, silent
+from service.engine import Engine
 
 RIGHT = (0.5, 1.0)
 """Metres and degrees, in the middle of what both maps have."""
@@ -50,7 +51,7 @@ class Drives:
         cls,
         folders: Sequence[Path],
         prepared: Sequence[Path | None],
-        local: Local,
+        engine: Engine,
         progress: Progress,
     ) -> "Drives":
         """Cut both drives into segments, unless they are prepared, and describe them."""
@@ -59,7 +60,7 @@ class Drives:
             drive = open_drive(folder)
             recording = recording_of(drive, None, file, progress)
             robot = Robot(folder.name, drive, [recording], np.eye(4))
-            maps.append(robot.build_map(local, folder.name))
+            maps.append(robot.build_map(engine, folder.name))
             scans.append(np.unique(recording.frames))
         first = recording.parameters.accumulated_scans - 1
         return cls((maps[0], maps[1]), (scans[0], scans[1]), first, recording.parameters.protocol)
@@ -97,9 +98,9 @@ def measure_alignment(
     if not file.is_file():
         raise ValueError(f"{file}: is not there; 'placecell town --meters M --pairs N' makes it")
     drawn = json.loads(file.read_text())
-    with Local.open(model) as local:
+    with Engine.temporary(model) as engine:
         folders = [folder / name for name in drawn["drives"]]
-        drives = Drives.of(folders, prepared, local, progress)
+        drives = Drives.of(folders, prepared, engine, progress)
         pairs = [(kind, pair) for kind in ("overlapping", "apart") for pair in drawn[kind]]
         rows = []
         for number in progress(range(len(pairs)), len(pairs), "aligning"):
@@ -107,10 +108,12 @@ def measure_alignment(
             for which, name in enumerate("ab"):
                 frame = np.array(pair[f"frame_{name}"])
                 part = drives.stretch(which, pair[f"scans_{name}"], frame)
-                local.put_map(f"{name}-{number}", part)
-            found, milliseconds = local.align(f"a-{number}", f"b-{number}")
+                engine.put_map(f"{name}-{number}", part)
+            started = perf_counter()
+            found = engine.align(f"a-{number}", f"b-{number}")
+            milliseconds = 1e3 * (perf_counter() - started)
             rows.append(row_of(kind, pair, found, milliseconds))
-        model_id = local.model.id
+        model_id = engine.model.id
     return {
         "town": {"seed": drawn["seed"], "street_metres": drawn["street_metres"]},
         "map_metres": drawn["metres"],

@@ -32,7 +32,7 @@ from service.maps.layers import MapLayers
 from service.maps.shared_index import SharedIndexes
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import MapHead
-from service.search.localization import Group, InMap, localize_among
+from service.search.localization import MapLocalization, ModelQuery, localize_among
 
 SIZE = np.array([90.0, 40.0, 4.0])
 """Size of a floor along x, y, z, meters."""
@@ -256,7 +256,7 @@ def run_trial(
         )
         if own:
             codes = each.sample_views(looks[number], true.things[seen], random)
-            groups.append(Group(model, own, codes, here))
+            groups.append(ModelQuery(model, own, codes, here, np.arange(len(codes))))
     shared = _Shared()
     answers = localize_among(
         groups, K, LocalizationParameters(), Timing(), shared.parts, lambda _: None
@@ -265,7 +265,7 @@ def run_trial(
 
 
 def _outcome(
-    answers: Sequence[InMap],
+    answers: Sequence[MapLocalization],
     case: FloorCase,
     share: float,
     differs: float,
@@ -339,7 +339,7 @@ class _Shared:
     def __init__(self) -> None:
         self.shared = SharedIndexes()
 
-    def parts(self, group: Group) -> Any:
+    def parts(self, group: ModelQuery) -> Any:
         quantizer = group.model.manifest.quantizer
         return self.shared.parts(group.searched, group.searched, group.model.id, quantizer, ())
 

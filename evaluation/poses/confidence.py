@@ -16,13 +16,13 @@ from placecell_client.maps.edit import take
 from scipy.optimize import minimize
 
 from evaluation.machine import machine
-from evaluation.poses.local_service import Local
-from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame
+from evaluation.poses.queries import Pair, PoseQuery, joined, localize_query, random_frame
 from evaluation.poses.report import RIGHT, reliability_of
 from placecell.core.types import Bool, Float64, Int64
 from placecell.localization import Confidence, LocalizationParameters, Pose
 from placecell.localization.confidence import FEATURES
 from placecell.segmentation.pipeline import Progress, silent
+from service.engine import Engine
 
 FEW = (6, 8, 12, 20)
 """Segments that are drawn of a frame, each in turn."""
@@ -73,9 +73,9 @@ def fit(
         pairs: two or more towns.
         model: folder of the extractor.
     """
-    with Local.open(model) as local:
-        cases = ask(pairs, local, seed, progress)
-        model_id = local.model.id
+    with Engine.temporary(model) as engine:
+        cases = ask(pairs, engine, seed, progress)
+        model_id = engine.model.id
     held_out = np.zeros(len(cases.right))
     for town in np.unique(cases.towns):
         rest, here = cases.towns != town, cases.towns == town
@@ -138,29 +138,31 @@ def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
     )
 
 
-def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> Cases:
+def ask(pairs: Sequence[Pair], engine: Engine, seed: int, progress: Progress) -> Cases:
     """Each robot of each pair in the map of the other, and elsewhere."""
     random = np.random.default_rng(seed)
     frame = random_frame(seed)
     both = [*pairs, *(pair.swapped() for pair in pairs)]
-    maps = [pair.mapper.build_map(local, "town") for pair in both]
+    maps = [pair.mapper.build_map(engine, "town") for pair in both]
     shifts = [np.array([APART * index, 0.0, 0.0]) for index in range(len(pairs))]
     names = [f"map-{index}" for index in range(len(both))]
     for name, compact in zip(names, maps, strict=True):
-        local.put_map(name, compact)
+        engine.put_map(name, compact)
     # Never both maps of a town: its robot would find its own.
     for way in range(2):
         half = maps[way * len(pairs) : (way + 1) * len(pairs)]
-        local.put_map(f"joined-{way}", joined(half, shifts))
+        engine.put_map(f"joined-{way}", joined(half, shifts))
     features, right, towns = [], [], []
     for index in progress(range(len(both)), len(both), "asking"):
         town, way = index % len(pairs), index // len(pairs)
         elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
-        for query in both[index].queries(local, frame, QUERIES):
+        for query in both[index].queries(engine, frame, QUERIES):
             there = Pose(np.eye(3), shifts[town]).after(query.truth)
             place = query.truth.apply(query.sensor)
             far = np.linalg.norm(maps[index].centroids - place, axis=1) > NEAR
-            local.replace_map("without", take(maps[index], far))
+            if engine.maps.find("without") is not None:
+                engine.delete_map("without")
+            engine.put_map("without", take(maps[index], far))
             asked = [
                 (query, names[index], query.truth),
                 (query, elsewhere, None),
@@ -169,9 +171,7 @@ def ask(pairs: Sequence[Pair], local: Local, seed: int, progress: Progress) -> C
                 *((each, f"joined-{way}", there) for each in (query, *parts(query, random, (12,)))),
             ]
             for each, name, truth in asked:
-                found, _ = local.localize(
-                    each.codes, each.centroids, name, K, LocalizationParameters()
-                )
+                found, _ = localize_query(engine, each, name, K, LocalizationParameters())
                 if found.best is not None and found.features is not None:
                     features.append(found.features)
                     right.append(truth is not None and near(found.best.pose, truth, query.sensor))

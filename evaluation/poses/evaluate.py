@@ -5,16 +5,24 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from placecell_client import encode
 
 from evaluation.figure import figure
 from evaluation.machine import machine
-from evaluation.poses.local_service import Local
-from evaluation.poses.queries import MAPPED_METERS, Pair, PoseQuery, random_frame
+from evaluation.poses.queries import (
+    MAPPED_METERS,
+    DriveSession,
+    Pair,
+    PoseQuery,
+    localize_query,
+    random_frame,
+)
 from evaluation.poses.report import Outcome, report
 from placecell.localization import Localization, LocalizationParameters
 from placecell.localization.covariance import at_point
-from placecell.localization.evidence import History, middle_of
+from placecell.localization.evidence import History
 from placecell.segmentation.pipeline import Progress, silent
+from service.engine import Engine
 
 MAP = "map"
 
@@ -48,25 +56,23 @@ def evaluate(
     parameters = parameters or LocalizationParameters()
     for robot in (pair.mapper, pair.asker):
         robot.check_segments()
-    with Local.open(model) as local:
-        compact = pair.mapper.build_map(local, pair.mapper.name)
-        size = local.put_map(MAP, compact)
+    with Engine.temporary(model) as engine:
+        compact = pair.mapper.build_map(engine, pair.mapper.name)
+        file = encode(compact)
+        engine.put_map(MAP, file)
         frame = random_frame(seed)
-        queries = list(pair.queries(local, frame, most))
+        queries = list(pair.queries(engine, frame, most))
         fullest = max(queries, key=lambda each: len(each.codes))
-        manifest = local.model.manifest
-        # What compiles at its first use does so now.
-        local.localize(fullest.codes, fullest.centroids, MAP, k, parameters)
-        history = History(parameters)
+        manifest = engine.model.manifest
+        # Compile all loops before the time is taken.
+        localize_query(engine, fullest, MAP, k, parameters)
+        memory = DriveSession(History(parameters)) if session else None
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):
             query = queries[number]
-            middle = middle_of(query.centroids)
-            evidence = history.at(query.time, middle) if session else None
-            found, milliseconds = local.localize(
-                query.codes, query.centroids, MAP, k, parameters, evidence
-            )
-            history.add(query.time, middle, found.hypotheses)
+            if memory is not None:
+                memory.time = query.time
+            found, milliseconds = localize_query(engine, query, MAP, k, parameters, memory)
             outcomes.append(outcome_of(found, query, milliseconds))
     first = pair.asker.recordings[0].parameters
     robots = (pair.mapper, pair.asker)
@@ -88,7 +94,7 @@ def evaluate(
         "seed": seed,
         "machine": machine(),
         "map_segments": len(compact),
-        "map_bytes": size,
+        "map_bytes": len(file),
         "query_segments_mean": round(float(np.mean([len(each.codes) for each in queries])), 1),
         "mapped_metres": None if pair.blocks else MAPPED_METERS,
     }

@@ -3,21 +3,25 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from time import perf_counter
 from typing import Self
 
 import numpy as np
 from placecell_client import CompactMap
 from scipy.spatial import cKDTree
 
-from evaluation.poses.local_service import Local
 from evaluation.poses.recordings import recording_of
 from evaluation.poses.robot import Robot, clouds
 from evaluation.poses.robots import robots_of_drive
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
 from placecell.datasets import open_drive
-from placecell.localization import Pose
+from placecell.localization import Hypothesis, Localization, LocalizationParameters, Pose
+from placecell.localization.evidence import Evidence, History
 from placecell.segmentation.pipeline import Progress, silent
+from service.engine import Engine
+from service.inference.describer import Descriptors
+from service.maps.snapshot import MapSnapshot
 
 MAPPED_METERS = 10.0
 """A query is within the map if the mapping robot was as near as this."""
@@ -104,7 +108,7 @@ class Pair:
         """The other way round."""
         return replace(self, mapper=self.asker, asker=self.mapper)
 
-    def queries(self, local: Local, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
+    def queries(self, engine: Engine, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
         """What the other robot asks, frame by frame, also where it sees no segment.
 
         Args:
@@ -124,7 +128,7 @@ class Pair:
         for number, (scan, segments, _) in enumerate(self.asker.views()):
             if number not in asked:
                 continue
-            codes, centroids = described(local, segments)
+            codes, centroids = described(engine, segments)
             where = drive.poses[scan, :3, 3]
             near, _ = positions.query(to_map.apply(where))
             yield PoseQuery(
@@ -139,13 +143,53 @@ class Pair:
             )
 
 
-def described(local: Local, segments: Segments) -> tuple[Int8, Float64]:
+def described(engine: Engine, segments: Segments) -> tuple[Int8, Float64]:
     """Codes (n, code bytes) and centroids (n, 3) of those segments that can be described."""
     if not len(segments):
-        return np.zeros((0, local.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
-    found = local.describe(clouds(segments), segments.sensors)
-    good = np.isfinite(found.centroids).all(axis=1)
-    return found.codes[good], found.centroids[good]
+        return np.zeros((0, engine.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
+    found = engine.describe(clouds(segments), segments.sensors)
+    assert found.centroids is not None
+    return found.codes[found.usable], found.centroids[found.usable]
+
+
+@dataclass(slots=True, eq=False)
+class DriveSession:
+    """Session of a robot on a recorded drive, whose clock is that of the scans.
+
+    Attributes:
+        history: results of the earlier requests.
+        time: time of the present request, seconds.
+    """
+
+    history: History
+    time: float = 0.0
+
+    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+        """Return the evidence of the earlier requests."""
+        del stored  # a drive is localized in one map
+        return self.history.at(self.time, middle)
+
+    def remember(
+        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+    ) -> None:
+        """Add the hypotheses of a request."""
+        del stored
+        self.history.add(self.time, middle, hypotheses)
+
+
+def localize_query(
+    engine: Engine,
+    query: PoseQuery,
+    name: str,
+    k: int,
+    parameters: LocalizationParameters,
+    session: DriveSession | None = None,
+) -> tuple[Localization, float]:
+    """Localize a query in one map; return the result and the time it took, milliseconds."""
+    seen = Descriptors(engine.model.id, query.codes, None, query.centroids, {})
+    started = perf_counter()
+    result = engine.localize(seen, [name], k, parameters, session)
+    return result[0].localization, 1e3 * (perf_counter() - started)
 
 
 def spread(count: int, most: int | None = None) -> Int64:

@@ -7,23 +7,39 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from placecell_client import Client, CompactMap, Description, Info
+from placecell_client import Client, CompactMap, Info
 from scipy.spatial.transform import Rotation
 
 from placecell.core.segments import Segments
-from placecell.core.types import Float64
+from placecell.core.types import Float64, Int8
 from placecell.datasets import Drive
 from placecell.segmentation.recording import Recording
 
 
-class Describing(Protocol):
-    """What describes segments: a client, or the service's parts in this process."""
+class DescribedSegments(Protocol):
+    """Descriptors of n segments: a client's `Description`, or an engine's `Descriptors`."""
 
-    def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
-        """As `Client.describe`."""
+    @property
+    def model_id(self) -> str:
+        """Return the id of the model."""
+
+    @property
+    def codes(self) -> Int8:
+        """Return the codes, int8 (n, code bytes)."""
+
+    @property
+    def centroids(self) -> Float64 | None:
+        """Return the centroids, float64 (n, 3), meters."""
+
+
+class SegmentDescriber(Protocol):
+    """Service that describes segments: a `Client`, or an `Engine` in this process."""
+
+    def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> DescribedSegments:
+        """Describe the segments of one scan."""
 
     def info(self) -> Info:
-        """As `Client.info`."""
+        """Return facts about the service, among them its model's preprocessing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +91,7 @@ class Robot:
         """Points (n, 3) of the drive's world, in the common frame."""
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
-    def build_map(self, client: Describing, frame: str) -> CompactMap:
+    def build_map(self, client: SegmentDescriber, frame: str) -> CompactMap:
         """Have the service describe each frame's segments; keep those that are no duplicates.
 
         Raises:
@@ -90,6 +106,7 @@ class Robot:
                 continue
             description = client.describe(clouds(segments), segments.sensors)
             model_id = description.model_id
+            assert description.centroids is not None
             codes.append(description.codes[distinct])
             centroids.append(description.centroids[distinct])
             frame_index.append(np.full(int(distinct.sum()), len(scans), dtype=np.uint32))
@@ -117,7 +134,7 @@ class Answer:
     """What the service said of one segment.
 
     Attributes:
-        centroid: of the query, float64 (3,), metres, common frame.
+        centroid: of the query, float64 (3,), meters, common frame.
         candidates: centroids of the candidates, nearest descriptor first, float64 (k, 3), in the
             map's frame.
         robot_position: of the asking robot, float64 (3,), common frame.

@@ -1,158 +1,149 @@
-"""What `/match` and `/localize` are asked: segments or codes, and the maps to look in."""
+"""Parsing of requests for recognition: from their schemas to scans and descriptors."""
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
-from placecell.core.types import Float64, Int8
-from service.api.schemas.recognition import Failed, QueryRequest
+from placecell.core.types import Float64, Int8, Int64
+from service.api.schemas.recognition import Point, QueryRequest
 from service.api.state import State
 from service.core.auth import Holder
-from service.core.cost import Cost, check_cost, cost_of_search
-from service.core.problems import Problem, ProblemError
+from service.core.problems import Problem, invalid_value
 from service.core.timing import Timing
-from service.inference.describer import Prepared
-from service.inference.model_registry import Model
+from service.inference.describer import Descriptors
 from service.inference.scan import Scan
-from service.search.matching import Scope, scope_of
-
-Rows = tuple[int | Failed, ...]
-"""Of each query its row among the codes, or why it has none."""
+from service.search.query import Query
 
 
-@dataclass(frozen=True, slots=True)
-class Queries:
-    """The queries by one model.
-
-    Attributes:
-        codes: int8 (rows, code bytes).
-        rows: of each query.
-        centroids: float64 (rows, 3), metres, in the request's frame; None if the request has codes
-            alone.
-    """
-
-    codes: Int8
-    rows: Rows
-    centroids: Float64 | None
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A request that was read and found good.
-
-    Attributes:
-        model_id: that the answer names: of the codes, or the default.
-        scope: where to look.
-        k: candidates a query.
-        own: the request's own codes, if it has any.
-        prepared: the request's segments, for each model that will look.
-    """
-
-    model_id: str
-    scope: Scope
-    k: int
-    own: Queries | None
-    prepared: list[Prepared]
+class HasPoints(Protocol):
+    """Segment of a request, in any encoding."""
 
     @property
-    def dropped_points(self) -> int:
-        """Return the number of the request's points that were not finite and were left out."""
-        return self.prepared[0].dropped_points if self.prepared else 0
+    def points(self) -> ArrayLike:
+        """Return the points, (n, 3)."""
 
-    async def queries(self, timing: Timing) -> list[Queries]:
-        """The queries for each model of the scope, in its order."""
-        if self.own is not None:
-            return [self.own] * len(self.scope.searched)
-        told = []
-        for (model, _), prepared in zip(self.scope.searched, self.prepared, strict=True):
-            described = await model.describer.describe(prepared, timing)
-            told.append(Queries(described.codes, described.rows, described.centroids))
-        return told
+    @property
+    def sensor(self) -> Point:
+        """Return the sensor position."""
+
+
+def read_scan(segments: Sequence[HasPoints], origin: Point | None) -> Scan:
+    """Build the scan of a request's segments.
+
+    Args:
+        segments: the segments.
+        origin: offset of all points and sensors; None if the request has none.
+
+    Raises:
+        Problem: 422 if a coordinate exceeds the limit once the origin is added.
+    """
+    clouds = [np.asarray(each.points).reshape(-1, 3) for each in segments]
+    counts = np.array([len(cloud) for cloud in clouds])
+    points = np.concatenate(clouds, dtype=np.float64)
+    sensors = np.array([each.sensor for each in segments], np.float64)
+    if origin is not None:
+        points += origin
+        sensors += origin
+        _check_coordinates(points, sensors, counts)
+    return Scan.from_points(points, counts, sensors)
 
 
 def read_query(
     state: State,
     holder: Holder,
-    query: QueryRequest[Any, Any],
+    request: QueryRequest[Any, Any],
     timing: Timing,
     centroids: Float64 | None = None,
-) -> Asked:
-    """See that a request can be answered, and prepare its segments.
+) -> Query:
+    """Build the query of a request to `/match` or `/localize`.
 
     Args:
-        centroids: of the request's own codes.
+        state: the service's state.
+        holder: holder of the request's key.
+        request: the request.
+        timing: stopwatch of the request.
+        centroids: centroids of the request's codes, float64 (n, 3).
 
     Raises:
-        Problem: as `scope_of`; 413 or 422 if the queries cannot be used, 409 if their model is not
-            loaded.
+        Problem: as `Engine.query`; 413 or 422 if the request exceeds a limit or is inconsistent.
     """
-    limit = state.settings.limits.k
-    if query.k > limit:
-        raise invalid("/k", f"k is {query.k}; the limit is {limit}.")
-    named = state.settings.limits.named_maps
-    if query.maps is not None and len(query.maps) > named:
-        raise invalid("/maps", f"The request names {len(query.maps)} maps; the limit is {named}.")
-    own = None if query.model_id is None else state.models.named(query.model_id)
-    codes = None if own is None else _codes(state, query.codes, own)
-    scope = scope_of(state.maps, state.models, query.maps, own, holder)
-    if own is not None and codes is not None:
-        if centroids is not None and len(centroids) != len(codes):
-            raise invalid("/centroids", f"{len(centroids)} of them for {len(codes)} codes.")
-        timing.lap("decode")
-        check_cost(_search_cost(len(codes), scope, query.k), state.settings.limits.cost_seconds)
-        rows = tuple(range(len(codes)))
-        return Asked(own.id, scope, query.k, Queries(codes, rows, centroids), [])
-    assert query.segments is not None
-    scan, default = Scan.of(query.segments, query.origin), state.models.default
-    if not scope.searched:
-        # Nobody will look; but what is wrong with the segments is told all the same.
-        scope = Scope(((default, ()),), scope.skipped)
-    cost = _search_cost(len(scan), scope, query.k)
-    prepared = []
-    for model, _ in scope.searched:
-        one = model.describer.prepare(scan, timing, cost)
-        prepared.append(one)
-        cost += one.cost
-    return Asked(default.id, scope, query.k, None, prepared)
+    limits = state.settings.limits
+    if request.k > limits.k:
+        raise invalid_value("/k", f"k is {request.k}; the limit is {limits.k}.")
+    if request.maps is not None and len(request.maps) > limits.named_maps:
+        detail = f"The request names {len(request.maps)} maps; the limit is {limits.named_maps}."
+        raise invalid_value("/maps", detail)
+    if request.codes is not None:
+        seen: Descriptors | Scan = _read_codes(state, request.codes, request.model_id, centroids)
+    else:
+        assert request.segments is not None  # as the schema has checked
+        seen = read_scan(request.segments, request.origin)
+    return state.engine.query(seen, request.maps, request.k, holder, timing)
 
 
-def _search_cost(queries: int, scope: Scope, k: int) -> Cost:
-    rows = sum(len(stored) for _, group in scope.searched for stored in group)
-    return cost_of_search(queries, rows, k, len(scope.searched))
+def _read_codes(
+    state: State,
+    given: Int8 | list[list[int]],
+    model_id: str | None,
+    centroids: Float64 | None,
+) -> Descriptors:
+    """Return the request's own descriptors.
 
-
-def invalid(pointer: str, detail: str) -> Problem:
-    """The problem of a value that is wrong, told where it stands."""
-    return Problem(
-        422,
-        "invalid-request",
-        f"{pointer}: {detail}",
-        [ProblemError(pointer=pointer, detail=detail)],
-    )
-
-
-def _codes(state: State, given: Int8 | list[list[int]] | None, model: Model) -> Int8:
-    """The request's own codes, int8 (q, code bytes)."""
-    assert given is not None  # as the schema has seen
-    codes = _rows(given, model.manifest.code_bytes)
+    Raises:
+        Problem: 409 if their model is not loaded, 413 if there are too many, 422 if they do not
+            fit the model or the centroids.
+    """
+    model = state.engine.models.named(model_id)
+    codes = _code_rows(given, model.manifest.code_bytes)
     limit = state.settings.limits.segments
     if len(codes) > limit:
         raise Problem(
             413, "too-many-segments", f"{len(codes)} queries in a request; the limit is {limit}."
         )
-    return codes
+    if centroids is not None and len(centroids) != len(codes):
+        detail = f"{len(centroids)} centroids for {len(codes)} codes; expected one for each code."
+        raise invalid_value("/centroids", detail)
+    return Descriptors(model.id, codes, None, centroids, {})
 
 
-def _rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:
+def _code_rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:
     """Return the codes by query, int8 (q, code bytes), from a blob or from rows."""
     if isinstance(given, np.ndarray) and given.ndim == 1:
         if len(given) % code_bytes:
-            detail = f"{len(given)} bytes; the model's codes have {code_bytes} each."
-            raise invalid("/codes", detail)
+            detail = f"{len(given)} bytes; the model's codes have {code_bytes} bytes each."
+            raise invalid_value("/codes", detail)
         return given.reshape(-1, code_bytes)
     for index, row in enumerate(given):
         if len(row) != code_bytes:
-            detail = f"{len(row)} bytes; the model's codes have {code_bytes}."
-            raise invalid(f"/codes/{index}", detail)
+            detail = f"{len(row)} bytes; the model's codes have {code_bytes} bytes."
+            raise invalid_value(f"/codes/{index}", detail)
     return np.asarray(given, dtype=np.int8)
+
+
+def _check_coordinates(points: Float64, sensors: Float64, counts: Int64) -> None:
+    """Check that no coordinate exceeds the limit; NaN does not.
+
+    Raises:
+        Problem: 422 with a pointer to the first coordinate that does.
+    """
+    is_far = np.abs(points) > COORDINATE_LIMIT
+    if is_far.any():
+        row, axis = np.argwhere(is_far)[0].tolist()
+        segment = int(np.searchsorted(np.cumsum(counts), row, side="right"))
+        point = row - int(counts[:segment].sum())
+        raise _too_far(f"/segments/{segment}/points/{point}/{axis}", float(points[row, axis]))
+    is_far = np.abs(sensors) > COORDINATE_LIMIT
+    if is_far.any():
+        segment, axis = np.argwhere(is_far)[0].tolist()
+        raise _too_far(f"/segments/{segment}/sensor/{axis}", float(sensors[segment, axis]))
+
+
+def _too_far(pointer: str, value: float) -> Problem:
+    return invalid_value(
+        pointer,
+        f"The coordinate plus the origin is {value:g} m; the limit is {COORDINATE_LIMIT:g} m. "
+        "Check that the origin belongs to these coordinates.",
+    )

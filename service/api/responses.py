@@ -1,4 +1,4 @@
-"""What routes answer, made of what the service holds."""
+"""Parts of responses, made from the engine's results."""
 
 from typing import Any
 
@@ -7,14 +7,33 @@ from scipy.spatial.transform import Rotation
 from placecell.localization import Pose
 from service.api.schemas.maps import MapOut, VersionOut, WrittenOut
 from service.core.auth import Holder
+from service.core.problems import title_of, type_of
+from service.inference.describer import SegmentError
 from service.maps.snapshot import MapSnapshot, tag_of
 from service.maps.store import Commit
 from service.maps.visibility import author_for, sources_for
 from service.maps.writes.writer import WriteResult
+from service.search.query import MapSelection
+
+
+def segment_error(error: SegmentError) -> dict[str, Any]:
+    """Return the error of a segment, as a `Failed`."""
+    return {
+        "error": {
+            "type": type_of(error.kind),
+            "title": title_of(error.kind),
+            "detail": error.detail,
+        }
+    }
+
+
+def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:
+    """Return the maps that were not searched, each as a `SkippedOut`."""
+    return [{"map": each.name, "model_id": each.model_id} for each in selection.skipped]
 
 
 def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
-    """Summarize a map as a key may see it; reads all of it, so not for the event loop."""
+    """Summarize a map as a key may see it; reads the whole map, so call it in a thread."""
     head, layers = stored.head, stored.layers
     return MapOut(
         name=stored.name,
@@ -32,7 +51,7 @@ def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
 
 
 def outcome_of(written: WriteResult) -> WrittenOut:
-    """What a write did."""
+    """Return the result of a write."""
     stored = written.stored
     return WrittenOut(
         map=stored.name,
@@ -60,7 +79,7 @@ def version_of(commit: Commit, holder: Holder) -> VersionOut:
 
 
 def pose_of(pose: Pose) -> dict[str, Any]:
-    """A pose, as `PoseOut` says."""
+    """Return a pose, as a `PoseOut`."""
     rotation = Rotation.from_matrix(pose.rotation).as_quat(canonical=True)
     return {
         "translation": pose.translation.tolist(),

@@ -1,37 +1,21 @@
-"""What a running service holds, in one typed object."""
+"""State of the running service: the engine, and the parts that only the HTTP API needs."""
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Annotated, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
-from fastapi import Depends, Header, Request
-from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
-
-from placecell.descriptors.manifest import ModelError
 from service.api.admission.admission import Lane, admitted
 from service.api.admission.receiving import BodyRules, ByteBudget, Receiver
 from service.api.admission.streaming import Answers
-from service.core.auth import Holder, Keys
+from service.api.body import json_arrays
+from service.core.auth import Keys
 from service.core.metrics import Metrics
-from service.core.preconditions import Preconditions
 from service.core.settings import Settings
-from service.core.timing import Timing
-from service.inference.model_registry import Models
-from service.maps.cache import MapCache
-from service.maps.quotas import Quotas
-from service.maps.repository import MapRepository
-from service.maps.sqlite.store import SqliteMapStore
-from service.maps.store import StoreError, StoreLockedError
-from service.maps.sync import MapSync
-from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
-from service.maps.writes.partial_uploads import PartialUploads
-from service.maps.writes.writer import MapWriter
-from service.search.sessions import Sessions
-from service.warm_up import warm
+from service.engine import Engine, StartError
 
 READ_THREADS = 2
-"""Threads that read stored maps; they hold maps whole, so more would take much memory."""
+"""Threads that read stored maps; each may hold a whole map in memory."""
 
 WRITE_THREADS = 4
 """Threads that edit maps."""
@@ -40,215 +24,146 @@ Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
 
 
-class StartError(Exception):
-    """The service cannot start; the message says why, for whoever starts it."""
-
-
-@dataclass(slots=True)
-class State:
-    """Components of a running service.
+@dataclass(frozen=True, slots=True)
+class Lanes:
+    """Admission control of each kind of request.
 
     Attributes:
-        settings: as started.
-        metrics: what is counted and timed.
-        models: loaded.
-        maps: stored and searchable.
-        partial_uploads: map files that are uploaded in parts and are not complete.
-        changes: of maps, for robots that keep a copy.
-        keys: who may do what.
-        sessions: what robots' last requests for their place found.
-        recognition: admits requests for recognition.
-        reads: admits reads of stored maps.
-        uploads: admits uploads of maps.
-        edits: admits edits and all other small writes of maps.
-        alignments: admits alignments and merges of maps.
-        answers: sends large answers.
-        draining: the service is about to stop; it is no longer ready.
+        recognition: descriptions, matches and localizations.
+        reads: reads of stored maps.
+        uploads: uploads of maps.
+        edits: edits and all other small writes of maps.
+        alignments: alignments and merges of maps.
     """
 
-    settings: Settings
-    metrics: Metrics
-    models: Models
-    maps: MapRepository
-    partial_uploads: PartialUploads
-    sync: MapSync
-    keys: Keys
-    sessions: Sessions
     recognition: Lane
     reads: Lane
     uploads: Lane
     edits: Lane
     alignments: Lane
+
+    @classmethod
+    def of(cls, settings: Settings, metrics: Metrics) -> "Lanes":
+        """Create the lanes; all of them share the memory for bodies."""
+        limits = settings.limits
+        share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes, limits.json_bytes)
+        budget = ByteBudget(max(limits.held_bytes, share), share, "bodies")
+        receiver = Receiver(limits.bodies, budget)
+        small = BodyRules(limits.body_seconds, limits.stall_seconds)
+        large = BodyRules(limits.transfer_seconds, limits.stall_seconds)
+        return cls(
+            recognition=Lane(
+                most=limits.requests,
+                threads=settings.workers,
+                seconds=limits.deadline,
+                body=small,
+                body_bytes=max(limits.body_bytes, limits.json_bytes),
+                receiver=receiver,
+                gauge=metrics.queue_requests,
+            ),
+            reads=Lane(
+                most=limits.reads,
+                threads=READ_THREADS,
+                seconds=limits.read_seconds,
+                body=small,
+                body_bytes=limits.body_bytes,
+                receiver=receiver,
+            ),
+            uploads=Lane(
+                most=limits.uploads,
+                threads=limits.uploads,
+                seconds=limits.upload_seconds,
+                body=large,
+                body_bytes=limits.map_bytes,
+                receiver=receiver,
+            ),
+            edits=Lane(
+                most=limits.edits,
+                threads=WRITE_THREADS,
+                seconds=limits.upload_seconds,
+                body=large,
+                body_bytes=limits.body_bytes,
+                receiver=receiver,
+            ),
+            alignments=Lane(
+                most=limits.alignments,
+                threads=limits.alignments,
+                seconds=limits.alignment_seconds,
+                body=small,
+                body_bytes=limits.body_bytes,
+                receiver=receiver,
+            ),
+        )
+
+
+@dataclass(slots=True)
+class State:
+    """State of the running service.
+
+    Attributes:
+        engine: models and maps.
+        keys: API keys, and the maps that they open.
+        lanes: admission control.
+        answers: sends large answers.
+        draining: whether the service is about to stop; it is then no longer ready.
+    """
+
+    engine: Engine
+    keys: Keys
+    lanes: Lanes
     answers: Answers
     draining: bool = False
 
     @property
+    def settings(self) -> Settings:
+        """Return the settings that the service was started with."""
+        return self.engine.settings
+
+    @property
+    def metrics(self) -> Metrics:
+        """Return the counters and times."""
+        return self.engine.metrics
+
+    @property
     def model_id(self) -> str:
-        """Of the default model."""
-        return self.models.default.id
+        """Return the id of the default model."""
+        return self.engine.model.id
 
-    async def compute(
+    async def run(
         self,
         work: Callable[Parameters, Result],
         *args: Parameters.args,
         **kwargs: Parameters.kwargs,
     ) -> Result:
-        """Run blocking work (NumPy, FAISS, SQLite) in the threads of the request's lane, in turn.
+        """Run blocking work in a thread of the request's lane, in the client's turn.
 
-        A request without a lane takes those of recognition.
+        A request that is in no lane takes a thread of recognition.
         """
-        here = admitted()
-        if here is not None:
-            return await here.run(lambda: work(*args, **kwargs))
-        return await self.recognition.threads.run("", lambda: work(*args, **kwargs))
-
-    async def store(
-        self,
-        work: Callable[Parameters, Result],
-        *args: Parameters.args,
-        **kwargs: Parameters.kwargs,
-    ) -> Result:
-        """Run blocking work as `run` does; a request without a lane takes the threads of edits."""
-        here = admitted()
-        if here is not None:
-            return await here.run(lambda: work(*args, **kwargs))
-        return await self.edits.threads.run("", lambda: work(*args, **kwargs))
+        request = admitted()
+        if request is not None:
+            return await request.run(lambda: work(*args, **kwargs))
+        return await self.lanes.recognition.threads.run("", lambda: work(*args, **kwargs))
 
 
 @contextmanager
 def open_state(settings: Settings) -> Iterator[State]:
-    """Load the models, take the data directory, load the maps; let go at the end.
+    """Open keys and engine for a block.
 
     Raises:
         StartError: a model, the keys or the data directory cannot be used.
     """
-    metrics = Metrics()
     try:
         keys = Keys(settings.keys_file)
-        models = Models(settings, metrics)
-        warm(models, settings.limits)
-    except ModelError as error:
-        raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
     except ValueError as error:
         raise StartError(f"keys: {error}") from error
-    with ExitStack() as stack:
-        try:
-            store = stack.enter_context(SqliteMapStore.owned(settings.data_dir))
-            cache = MapCache(settings.data_dir)
-            limits = settings.limits
-            maps = MapRepository(store, models, Quotas(limits), cache)
-        except (StoreLockedError, StoreError) as error:
-            raise StartError(f"data directory: {error}") from error
-        except OSError as error:
-            raise StartError(f"data directory {settings.data_dir}: {error}") from error
-        sync = MapSync(store)
-        bounds = MaintenanceThresholds(
-            map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
-        )
-        partial_uploads = PartialUploads(settings.data_dir, limits)
-        maintenance = Maintenance(maps, sync, cache, bounds, partial_uploads)
-        stack.enter_context(maintenance.running())
-        metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
-        metrics.maps.set_function(lambda: len(maps))
-        metrics.map_segments.set_function(lambda: sum(len(each) for each in maps.all()))
-        lanes = _lanes(settings, metrics)
+    json_arrays.warm()
+    metrics = Metrics()
+    metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
+    limits = settings.limits
+    with Engine.open(settings, metrics, lambda: keys.patterns) as engine:
         yield State(
-            settings=settings,
-            metrics=metrics,
-            models=models,
-            maps=maps,
-            partial_uploads=partial_uploads,
-            sync=sync,
+            engine=engine,
             keys=keys,
-            sessions=Sessions(limits.sessions),
-            recognition=lanes["recognition"],
-            reads=lanes["reads"],
-            uploads=lanes["uploads"],
-            edits=lanes["edits"],
-            alignments=lanes["alignments"],
+            lanes=Lanes.of(settings, metrics),
             answers=Answers(settings.data_dir, limits.answer_bytes, limits.transfer_seconds),
         )
-
-
-def _lanes(settings: Settings, metrics: Metrics) -> dict[str, Lane]:
-    limits = settings.limits
-    share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes, limits.json_bytes)
-    receiver = Receiver(limits.bodies, ByteBudget(max(limits.held_bytes, share), share, "bodies"))
-    small = BodyRules(limits.body_seconds, limits.stall_seconds)
-    large = BodyRules(limits.transfer_seconds, limits.stall_seconds)
-
-    def lane(
-        most: int, threads: int, seconds: float, body: BodyRules, body_bytes: int, name: str
-    ) -> Lane:
-        gauge = metrics.queue_requests if name == "recognition" else None
-        return Lane(most, threads, seconds, body, body_bytes, receiver, gauge)
-
-    most_bytes, stored = limits.body_bytes, limits.upload_seconds
-    kinds = {
-        "recognition": (
-            *(limits.requests, settings.workers),
-            *(limits.deadline, small, max(most_bytes, limits.json_bytes)),
-        ),
-        "reads": (limits.reads, READ_THREADS, limits.read_seconds, small, most_bytes),
-        "uploads": (limits.uploads, limits.uploads, stored, large, limits.map_bytes),
-        "edits": (limits.edits, WRITE_THREADS, stored, large, most_bytes),
-        "alignments": (
-            *(limits.alignments, limits.alignments),
-            *(limits.alignment_seconds, small, most_bytes),
-        ),
-    }
-    return {name: lane(*values, name) for name, values in kinds.items()}
-
-
-async def state_of(request: Request) -> State:
-    """The state of the application that a request came to."""
-    state = request.app.state.placecell
-    assert isinstance(state, State)
-    return state
-
-
-BEARER = HTTPBearer(
-    auto_error=False,
-    description="A key, made with `placecell keys`. A service without keys needs none.",
-)
-"""Security scheme of the API description; `Keys` reads the header."""
-
-
-async def holder_of(
-    request: Request,
-    bearer: Annotated[HTTPAuthorizationCredentials | None, Depends(BEARER)] = None,
-) -> Holder:
-    """Who sent the request; 401 if their key is not known."""
-    del bearer  # described, not used
-    state = await state_of(request)
-    holder = state.keys.holder(request.headers.get("authorization"))
-    request.scope["state"]["key"] = holder.name
-    return holder
-
-
-async def writer_of(
-    request: Request,
-    if_match: Annotated[
-        str | None, Header(description="ETags of the versions that this is meant for, or *.")
-    ] = None,
-    if_none_match: Annotated[
-        str | None, Header(description="ETags of the versions that this is not for, or *.")
-    ] = None,
-) -> MapWriter:
-    """Whoever sent the request, as one who writes to maps."""
-    state = await state_of(request)
-    conditions = Preconditions(if_match, if_none_match)
-    return MapWriter(state.maps, state.models, await holder_of(request), conditions)
-
-
-async def timing_of(request: Request) -> Timing:
-    """The request's stopwatch."""
-    timing = request.scope["state"]["timing"]
-    assert isinstance(timing, Timing)
-    return timing
-
-
-StateOf = Annotated[State, Depends(state_of)]
-HolderOf = Annotated[Holder, Depends(holder_of)]
-TimingOf = Annotated[Timing, Depends(timing_of)]
-WriterOf = Annotated[MapWriter, Depends(writer_of)]

@@ -22,15 +22,15 @@ PART = 128
 
 
 @dataclass(slots=True, eq=False)
-class Waiting:
-    """Inputs of one request that waits for its descriptors.
+class PendingSegments:
+    """Segments of one request that wait for their descriptors.
 
     Attributes:
-        inputs: of all its segments.
-        timing: the request's stopwatch.
-        answer: will be the descriptors.
-        taken: segments that went into batches so far.
-        found: descriptors so far, one array a batch.
+        inputs: network inputs of all segments.
+        timing: stopwatch of the request.
+        answer: future of the descriptors.
+        taken: number of segments that went into batches so far.
+        found: descriptors so far, one array per batch.
     """
 
     inputs: Inputs
@@ -44,15 +44,15 @@ class Waiting:
 
     @property
     def left(self) -> int:
-        """Return the number of segments that are in no batch yet."""
+        """Return the number of segments that are not in a batch yet."""
         return len(self) - self.taken
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
-    """Part of a request in one batch: the segments from `start` to `stop`."""
+class BatchSlice:
+    """Segments of one request in one batch: those from `start` to `stop`."""
 
-    waiting: Waiting
+    pending: PendingSegments
     start: int
     stop: int
 
@@ -61,9 +61,9 @@ class Part:
 
 
 class Batcher:
-    """Gives a model its work, one batch at a time; the model itself spreads it over the cores.
+    """Runs a model on one batch at a time; the model itself spreads a batch over the cores.
 
-    Belongs to one event loop.
+    A batcher belongs to one event loop.
     """
 
     def __init__(self, extractor: Extractor, metrics: Metrics, most: int) -> None:
@@ -71,27 +71,27 @@ class Batcher:
 
         Args:
             extractor: the model.
-            metrics: count batches.
-            most: segments of a batch.
+            metrics: counters of batches.
+            most: largest number of segments in a batch.
         """
         self._extractor = extractor
         self._metrics = metrics
         self._most = most
-        self._queue: deque[Waiting] = deque()
+        self._queue: deque[PendingSegments] = deque()
         self._at_work: asyncio.Task[None] | None = None
 
     async def infer(self, inputs: Inputs, timing: Timing) -> Float32:
         """Return descriptors of prepared segments, float32 (rows, dimension).
 
-        Cancelled while it waits, it is left out of the batches that follow.
+        A call that is cancelled while it waits is left out of the batches that follow.
         """
-        waiting = Waiting(inputs, timing, asyncio.get_running_loop().create_future())
-        self._queue.append(waiting)
-        self._metrics.queue_segments.inc(len(waiting))
+        pending = PendingSegments(inputs, timing, asyncio.get_running_loop().create_future())
+        self._queue.append(pending)
+        self._metrics.queue_segments.inc(len(pending))
         if self._at_work is None:
-            # In a context of its own: it works for all requests, not for the first alone.
+            # The task has its own context, since it works for all requests, not for the first one.
             self._at_work = asyncio.create_task(self._work(), context=contextvars.Context())
-        return await waiting.answer
+        return await pending.answer
 
     async def _work(self) -> None:
         try:
@@ -100,65 +100,65 @@ class Batcher:
         finally:
             self._at_work = None
 
-    def _take(self) -> list[Part]:
+    def _take(self) -> list[BatchSlice]:
         """Take a part of the longest waiting requests; unfinished requests go to the end."""
-        batch: list[Part] = []
-        rest: list[Waiting] = []
+        batch: list[BatchSlice] = []
+        rest: list[PendingSegments] = []
         room = self._most
         while self._queue and room > 0:
-            waiting = self._queue[0]
-            size = min(waiting.left, PART, self._most)
-            if waiting.answer.done():
-                size = waiting.left  # nobody waits any more: all of it leaves the queue
+            pending = self._queue[0]
+            size = min(pending.left, PART, self._most)
+            if pending.answer.done():
+                size = pending.left  # the call was cancelled: all its segments leave the queue
             elif batch and size > room:
                 break
             self._queue.popleft()
             self._metrics.queue_segments.dec(size)
-            start, waiting.taken = waiting.taken, waiting.taken + size
-            if waiting.answer.done():
+            start, pending.taken = pending.taken, pending.taken + size
+            if pending.answer.done():
                 continue
-            batch.append(Part(waiting, start, start + size))
+            batch.append(BatchSlice(pending, start, start + size))
             room -= size
-            if waiting.left:
-                rest.append(waiting)
+            if pending.left:
+                rest.append(pending)
         self._queue.extend(rest)
         return batch
 
-    async def _run(self, batch: list[Part]) -> None:
+    async def _run(self, batch: list[BatchSlice]) -> None:
         for part in batch:
-            part.waiting.timing.lap("queue")
+            part.pending.timing.lap("queue")
         try:
             found = await anyio.to_thread.run_sync(self._infer, batch)
         except Exception as error:
             if len(batch) == 1:
-                _fail(batch[0].waiting, error)
+                _fail(batch[0].pending, error)
                 return
-            # Whoever's fault it was: the others must not suffer.
+            # One request must not make the others fail: run each by itself.
             for part in batch:
                 await self._run([part])
             return
         self._metrics.batch_requests.observe(len(batch))
         self._metrics.batch_segments.observe(sum(map(len, batch)))
         for part, descriptors in zip(batch, found, strict=True):
-            waiting = part.waiting
-            waiting.timing.lap("infer")
-            waiting.found.append(descriptors)
-            if part.stop == len(waiting) and not waiting.answer.done():
-                waiting.answer.set_result(
-                    waiting.found[0] if len(waiting.found) == 1 else np.concatenate(waiting.found)
+            pending = part.pending
+            pending.timing.lap("infer")
+            pending.found.append(descriptors)
+            if part.stop == len(pending) and not pending.answer.done():
+                pending.answer.set_result(
+                    pending.found[0] if len(pending.found) == 1 else np.concatenate(pending.found)
                 )
 
-    def _infer(self, batch: list[Part]) -> list[Float32]:
+    def _infer(self, batch: list[BatchSlice]) -> list[Float32]:
         joined = {
             name: np.concatenate(
-                [part.waiting.inputs[name][part.start : part.stop] for part in batch]
+                [part.pending.inputs[name][part.start : part.stop] for part in batch]
             )
-            for name in batch[0].waiting.inputs
+            for name in batch[0].pending.inputs
         }
         ends = np.cumsum([len(part) for part in batch])
         return np.split(self._extractor.infer(joined), ends[:-1])
 
 
-def _fail(waiting: Waiting, error: Exception) -> None:
-    if not waiting.answer.done():
-        waiting.answer.set_exception(error)
+def _fail(pending: PendingSegments, error: Exception) -> None:
+    if not pending.answer.done():
+        pending.answer.set_exception(error)

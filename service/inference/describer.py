@@ -1,62 +1,122 @@
-"""From a request's segments to descriptors: what is unusable stays out, and is told."""
+"""Describer: turns the segments of a scan into descriptors, with one model.
+
+Segments that cannot be described are left out, each with the reason.
+"""
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.descriptors.extractor import Extractor, Inputs
-from service.api.schemas.recognition import Failed, ItemErrorOut
+from placecell.descriptors.manifest import Manifest
 from service.core.cost import NOTHING, Cost, check_cost, cost_of_describing
 from service.core.metrics import Metrics
-from service.core.problems import Problem, ProblemError, title_of, type_of
+from service.core.problems import Problem, ProblemError
 from service.core.settings import Limits
 from service.core.timing import Timing
 from service.inference.batcher import Batcher
 from service.inference.scan import Scan
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Prepared:
-    """Model inputs of a scan's segments.
+@dataclass(frozen=True, slots=True)
+class SegmentError:
+    """Reason why one segment of a request has no descriptor.
 
     Attributes:
-        inputs: of the usable segments.
-        usable: int64 (rows,), their places in the request.
-        centroids: float64 (rows, 3), metres, in the request's frame.
-        failures: of the others, by place, why they cannot be used.
-        cost: of describing them.
-        dropped_points: of the request, that were not finite.
+        kind: kind of problem, such as `too-few-points`.
+        detail: what is wrong with the segment.
+    """
+
+    kind: str
+    detail: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PreparedScan:
+    """Scan prepared for one model.
+
+    Attributes:
+        inputs: the network's inputs, one row per usable segment.
+        usable: indices of these segments in the scan, int64 (rows,).
+        centroids: their centroids, float64 (rows, 3), meters, in the request's frame.
+        errors: reason for each other segment, by index in the scan.
+        cost: cost of describing the segments.
+        dropped_points: points of the scan that were not finite and were left out.
     """
 
     inputs: Inputs
     usable: Int64
     centroids: Float64
-    failures: "dict[int, Failed]"
+    errors: dict[int, SegmentError]
     cost: Cost
     dropped_points: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Described:
-    """Descriptors of those segments of a request that could be used.
+@dataclass(frozen=True, slots=True, eq=False)
+class Descriptors:
+    """Descriptors of n segments, made by one model.
 
     Attributes:
-        rows: by index in the request, the row in the three arrays, or why there is none.
-        codes: int8 (rows, code bytes).
-        descriptors: float32 (rows, d).
-        centroids: float64 (rows, 3), metres, in the request's frame.
+        model_id: id of the model.
+        codes: stored form of the descriptors, int8 (n, code bytes); 0 where there is an error.
+        values: descriptors before quantization, float32 (n, d), NaN where there is an error; None
+            if only codes are known.
+        centroids: centroids of the segments, float64 (n, 3), meters, in the request's frame, NaN
+            where there is an error; None if they are not known.
+        errors: reason for each segment without a descriptor, by index.
+        dropped_points: points of the request that were not finite and were left out.
     """
 
-    rows: "tuple[int | Failed, ...]"
+    model_id: str
     codes: Int8
-    descriptors: Float32
-    centroids: Float64
+    values: Float32 | None
+    centroids: Float64 | None
+    errors: dict[int, SegmentError]
+    dropped_points: int = 0
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    @property
+    def usable(self) -> Int64:
+        """Return the indices of the segments that have a descriptor, int64, ascending."""
+        has_descriptor = np.ones(len(self), dtype=bool)
+        has_descriptor[list(self.errors)] = False
+        return np.flatnonzero(has_descriptor)
+
+    @classmethod
+    def of_usable(
+        cls,
+        manifest: Manifest,
+        values: Float32,
+        centroids: Float64,
+        errors: dict[int, SegmentError],
+        dropped_points: int,
+    ) -> Self:
+        """Build from the segments that have a descriptor, in order, and the errors of the others.
+
+        Args:
+            manifest: manifest of the model.
+            values: descriptors, float32 (rows, d).
+            centroids: float64 (rows, 3).
+            errors: by index of the segment.
+            dropped_points: points that were left out.
+        """
+        codes = manifest.quantizer.encode(values)
+        if errors:
+            count = len(values) + len(errors)
+            usable = np.setdiff1d(np.arange(count), list(errors))
+            codes = _spread(codes, usable, count, 0)
+            values = _spread(values, usable, count, np.nan)
+            centroids = _spread(centroids, usable, count, np.nan)
+        return cls(manifest.model_id, codes, values, centroids, errors, dropped_points)
 
 
 class Describer:
-    """One model at work: checks segments, brings them near the origin, has them described."""
+    """Describes the segments of scans with one model."""
 
     def __init__(self, extractor: Extractor, limits: Limits, metrics: Metrics) -> None:
         self.manifest = extractor.manifest
@@ -64,67 +124,72 @@ class Describer:
         self._limits = limits
         self._batcher = Batcher(extractor, metrics, limits.batch)
 
-    async def describe(self, prepared: Prepared, timing: Timing) -> Described:
-        """Descriptors of a scan's segments, computed together with those of other requests.
-
-        Raises:
-            Problem: 422 if no descriptor is of use.
-        """
-        descriptors = await self._batcher.infer(prepared.inputs, timing)
-        finite = np.isfinite(descriptors).all(axis=1)
-        failures = prepared.failures | {
-            int(place): _failed("not-describable", "The model's descriptor is not finite.")
-            for place in prepared.usable[~finite]
-        }
-        if not finite.any():
-            raise _none_usable(failures)
-        rows = iter(range(len(descriptors)))
-        count = len(prepared.failures) + len(descriptors)
-        return Described(
-            rows=tuple(
-                failures[place] if place in failures else next(rows) for place in range(count)
-            ),
-            codes=self.manifest.quantizer.encode(descriptors[finite]),
-            descriptors=descriptors[finite],
-            centroids=prepared.centroids[finite],
-        )
-
-    def prepare(self, scan: Scan, timing: Timing, besides: Cost = NOTHING) -> Prepared:
-        """Prepare the model inputs of a scan's segments.
+    def prepare(self, scan: Scan, timing: Timing, besides: Cost = NOTHING) -> PreparedScan:
+        """Prepare the network's inputs for the segments of a scan.
 
         Args:
-            scan: of a request.
-            timing: of the request.
-            besides: what else the request costs.
+            scan: the segments.
+            timing: stopwatch of the request.
+            besides: cost of the request's other work.
 
         Raises:
-            Problem: 413 if there are too many, or they are too much work, 422 if none can be used.
+            Problem: 413 if there are too many segments or points, or they are too much work; 422 if
+                no segment can be described.
         """
         self._check_amount(scan)
-        failures = self._failures(scan)
-        usable = [index for index in range(len(scan)) if index not in failures]
+        errors = self._errors(scan)
+        usable = [index for index in range(len(scan)) if index not in errors]
         if usable:
             origin = np.quantile(scan.sensors[usable], 0.5, axis=0, method="lower")
-            distant = np.linalg.norm(scan.sensors - origin, axis=1) > self._limits.spread
-            for index in np.flatnonzero(distant):
-                failures.setdefault(int(index), self._apart())
-            usable = [index for index in usable if index not in failures]
+            is_distant = np.linalg.norm(scan.sensors - origin, axis=1) > self._limits.spread
+            for index in np.flatnonzero(is_distant).tolist():
+                errors.setdefault(index, self._distant_sensor())
+            usable = [index for index in usable if index not in errors]
         if not usable:
-            raise _none_usable(failures)
-        near = scan.near(origin, np.array(usable))
+            raise _none_usable(errors)
+        segments = scan.relative_to(origin, np.array(usable))
         timing.lap("decode")
-        cost = cost_of_describing(near.points, near.counts, self.manifest.neighborhood)
+        cost = cost_of_describing(segments.points, segments.counts, self.manifest.neighborhood)
         check_cost(besides + cost, self._limits.cost_seconds)
-        inputs = self._extractor.prepare(near, lap=timing.lap)
-        timing.lap("voxelise")  # what is left of the steps before the network
-        return Prepared(
+        inputs = self._extractor.prepare(segments, lap=timing.lap)
+        timing.lap("voxelize")  # the rest of the steps before the network
+        # Rounding must not move a centroid beyond the limit of the points' coordinates.
+        centroids = np.clip(segments.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT)
+        return PreparedScan(
             inputs=inputs,
             usable=np.array(usable),
-            # Rounding must not take a mean beyond the points' own limit.
-            centroids=np.clip(near.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT),
-            failures=failures,
+            centroids=centroids,
+            errors=errors,
             cost=cost,
             dropped_points=int(scan.dropped.sum()),
+        )
+
+    async def describe(self, prepared: PreparedScan, timing: Timing) -> Descriptors:
+        """Describe a prepared scan, in batches with the segments of other requests.
+
+        Raises:
+            Problem: 422 if no descriptor is finite.
+        """
+        return self._described(prepared, await self._batcher.infer(prepared.inputs, timing))
+
+    def describe_alone(self, prepared: PreparedScan) -> Descriptors:
+        """Describe a prepared scan in this thread, without an event loop; raises as `describe`."""
+        return self._described(prepared, self._extractor.infer(prepared.inputs))
+
+    def _described(self, prepared: PreparedScan, values: Float32) -> Descriptors:
+        is_finite = np.isfinite(values).all(axis=1)
+        errors = prepared.errors | {
+            index: SegmentError("not-describable", "The model's descriptor is not finite.")
+            for index in prepared.usable[~is_finite].tolist()
+        }
+        if not is_finite.any():
+            raise _none_usable(errors)
+        return Descriptors.of_usable(
+            manifest=self.manifest,
+            values=values[is_finite],
+            centroids=prepared.centroids[is_finite],
+            errors=errors,
+            dropped_points=prepared.dropped_points,
         )
 
     def _check_amount(self, scan: Scan) -> None:
@@ -138,49 +203,57 @@ class Describer:
                     413, f"too-many-{kind}", f"{amount} {kind} in a request; the limit is {limit}."
                 )
 
-    def _failures(self, scan: Scan) -> dict[int, Failed]:
-        """By index, why a segment cannot be used."""
+    def _errors(self, scan: Scan) -> dict[int, SegmentError]:
+        """Return the reason for each segment that cannot be described, by index."""
         limits = self._limits
-        failures = {}
+        errors = {}
         measured = zip(
-            scan.counts.tolist(), scan.dropped.tolist(), scan.reaches().tolist(), strict=True
+            scan.counts.tolist(), scan.dropped.tolist(), scan.ranges().tolist(), strict=True
         )
-        for index, (count, dropped, reach) in enumerate(measured):
+        for index, (count, dropped, distance) in enumerate(measured):
             if count < limits.min_points:
-                left_out = f" besides {dropped} non-finite ones" if dropped else ""
-                failures[index] = _failed(
+                left_out = f" and {dropped} non-finite points" if dropped else ""
+                errors[index] = SegmentError(
                     "too-few-points",
-                    f"{count} points{left_out}; a segment needs {limits.min_points} or more.",
+                    f"The segment has {count} points{left_out}; "
+                    f"the minimum is {limits.min_points}.",
                 )
             elif count > limits.max_points:
-                failures[index] = _failed(
+                errors[index] = SegmentError(
                     "too-many-points",
-                    f"{count} points; a segment has {limits.max_points} or fewer.",
+                    f"The segment has {count} points; the maximum is {limits.max_points}.",
                 )
-            elif reach > limits.reach:
-                failures[index] = _failed(
+            elif distance > limits.reach:
+                errors[index] = SegmentError(
                     "out-of-reach",
-                    f"A point is more than {limits.reach:g} m from the sensor: "
-                    "are both in one frame, and in metres?",
+                    f"A point is more than {limits.reach:g} m from the sensor. Check that points "
+                    "and sensor are in one frame and in meters.",
                 )
-        return failures
+        return errors
 
-    def _apart(self) -> Failed:
-        return _failed(
+    def _distant_sensor(self) -> SegmentError:
+        return SegmentError(
             "out-of-reach",
-            f"The sensor is more than {self._limits.spread:g} m from those of the other segments.",
+            f"The sensor is more than {self._limits.spread:g} m from the sensors of the other "
+            "segments.",
         )
 
 
-def _failed(kind: str, detail: str) -> Failed:
-    return Failed(error=ItemErrorOut(type=type_of(kind), title=title_of(kind), detail=detail))
+def _spread(rows: np.ndarray, at: Int64, count: int, empty: float) -> np.ndarray:
+    """Return an array of `count` rows with these rows at some indices and `empty` elsewhere."""
+    spread = np.full((count, *rows.shape[1:]), empty, dtype=rows.dtype)
+    spread[at] = rows
+    return spread
 
 
-def _none_usable(failures: dict[int, Failed]) -> Problem:
-    errors = [
-        ProblemError(pointer=f"/segments/{index}", detail=failures[index].error.detail)
-        for index in sorted(failures)
+def _none_usable(errors: dict[int, SegmentError]) -> Problem:
+    listed = [
+        ProblemError(pointer=f"/segments/{index}", detail=errors[index].detail)
+        for index in sorted(errors)
     ]
     return Problem(
-        422, "no-usable-segment", f"No segment can be used. First: {errors[0].detail}", errors
+        422,
+        "no-usable-segment",
+        f"No segment can be described. The first reason: {listed[0].detail}",
+        listed,
     )

@@ -1,4 +1,4 @@
-"""How likely pairs of descriptors are of one segment."""
+"""Match probability: the probability that two descriptors show the same segment."""
 
 import numpy as np
 
@@ -6,11 +6,16 @@ from placecell.core.types import Float64, Int8
 from service.inference.model_registry import Model
 
 
-def likely(model: Model, one: Int8, other: Int8) -> Float64:
-    """Of each pair of codes, int8 (n, code bytes) each, float64 (n,).
+def match_probabilities(model: Model, one: Int8, other: Int8) -> Float64:
+    """Return the match probability of each pair of codes, float64 (n,).
 
-    By the model's classifier; without one, a normal distribution of distances whose deviation is
-    the distance of a match, a step of the quantiser at least.
+    The model's classifier gives it. Without a classifier it is a normal distribution of descriptor
+    distances; its deviation is the model's match distance, at least one quantizer step.
+
+    Args:
+        model: model that made all codes.
+        one: first code of each pair, int8 (n, code bytes).
+        other: second code of each pair, int8 (n, code bytes).
     """
     if model.classifier is not None:
         return model.classifier.probabilities(one, other)

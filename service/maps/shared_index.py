@@ -48,7 +48,7 @@ def key_of(stored: MapSnapshot) -> Key:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shared:
+class SharedIndex:
     """Index over several maps; rows are ordered by map name and id.
 
     Attributes:
@@ -71,7 +71,7 @@ class Shared:
         return 2 * len(self.rows) < ROOM and 2 * len(self.keys) < MEMBERS
 
     @classmethod
-    def of(cls, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> "Shared":
+    def of(cls, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> "SharedIndex":
         """Build the index of these maps of one model."""
         maps = sorted(maps, key=lambda each: each.name)
         rows = [alive(each.layers) for each in maps]
@@ -91,7 +91,7 @@ class Shared:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
+class IndexPart:
     """Part of a search: one map by its own index, or several by a shared one.
 
     Attributes:
@@ -100,7 +100,7 @@ class Part:
     """
 
     places: Int64
-    shared: Shared | None
+    shared: SharedIndex | None
 
     @property
     def hidden(self) -> Bool | None:
@@ -117,7 +117,7 @@ class SharedIndexes:
     def __init__(self) -> None:
         self._lock = Lock()
         self._patterns: Patterns = ()
-        self._by_model: dict[str, list[Shared]] = {}
+        self._by_model: dict[str, list[SharedIndex]] = {}
 
     def parts(
         self,
@@ -126,7 +126,7 @@ class SharedIndexes:
         model_id: str,
         quantizer: Quantizer,
         patterns: Patterns,
-    ) -> list[Part]:
+    ) -> list[IndexPart]:
         """Return the parts to search for these maps, each map in one part.
 
         Args:
@@ -145,8 +145,8 @@ class SharedIndexes:
         return _parts_of(searched, kept)
 
     def _renewed(
-        self, maps: Sequence[MapSnapshot], before: Sequence[Shared], quantizer: Quantizer
-    ) -> list[Shared]:
+        self, maps: Sequence[MapSnapshot], before: Sequence[SharedIndex], quantizer: Quantizer
+    ) -> list[SharedIndex]:
         """Keep the valid indexes; rebuild those with too many changed maps."""
         small = {key_of(each): each for each in maps if 0 < len(each) <= SMALL}
         by_uid = {each.head.uid: each for each in small.values()}
@@ -170,18 +170,18 @@ class SharedIndexes:
             kept += self._filled(group, quantizer)
         return kept
 
-    def _filled(self, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> list[Shared]:
-        made: list[Shared] = []
+    def _filled(self, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> list[SharedIndex]:
+        made: list[SharedIndex] = []
         some: list[MapSnapshot] = []
         count = 0
         for each in maps:
             if some and (count + len(each) > ROOM or len(some) == MEMBERS):
-                made.append(Shared.of(some, quantizer))
+                made.append(SharedIndex.of(some, quantizer))
                 some, count = [], 0
             some.append(each)
             count += len(each)
         if len(some) > 1:
-            made.append(Shared.of(some, quantizer))
+            made.append(SharedIndex.of(some, quantizer))
         return made
 
     def _openers(self, name: str) -> tuple[int, ...]:
@@ -193,17 +193,17 @@ class SharedIndexes:
         )
 
 
-def _parts_of(searched: Sequence[MapSnapshot], indexes: Sequence[Shared]) -> list[Part]:
+def _parts_of(searched: Sequence[MapSnapshot], indexes: Sequence[SharedIndex]) -> list[IndexPart]:
     places = {key_of(each): place for place, each in enumerate(searched)}
     parts, done = [], set()
     for shared in indexes:
         at = np.array([places.get(key, -1) for key in shared.keys], dtype=np.int64)
         # Of few of its maps, each is searched by itself: what is hidden costs as what is not.
         if 2 * np.count_nonzero(at >= 0) > len(at):
-            parts.append(Part(at, shared))
+            parts.append(IndexPart(at, shared))
             done |= {*at.tolist()}
     parts += [
-        Part(np.array([place]), None)
+        IndexPart(np.array([place]), None)
         for place, each in enumerate(searched)
         if place not in done and len(each)
     ]

@@ -9,7 +9,7 @@ from placecell_client import CompactMap
 from placecell.core.types import Float64, Int64
 from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
 from service.core.problems import Problem
-from service.inference.match_probability import likely
+from service.inference.match_probability import match_probabilities
 from service.inference.model_registry import Model
 from service.maps.index import MapIndex, index_of
 from service.maps.snapshot import MapSnapshot
@@ -73,7 +73,7 @@ class MapLikeness:
         for begin in range(0, len(a), BLOCK):
             self._check()
             block = slice(begin, begin + BLOCK)
-            told.append(likely(self._model, self._b[b[block]], self._a[a[block]]))
+            told.append(match_probabilities(self._model, self._b[b[block]], self._a[a[block]]))
         return np.concatenate(told)
 
 

@@ -7,69 +7,45 @@ import numpy as np
 
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
-from placecell.localization import Candidates, Localization, LocalizationParameters, localize
-from placecell.localization.evidence import Evidence
+from placecell.localization import Candidates, Localization, LocalizationParameters
+from placecell.localization.evidence import Evidence, middle_of
 from placecell.localization.joint import Judged, MapQuery, localize_jointly
 from placecell.localization.localize import unknown
 from service.core.timing import Timing
-from service.inference.match_probability import likely
+from service.inference.describer import Descriptors, SegmentError
+from service.inference.match_probability import match_probabilities
 from service.inference.model_registry import Model
-from service.maps.shared_index import Part
+from service.maps.repository import MapRepository
+from service.maps.shared_index import IndexPart, Patterns
 from service.maps.snapshot import MapSnapshot
 from service.search.links import pose_between
-from service.search.matching import found_in
+from service.search.matching import index_parts, nearest_segments
+from service.search.query import MapSelection, Query
 from service.search.ranking import FULL, best_of, votes_of
+from service.search.sessions import Session
 
 
-class MapSurroundings:
-    """`Surroundings` of a stored map."""
+class StoredSurroundings:
+    """Segments of a stored map around a position, for guided matching (`Surroundings`)."""
 
     def __init__(self, codes: Int8, model: Model, stored: MapSnapshot) -> None:
-        """For queries of these codes, int8 (q, code bytes), of the model that made the map."""
+        """Compare with queries of these codes, int8 (q, code bytes), made by the map's model."""
         self._codes = codes
         self._model = model
         self._layers = stored.layers
 
     def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
-        """Rows about places, and their centroids."""
+        """Return the rows near some places, and their centroids."""
         rows = self._layers.rows_near(places, meters)
         return rows, self._layers.column("centroids", rows)
 
     def likely(self, queries: Int64, rows: Int64) -> Float64:
-        """How likely each query and row are the same."""
-        return likely(self._model, self._codes[queries], self._layers.column("codes", rows))
+        """Return the match probability of each pair of query and row."""
+        codes = self._layers.column("codes", rows)
+        return match_probabilities(self._model, self._codes[queries], codes)
 
 
-def localize_in(
-    codes: Int8,
-    centroids: Float64,
-    model: Model,
-    stored: MapSnapshot,
-    k: int,
-    parameters: LocalizationParameters,
-    timing: Timing,
-    evidence: Evidence | None = None,
-) -> Localization:
-    """Where in a map the robot is.
-
-    Args:
-        codes: int8 (q, code bytes), of the segments around the robot.
-        centroids: float64 (q, 3), theirs, metres, in the robot's frame.
-        model: that made them and the map.
-        stored: with an index.
-        k: candidates a segment, at most.
-        evidence: of the robot's earlier requests.
-    """
-    query = query_in(codes, centroids, model, stored, k, evidence)
-    timing.lap("search")
-    localization = localize(
-        query.candidates, parameters, query.confidence, query.evidence, query.there
-    )
-    timing.lap("verify")
-    return localization
-
-
-def query_in(
+def map_query(
     codes: Int8,
     centroids: Float64,
     model: Model,
@@ -77,72 +53,172 @@ def query_in(
     k: int,
     evidence: Evidence | None = None,
 ) -> MapQuery:
-    """Look up the candidates in one map; arguments as of `localize_in`."""
-    found = found_in(codes, model, (stored,), k)
-    there = MapSurroundings(codes, model, stored)
-    probabilities = found.probabilities
+    """Search the candidates in one map.
+
+    Args:
+        codes: codes of the segments around the robot, int8 (q, code bytes).
+        centroids: their centroids, float64 (q, 3), meters, in the robot's frame.
+        model: model that made the codes and the map.
+        stored: the map, with an index.
+        k: largest number of candidates of a segment.
+        evidence: result of the robot's earlier requests.
+    """
+    nearest = nearest_segments(codes, model, (stored,), k)
+    there = StoredSurroundings(codes, model, stored)
+    probabilities = nearest.probabilities
     if probabilities is None:
-        queries = np.repeat(np.arange(len(codes)), found.rows.shape[1])
-        probabilities = there.likely(queries, found.rows.ravel()).reshape(found.rows.shape)
-    places = stored.layers.column("centroids", found.rows)
-    candidates = Candidates(centroids, found.rows, places, probabilities)
+        queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
+        probabilities = there.likely(queries, nearest.rows.ravel()).reshape(nearest.rows.shape)
+    places = stored.layers.column("centroids", nearest.rows)
+    candidates = Candidates(centroids, nearest.rows, places, probabilities)
     return MapQuery(stored.name, model.id, candidates, there, model.confidence, evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Group:
-    """Maps of one model, with the query as that model describes it.
+class ModelQuery:
+    """The query as one model describes it, with the maps that this model made.
 
     Attributes:
-        model: that made the maps.
+        model: the model.
         searched: the maps, each with an index.
-        codes: int8 (q, code bytes), of the segments around the robot.
-        centroids: float64 (q, 3), theirs, metres, in the robot's frame.
+        codes: codes of the segments around the robot, int8 (q, code bytes).
+        centroids: their centroids, float64 (q, 3), meters, in the robot's frame.
+        segments: index of each in the request, int64 (q,).
     """
 
     model: Model
     searched: tuple[MapSnapshot, ...]
     codes: Int8
     centroids: Float64
+    segments: Int64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class InMap:
-    """Answer for one map.
+class MapLocalization:
+    """Localization in one map.
 
     Attributes:
         stored: the map.
-        group: index of its group.
-        judged: where in it the robot is.
+        group: index of the model's query.
+        segments: index in the request of each of the query's segments, int64 (q,).
+        judged: pose hypotheses, after those of all maps were compared.
         is_full: whether the map was searched in full; only then is there anything to remember.
-        rival: the map of `judged.rival`.
+        rival: map of `judged.rival`.
     """
 
     stored: MapSnapshot
     group: int
+    segments: Int64
     judged: Judged
     is_full: bool
     rival: MapSnapshot | None = None
 
+    @property
+    def localization(self) -> Localization:
+        """Return the pose, or the reason why there is none, and the hypotheses."""
+        return self.judged.localization
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LocalizationResult:
+    """Result of a localization: the poses in all maps, the most probable first.
+
+    Attributes:
+        model_id: id of the model of the query's codes, or of the default model.
+        selection: the maps that were searched, and those that were skipped.
+        maps: localization in each map.
+        errors: reason for each segment that no model describes, by index.
+        dropped_points: points of the request that were not finite and were left out.
+    """
+
+    model_id: str
+    selection: MapSelection
+    maps: tuple[MapLocalization, ...]
+    errors: dict[int, SegmentError]
+    dropped_points: int
+
+    def __len__(self) -> int:
+        return len(self.maps)
+
+    def __getitem__(self, index: int) -> MapLocalization:
+        """Return the localization in one map; the first one is the most probable."""
+        return self.maps[index]
+
+
+def localize(
+    query: Query,
+    descriptors: Sequence[Descriptors],
+    maps: MapRepository,
+    patterns: Patterns,
+    parameters: LocalizationParameters,
+    timing: Timing,
+    session: Session | None = None,
+) -> LocalizationResult:
+    """Localize a robot by the segments around it, in the maps of its query's selection.
+
+    Args:
+        query: the query.
+        descriptors: its descriptors by each model of the selection, with centroids.
+        maps: all maps.
+        patterns: map name patterns that keys open; see `index_parts`.
+        parameters: parameters of the localization.
+        timing: stopwatch of the request.
+        session: earlier requests of the same robot.
+    """
+    groups: list[ModelQuery] = []
+    middles: dict[str, Float64] = {}
+    for (model, searched), described in zip(query.selection.searched, descriptors, strict=True):
+        assert described.centroids is not None
+        usable = described.usable
+        group = ModelQuery(
+            model, searched, described.codes[usable], described.centroids[usable], usable
+        )
+        groups.append(group)
+        middle = middle_of(group.centroids)
+        middles |= {stored.head.uid: middle for stored in searched}
+
+    def evidence(stored: MapSnapshot) -> Evidence | None:
+        return session.evidence(stored, middles[stored.head.uid]) if session else None
+
+    def parts(group: ModelQuery) -> list[IndexPart]:
+        return index_parts(maps, group.model, group.searched, patterns)
+
+    answers = localize_among(groups, query.k, parameters, timing, parts, evidence)
+    for each in answers:
+        if session and each.is_full:
+            hypotheses = each.localization.hypotheses
+            session.remember(each.stored, middles[each.stored.head.uid], hypotheses)
+    errors = set.intersection(*({*described.errors} for described in descriptors))
+    return LocalizationResult(
+        model_id=query.model_id,
+        selection=query.selection,
+        maps=tuple(answers),
+        errors={index: descriptors[0].errors[index] for index in sorted(errors)},
+        dropped_points=descriptors[0].dropped_points,
+    )
+
 
 def localize_among(
-    groups: Sequence[Group],
+    groups: Sequence[ModelQuery],
     k: int,
     parameters: LocalizationParameters,
     timing: Timing,
-    parts: Callable[[Group], list[Part]],
+    parts: Callable[[ModelQuery], list[IndexPart]],
     evidence: Callable[[MapSnapshot], Evidence | None],
-) -> list[InMap]:
+) -> list[MapLocalization]:
     """Localize the robot in any of the maps, the most probable first.
 
-    All maps are searched at once where there are more than a few, and those in which most segments
-    agree are searched in full and judged together. The work is bounded, however many maps there
-    are.
+    If there are more than a few maps, all are searched at once. The maps in which most segments
+    agree are then searched in full and judged together. So the work is bounded, however many maps
+    there are.
 
     Args:
-        k: candidates a segment and map, at most.
-        parts: how a group's maps are searched at once.
-        evidence: what the robot's earlier requests found in a map.
+        groups: the query by each model.
+        k: largest number of candidates of a segment and map.
+        parameters: parameters of the localization.
+        timing: stopwatch of the request.
+        parts: gives the parts of the search in a model's maps at once.
+        evidence: gives the result of the robot's earlier requests in a map.
     """
     past = {
         (number, place): evidence(stored)
@@ -154,9 +230,15 @@ def localize_among(
     for number, place in chosen:
         current().check()
         group = groups[number]
-        stored = group.searched[place]
         queries.append(
-            query_in(group.codes, group.centroids, group.model, stored, k, past[number, place])
+            map_query(
+                codes=group.codes,
+                centroids=group.centroids,
+                model=group.model,
+                stored=group.searched[place],
+                k=k,
+                evidence=past[number, place],
+            )
         )
     timing.lap("search")
     maps = [groups[number].searched[place] for number, place in chosen]
@@ -171,10 +253,18 @@ def localize_among(
             if of_map is None:
                 usable = len(group.codes) if len(stored) else 0
                 of_map = Judged(not_searched(usable, parameters, len(chosen)), 0.0)
-            rival = None if of_map.rival is None else maps[of_map.rival.map]
-            answers.append(InMap(stored, number, of_map, (number, place) in full, rival))
+            answers.append(
+                MapLocalization(
+                    stored=stored,
+                    group=number,
+                    segments=group.segments,
+                    judged=of_map,
+                    is_full=(number, place) in full,
+                    rival=None if of_map.rival is None else maps[of_map.rival.map],
+                )
+            )
     timing.lap("verify")
-    return sorted(answers, key=_rank)
+    return sorted(answers, key=_sort_key)
 
 
 def not_searched(usable: int, parameters: LocalizationParameters, full: int) -> Localization:
@@ -189,25 +279,25 @@ def not_searched(usable: int, parameters: LocalizationParameters, full: int) -> 
     return replace(told, detail=detail)
 
 
-def _rank(answer: InMap) -> tuple[bool, float, float, str]:
+def _sort_key(answer: MapLocalization) -> tuple[bool, float, float, str]:
     """Return the sort key of an answer: localized first, by probability, then by score.
 
-    The name orders what is equal in all, such as maps without any candidate.
+    The name orders answers that are equal otherwise, such as those of maps without a candidate.
     """
-    found = answer.judged.localization
+    localization = answer.localization
     return (
-        found.pose is None,
-        -found.probability,
+        localization.pose is None,
+        -localization.probability,
         -answer.judged.total,
         answer.stored.name,
     )
 
 
 def _chosen(
-    groups: Sequence[Group],
+    groups: Sequence[ModelQuery],
     past: dict[tuple[int, int], Evidence | None],
     parameters: LocalizationParameters,
-    parts: Callable[[Group], list[Part]],
+    parts: Callable[[ModelQuery], list[IndexPart]],
 ) -> list[tuple[int, int]]:
     """Choose the maps to search in full, by group and index."""
     every = list(past)

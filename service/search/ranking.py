@@ -16,7 +16,7 @@ from placecell.core.jit import compiled
 from placecell.core.spatial import evenly
 from placecell.core.types import Float32, Float64, Int8, Int32, Int64
 from placecell.localization import LocalizationParameters
-from service.maps.shared_index import Part, centered
+from service.maps.shared_index import IndexPart, centered
 from service.maps.snapshot import MapSnapshot
 
 FULL = 8
@@ -35,7 +35,7 @@ PAIRS = 40_000_000
 """Largest number of candidate pairs compared in all maps together."""
 
 WORTH = 0.4
-"""Share of the best map's votes below which a map is not searched in full."""
+"""PartOutcome of the best map's votes below which a map is not searched in full."""
 
 
 _threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
@@ -43,14 +43,14 @@ _threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Nearest:
-    """Candidates in several maps, m of them.
+class Voters:
+    """Candidates in several maps that vote for a pose, m of them.
 
     Attributes:
-        places: int64 (m,), indices of the maps.
-        queries: int64 (m,).
-        targets: float32 (m, 3), centroids about the middle of their map, meters.
-        distances: float32 (m,), squared, in steps, rounded.
+        places: index of each candidate's map, int64 (m,).
+        queries: index of its query, int64 (m,).
+        targets: centroids relative to the middle of their map, float32 (m, 3), meters.
+        distances: squared descriptor distances in quantizer steps, rounded, float32 (m,).
     """
 
     places: Int64
@@ -63,17 +63,17 @@ def votes_of(
     codes: Int8,
     centroids: Float64,
     searched: Sequence[MapSnapshot],
-    parts: Sequence[Part],
+    parts: Sequence[IndexPart],
     parameters: LocalizationParameters,
 ) -> Int64:
     """Count for each map how many segments agree about one place, int64 (maps,).
 
     Args:
-        codes: int8 (q, code bytes), of the segments around the robot.
-        centroids: float64 (q, 3), theirs, meters.
+        codes: codes of the segments around the robot, int8 (q, code bytes).
+        centroids: their centroids, float64 (q, 3), meters.
         searched: maps of one model.
-        parts: that cover them.
-        parameters: say when two candidates agree.
+        parts: parts of the search that cover these maps.
+        parameters: tolerances within which two candidates agree.
     """
     token = current()
     asked = evenly(np.flatnonzero(np.isfinite(centroids).all(axis=1)), SEGMENTS)
@@ -82,18 +82,18 @@ def votes_of(
         return votes
     codes, centroids = codes[asked], centroids[asked]
 
-    def nearest(part: Part) -> Nearest:
+    def voters(part: IndexPart) -> Voters:
         token.check()
-        return _nearest(codes, searched, part)
+        return _voters(codes, searched, part)
 
-    found = [*_threads.map(nearest, parts)]
+    found = [*_threads.map(voters, parts)]
     places = np.concatenate([each.places for each in found])
     queries = np.concatenate([each.queries for each in found])
     distances = np.concatenate([each.distances for each in found])
     targets = np.concatenate([each.targets for each in found])
     order = np.lexsort((distances, queries, places))
     places, queries = places[order], queries[order]
-    # Of each segment the nearest of each map.
+    # Keep the nearest candidates of each segment in each map.
     begins = np.flatnonzero(
         (np.diff(places, prepend=-1) != 0) | (np.diff(queries, prepend=-1) != 0)
     )
@@ -109,9 +109,17 @@ def votes_of(
 
     def count(begin: int, end: int) -> None:
         _count(
-            *(starts[begin : end + 1], queries, seen, target, share, parameters.model == "yaw"),
-            *(parameters.distance_tolerance, parameters.height_tolerance, slope),
-            *(token.flag, votes[begin:end]),
+            starts=starts[begin : end + 1],
+            queries=queries,
+            source=seen,
+            target=target,
+            share=share,
+            level=parameters.model == "yaw",
+            tolerance=parameters.distance_tolerance,
+            height_tolerance=parameters.height_tolerance,
+            slope=slope,
+            flag=token.flag,
+            votes=votes[begin:end],
         )
 
     half = len(searched) // 2
@@ -124,10 +132,10 @@ def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FU
     """Choose the maps to search in full; indices, int64 (n,), ascending.
 
     Args:
-        votes: int64 (maps,).
-        least: segments that have to agree.
-        always: maps that come first: the robot was found there just before.
-        most: maps, at most.
+        votes: votes of each map, int64 (maps,).
+        least: smallest number of segments that must agree.
+        always: maps that come first, because the robot was localized there just before.
+        most: largest number of maps.
     """
     first = np.array(list(always)[: most // 2], dtype=np.int64)
     order = np.argsort(-votes, kind="stable")
@@ -136,17 +144,26 @@ def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FU
     return np.sort(np.concatenate([first, rest[: most - len(first)]]))
 
 
-def warm() -> None:
-    """Compile the vote, so that the first request need not wait."""
+def warm_up() -> None:
+    """Compile the count of votes, so that the first request need not wait."""
     none, points = np.zeros(0, np.int64), np.zeros((0, 3))
     _count(
-        *(np.zeros(1, np.int64), none, points, points.astype(np.float32), 1.0, True),
-        *(0.0, 0.0, 0.0, current().flag, none.copy()),
+        starts=np.zeros(1, np.int64),
+        queries=none,
+        source=points,
+        target=points.astype(np.float32),
+        share=1.0,
+        level=True,
+        tolerance=0.0,
+        height_tolerance=0.0,
+        slope=0.0,
+        flag=current().flag,
+        votes=none.copy(),
     )
 
 
-def _nearest(codes: Int8, searched: Sequence[MapSnapshot], part: Part) -> Nearest:
-    """Return the candidates of one part."""
+def _voters(codes: Int8, searched: Sequence[MapSnapshot], part: IndexPart) -> Voters:
+    """Return the candidates of one part of the search."""
     shared = part.shared
     if shared is None:
         place = int(part.places[0])
@@ -156,14 +173,14 @@ def _nearest(codes: Int8, searched: Sequence[MapSnapshot], part: Part) -> Neares
         queries = np.repeat(np.arange(len(codes)), rows.shape[1])
         points = centered(stored.layers.column("centroids", rows.ravel()))
         squared = np.asarray(distances.ravel() ** 2, np.float32)
-        return Nearest(np.full(len(queries), place), queries, points, squared)
+        return Voters(np.full(len(queries), place), queries, points, squared)
     squared, rows = shared.index.rough(codes, min(NEAREST, len(shared.rows)))
     queries = np.repeat(np.arange(len(codes)), rows.shape[1])
     flat = rows.ravel()
     members = np.searchsorted(shared.starts, flat, side="right") - 1
     places = part.places[members]
     kept = (flat >= 0) & (places >= 0)
-    return Nearest(places[kept], queries[kept], shared.centroids[flat[kept]], squared.ravel()[kept])
+    return Voters(places[kept], queries[kept], shared.centroids[flat[kept]], squared.ravel()[kept])
 
 
 @compiled
@@ -185,7 +202,7 @@ def _count(
         if is_cancelled(flag):
             return
         begin, end = starts[place], starts[place + 1]
-        # A part of the candidates, evenly, where there are too many: by the order of the segments.
+        # Of too many candidates, an evenly chosen part is compared, in the order of the segments.
         step = 1.0 / share
         most = int((end - begin) * share)
         best = 0

@@ -1,25 +1,44 @@
-"""Sessions: what each robot's last requests found, for its next one."""
+"""Sessions: results of each robot's last requests, which support its next one."""
 
 from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from threading import Lock
 from time import monotonic
+from typing import Protocol
 
 from placecell.core.types import Float64
 from placecell.localization import Hypothesis, LocalizationParameters
 from placecell.localization.evidence import Evidence, History
+from service.maps.snapshot import MapSnapshot
+
+
+class Session(Protocol):
+    """Earlier requests of one robot."""
+
+    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+        """Return the evidence of the earlier requests in a map; None if there is none.
+
+        Args:
+            stored: the map.
+            middle: middle of the segments that the robot sees now (`middle_of`), (3,).
+        """
+
+    def remember(
+        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+    ) -> None:
+        """Add the hypotheses that one request found in a map by itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class SessionKey:
-    """Whose evidence it is: nobody's counts for another's.
+    """Key of a session in one map; evidence counts for the same key only.
 
     Attributes:
-        holder: name of the key that the requests came with.
-        session: the id that the robot chose.
-        map: uid of the map: another of its name lies elsewhere.
-        frame_since: of the map; what was replaced may lie elsewhere, too.
+        holder: name of the API key that the requests came with.
+        session: id that the robot chose.
+        map: uid of the map: another map of the same name has another frame.
+        frame_since: version of the map since which its frame is the same.
     """
 
     holder: str
@@ -29,11 +48,11 @@ class SessionKey:
 
 
 class Sessions:
-    """The sessions of all keys. Safe to use from many threads.
+    """Sessions of all API keys. Safe to use from many threads.
 
-    A session that was silent longer than the memory is dropped. Of too many at once, the key that
-    has most of them loses the one that was silent longest; so no key can displace the sessions of
-    another that has fewer.
+    A session without a request for longer than the memory is dropped. If there are too many
+    sessions, the API key with most of them loses its oldest one. So no API key can displace the
+    sessions of another that has fewer.
     """
 
     def __init__(
@@ -42,18 +61,18 @@ class Sessions:
         parameters: LocalizationParameters | None = None,
         clock: Callable[[], float] = monotonic,
     ) -> None:
-        """None yet.
+        """Create the sessions, without any.
 
         Args:
-            most: sessions at once; a map counts as one of its own.
-            parameters: how long and how much is remembered.
-            clock: gives seconds that only grow.
+            most: largest number of sessions; each map of a session counts as one.
+            parameters: state how long and how much is remembered.
+            clock: monotonic clock, seconds.
         """
         self._most = most
         self._parameters = parameters or LocalizationParameters()
         self._clock = clock
         self._lock = Lock()
-        # Those used last stand at the end, of all keys and of each.
+        # The last used session is at the end, in both: of all API keys, and of each.
         self._by_key: OrderedDict[SessionKey, tuple[float, History]] = OrderedDict()
         self._of_holder: defaultdict[str, OrderedDict[SessionKey, None]] = defaultdict(OrderedDict)
 
@@ -61,11 +80,11 @@ class Sessions:
         return len(self._by_key)
 
     def evidence(self, key: SessionKey, middle: Float64) -> Evidence | None:
-        """What the session's earlier requests say now; None if there is none.
+        """Return the evidence of a session's earlier requests; None if there is none.
 
         Args:
-            key: of the session.
-            middle: (3,), of what is seen now (`middle_of`).
+            key: key of the session.
+            middle: middle of the segments that the robot sees now (`middle_of`), (3,).
         """
         with self._lock:
             now = self._clock()
@@ -73,7 +92,7 @@ class Sessions:
             return known[1].at(now, middle) if known is not None else None
 
     def remember(self, key: SessionKey, middle: Float64, hypotheses: Sequence[Hypothesis]) -> None:
-        """Add what a request found by itself."""
+        """Add the hypotheses that one request found by itself."""
         with self._lock:
             now = self._clock()
             _, history = self._by_key.get(key) or (now, History(self._parameters))
@@ -98,3 +117,31 @@ class Sessions:
         del own[key]
         if not own:
             del self._of_holder[key.holder]
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSession:
+    """Session of one robot, in all maps.
+
+    Attributes:
+        sessions: sessions of all robots.
+        holder: name of the API key that the requests come with.
+        id: id that the robot chose.
+    """
+
+    sessions: Sessions
+    holder: str
+    id: str
+
+    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+        """Return the evidence of the earlier requests in a map; see `Session`."""
+        return self.sessions.evidence(self._key(stored), middle)
+
+    def remember(
+        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+    ) -> None:
+        """Add the hypotheses that one request found in a map by itself."""
+        self.sessions.remember(self._key(stored), middle, hypotheses)
+
+    def _key(self, stored: MapSnapshot) -> SessionKey:
+        return SessionKey(self.holder, self.id, stored.head.uid, stored.frame_since)

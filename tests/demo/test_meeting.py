@@ -8,8 +8,8 @@ import pytest
 from placecell_client import Client, ServiceError
 
 from demo.meeting import localize_and_merge
-from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair
+from service.engine import Engine
 from tests.benchmarks.drive_builders import trip
 from tests.service.service_builders import write_eigenvalue_model
 
@@ -17,8 +17,8 @@ from tests.service.service_builders import write_eigenvalue_model
 class Refusing:
     """A service that merges nothing, and tells why when it is asked what it would do."""
 
-    def __init__(self, local: Local, kind: str) -> None:
-        self.describe, self.info = local.describe, local.info
+    def __init__(self, engine: Engine, kind: str) -> None:
+        self.describe, self.info = engine.describe, engine.info
         self.kind = kind
 
     def put_map(self, name: str, data: bytes) -> None:
@@ -36,9 +36,9 @@ def meeting(folder: Path, kind: str) -> Any:
     for name in ("a", "b"):
         trip(folder / name, 3, left=range(0))
     pair = Pair.of(folder / "a", folder / "b")
-    with Local.open(folder / "models" / "tiny") as local:
+    with Engine.temporary(folder / "models" / "tiny") as engine:
         return localize_and_merge(
-            pair.mapper, pair.asker, cast(Client, Refusing(local, kind)), "a", []
+            pair.mapper, pair.asker, cast(Client, Refusing(engine, kind)), "a", []
         )
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from benchmarks.peers.frames import Stretch, frames_of, stretches_of_one, stretches_of_two
 from evaluation.poses.evaluate import evaluate
-from evaluation.poses.local_service import Local
 from evaluation.poses.queries import Pair, described, random_frame
+from service.engine import Engine
 from tests.benchmarks.drive_builders import trip
 from tests.placecell.segment_builders import many_segments
 from tests.service.service_builders import write_eigenvalue_model
@@ -18,14 +18,14 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
-def local(tmp_path: Path) -> Iterator[Local]:
+def engine(tmp_path: Path) -> Iterator[Engine]:
     write_eigenvalue_model(tmp_path / "models")
-    with Local.open(tmp_path / "models" / "tiny") as local:
-        yield local
+    with Engine.temporary(tmp_path / "models" / "tiny") as engine:
+        yield engine
 
 
-def scans_of(local: Local, pair: Pair, most: int | None = None) -> list[int]:
-    return [query.scan for query in pair.queries(local, random_frame(0), most)]
+def scans_of(engine: Engine, pair: Pair, most: int | None = None) -> list[int]:
+    return [query.scan for query in pair.queries(engine, random_frame(0), most)]
 
 
 MOST = (None, 1, 4, 7)
@@ -37,36 +37,36 @@ def scans_of_peers(asking: list[Stretch], most: int | None = None) -> list[int]:
 
 
 def test_two_drives_are_asked_for_the_same_frames_as_the_peers(
-    local: Local, tmp_path: Path
+    engine: Engine, tmp_path: Path
 ) -> None:
     mapped = trip(tmp_path / "a", 8, left=range(0))
     asking = trip(tmp_path / "b", 16, left=range(3, 12))
     pair = Pair.of(mapped.folder, asking.folder)
     _, peers = stretches_of_two(mapped, asking, np.eye(4))
     for most in MOST:
-        assert scans_of(local, pair, most) == scans_of_peers(peers, most)
+        assert scans_of(engine, pair, most) == scans_of_peers(peers, most)
 
 
 @pytest.mark.parametrize("left", [range(0), range(12, 15), range(19, 33)])
 def test_blocks_are_asked_for_the_same_frames_as_the_peers(
-    local: Local, tmp_path: Path, left: range
+    engine: Engine, tmp_path: Path, left: range
 ) -> None:
     drive = trip(tmp_path / "a", 40, left)
     pair = Pair.of(drive.folder)
     _, peers = stretches_of_one(drive)
     for most in MOST:
-        assert scans_of(local, pair, most) == scans_of_peers(peers, most)
+        assert scans_of(engine, pair, most) == scans_of_peers(peers, most)
 
 
-def test_frames_of_another_step_are_asked(local: Local, tmp_path: Path) -> None:
+def test_frames_of_another_step_are_asked(engine: Engine, tmp_path: Path) -> None:
     drive = trip(tmp_path / "a", 16, left=range(4, 13))
     pair = Pair.of(drive.folder, drive.folder, every=3)
-    assert scans_of(local, pair) == [0, 3, 6, 9, 12, 15]
+    assert scans_of(engine, pair) == [0, 3, 6, 9, 12, 15]
 
 
 def test_frames_without_segments_are_not_localized(tmp_path: Path) -> None:
     write_eigenvalue_model(tmp_path / "models")
-    # Its local map holds ten scans: those from 13 to 18 show nothing.
+    # Its engine map holds ten scans: those from 13 to 18 show nothing.
     mapped = trip(tmp_path / "a", 8, left=range(0))
     asking = trip(tmp_path / "b", 24, left=range(4, 19))
     pair = Pair.of(mapped.folder, asking.folder)
@@ -103,11 +103,11 @@ def test_a_drive_that_gives_no_segments_is_told_from_the_other(tmp_path: Path, b
         evaluate(pair, tmp_path / "models" / "tiny")
 
 
-def test_no_map_is_made_of_nothing(local: Local, tmp_path: Path) -> None:
+def test_no_map_is_made_of_nothing(engine: Engine, tmp_path: Path) -> None:
     trip(tmp_path / "a", 6, left=range(6))
     pair = Pair.of(tmp_path / "a", tmp_path / "a")
     with pytest.raises(ValueError, match="no segments"):
-        pair.mapper.build_map(local, "map")
+        pair.mapper.build_map(engine, "map")
 
 
 def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: Path) -> None:
@@ -118,15 +118,15 @@ def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: P
         Pair.of(tmp_path / "a", tmp_path / "b")
 
 
-def test_the_map_is_near_where_its_robot_saw_nothing(local: Local, tmp_path: Path) -> None:
+def test_the_map_is_near_where_its_robot_saw_nothing(engine: Engine, tmp_path: Path) -> None:
     mapped = trip(tmp_path / "a", 30, left=range(1, 30))
     asking = trip(tmp_path / "b", 30, left=range(0))
-    asked = Pair.of(mapped.folder, asking.folder).queries(local, random_frame(0))
+    asked = Pair.of(mapped.folder, asking.folder).queries(engine, random_frame(0))
     assert all(query.mapped for query in asked)
 
 
-def test_nothing_is_described_of_no_segment(local: Local) -> None:
-    codes, centroids = described(local, many_segments([]))
-    some, _ = described(local, many_segments([200]))
+def test_nothing_is_described_of_no_segment(engine: Engine) -> None:
+    codes, centroids = described(engine, many_segments([]))
+    some, _ = described(engine, many_segments([200]))
     assert (codes.shape, codes.dtype) == ((0, some.shape[1]), some.dtype)
     assert centroids.shape == (0, 3)

@@ -13,10 +13,11 @@ from service.api.alignment_responses import alignment_of, merged_of
 from service.api.audit import tell_written
 from service.api.body.body import JSON
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
 from service.api.openapi import json_body
 from service.api.path_parameters import Name, OtherName
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
-from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.api.state import State
 from service.core.auth import Holder
 from service.core.cost import check_cost, cost_of_aligning
 from service.core.problems import invalid, invalid_value
@@ -64,20 +65,20 @@ async def align(
     """
     for each in (name, other):
         holder.check_map(each)
-    async with state.alignments.admit(request, (JSON,), timing) as body:
+    async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
         if body.content:  # options, as `merge` takes them there; they would be ignored
             raise invalid_value(
                 "", "align takes its options in the query: ?motion=se3, not a body."
             )
-        one, another = state.maps.get(name), state.maps.get(other)
+        one, another = state.engine.maps.get(name), state.engine.maps.get(other)
         check_same_model(one, another)
-        model = state.models.named(one.model_id)
+        model = state.engine.models.named(one.model_id)
         check_cost(
             cost_of_aligning([len(one), len(another)], K, PARAMETERS),
             state.settings.limits.alignment_seconds,
             SMALLER,
         )
-        answer = await state.store(_aligned, one, another, model, motion, pairs)
+        answer = await state.run(_aligned, one, another, model, motion, pairs)
     timing.lap("verify")
     return answer
 
@@ -116,8 +117,8 @@ async def merge(
     restoring the version before undoes it. A map that has grown can be merged again.
     """
     holder.check_write(name)
-    async with state.alignments.admit(request, (JSON,), timing) as body:
-        asked = await state.store(_read, body.content, name, state, holder)
+    async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
+        asked = await state.run(_read, body.content, name, state, holder)
         parameters = AlignmentParameters(local=LocalizationParameters(model=asked.motion))
         check = current().check
         check_cost(
@@ -126,7 +127,7 @@ async def merge(
             "Merge fewer or smaller maps at once.",
         )
         merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check)
-        merged = await state.store(merger.merge, name, asked.maps)
+        merged = await state.run(merger.merge, name, asked.maps)
     timing.lap("commit")
     if merged.written is not None:
         tell_written(request, state, "merge", merged.written)
@@ -140,7 +141,7 @@ async def merge(
 
 def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
     """Return the numbers of segments of a merge's maps, in the order of their alignment."""
-    stored = [state.maps.find(name), *map(state.maps.get, asked.maps)]
+    stored = [state.engine.maps.find(name), *map(state.engine.maps.get, asked.maps)]
     return [len(each) for each in stored if each is not None]
 
 
@@ -157,6 +158,6 @@ def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeReque
         if each == name or each in asked.maps[:index]:
             raise invalid_value(f"/maps/{index}", f"{each!r} is the site, or stands twice.")
         holder.check_map(each)
-    if len(asked.maps) < 2 and state.maps.find(name) is None:
+    if len(asked.maps) < 2 and state.engine.maps.find(name) is None:
         raise invalid_value("/maps", f"{name!r} is a new site; it takes two maps or more.")
     return asked

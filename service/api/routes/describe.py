@@ -7,21 +7,23 @@ from fastapi import APIRouter, Request, Response
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, MSGPACK, Body, answer_type, parse, render
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf
 from service.api.openapi import body_of, packed_response
+from service.api.query_parsing import read_scan
+from service.api.responses import segment_error
 from service.api.schemas.msgpack import PackedDescribeRequest, PackedDescribeResponse
 from service.api.schemas.recognition import DescribeRequest, DescribeResponse
-from service.api.state import HolderOf, State, StateOf, TimingOf
+from service.api.state import State
 from service.core.timing import Timing
-from service.inference.describer import Described, Prepared
+from service.inference.describer import Descriptors, PreparedScan
 from service.inference.model_registry import Model
-from service.inference.scan import Scan
 
 router = APIRouter(tags=["recognition"])
 
 
 @router.post(
     "/describe",
-    summary="Descriptors of a scan's segments",
+    summary="Describe the segments of a scan",
     response_model=DescribeResponse,
     responses=packed_response(PackedDescribeResponse)
     | documented(400, 401, 406, 408, 409, 413, 415, 422, 429, 503, 504),
@@ -30,58 +32,63 @@ router = APIRouter(tags=["recognition"])
 async def describe(
     request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
 ) -> Response:
-    """One result a segment, in order: its descriptor, or why it could not be used.
+    """Return one result per segment, in order: its descriptor, or the reason why it has none.
 
-    If no segment can be used, the answer is a 422 instead.
+    If no segment can be described, the answer is a 422.
     """
-    del holder  # any key will do
+    del holder  # any key may describe
     answer = answer_type(request)
-    async with state.recognition.admit(request, ENCODINGS, timing) as body:
-        model, prepared = await state.compute(_read, state, body, timing)
+    async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
+        model, prepared = await state.run(_read, state, body, timing)
         request.state.model_id = model.id
-        described = await model.describer.describe(prepared, timing)
-        content = await state.compute(_written, model, described, prepared, answer, timing)
+        descriptors = await model.describer.describe(prepared, timing)
+        content = await state.run(_written, model, descriptors, answer, timing)
     return await state.answers.respond(content, client_of(request), answer)
 
 
-def _read(state: State, body: Body, timing: Timing) -> tuple[Model, Prepared]:
+def _read(state: State, body: Body, timing: Timing) -> tuple[Model, PreparedScan]:
     timing.lap("queue")
     request = parse(DescribeRequest, PackedDescribeRequest, body, state.settings.limits)
-    model = state.models.named(request.model)
-    return model, model.describer.prepare(Scan.of(request.segments, request.origin), timing)
+    model = state.engine.models.named(request.model)
+    scan = read_scan(request.segments, request.origin)
+    return model, model.describer.prepare(scan, timing)
 
 
-def _written(
-    model: Model, described: Described, prepared: Prepared, answer: str, timing: Timing
-) -> bytes:
+def _written(model: Model, descriptors: Descriptors, answer: str, timing: Timing) -> bytes:
     timing.lap("queue")
     item = _packed if answer == MSGPACK else _listed
-    # What `DescribeResponse` says, without its checks: the values are our own.
+    # The same as a `DescribeResponse`, without its checks: the values are our own.
     response = {
         "model_id": model.id,
         "dimension": model.manifest.dimension,
         "descriptors": [
-            item(described, row) if isinstance(row, int) else row.model_dump()
-            for row in described.rows
+            segment_error(descriptors.errors[index])
+            if index in descriptors.errors
+            else item(descriptors, index)
+            for index in range(len(descriptors))
         ],
-        "dropped_points": prepared.dropped_points,
+        "dropped_points": descriptors.dropped_points,
     }
     content = render(response, answer)
     timing.lap("encode")
     return content
 
 
-def _listed(described: Described, row: int) -> dict[str, Any]:
+def _listed(descriptors: Descriptors, index: int) -> dict[str, Any]:
+    assert descriptors.values is not None
+    assert descriptors.centroids is not None
     return {
-        "codes": described.codes[row].tolist(),
-        "descriptor": described.descriptors[row].tolist(),
-        "centroid": described.centroids[row].tolist(),
+        "codes": descriptors.codes[index].tolist(),
+        "descriptor": descriptors.values[index].tolist(),
+        "centroid": descriptors.centroids[index].tolist(),
     }
 
 
-def _packed(described: Described, row: int) -> dict[str, Any]:
+def _packed(descriptors: Descriptors, index: int) -> dict[str, Any]:
+    assert descriptors.values is not None
+    assert descriptors.centroids is not None
     return {
-        "codes": described.codes[row].tobytes(),
-        "descriptor": described.descriptors[row].astype("<f4").tobytes(),
-        "centroid": described.centroids[row].tolist(),
+        "codes": descriptors.codes[index].tobytes(),
+        "descriptor": descriptors.values[index].astype("<f4").tobytes(),
+        "centroid": descriptors.centroids[index].tolist(),
     }

@@ -10,8 +10,8 @@ from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from placecell.descriptors.manifest import Manifest
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf
 from service.api.schemas.info import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
-from service.api.state import HolderOf, StateOf
 from service.core.cost import MACHINE, RATES
 from service.core.problems import Problem
 
@@ -44,7 +44,7 @@ async def readyz(state: StateOf) -> HealthResponse:
     if state.draining:
         raise Problem(503, "not-ready", "The service is about to stop.")
     # In a thread of its own: a disk may hang, and no request waits for it.
-    trouble = await anyio.to_thread.run_sync(state.maps.trouble)
+    trouble = await anyio.to_thread.run_sync(state.engine.maps.trouble)
     if trouble is not None:
         raise Problem(503, "not-ready", f"Maps cannot be written. {trouble}")
     if state.keys.is_good():
@@ -64,7 +64,7 @@ async def metrics(state: StateOf) -> Response:
 async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoResponse:
     """What a client needs to know before it sends anything."""
     del holder  # any key will do
-    models = [_told(model.manifest) for model in state.models.all()]
+    models = [_told(model.manifest) for model in state.engine.models.all()]
     return InfoResponse(
         version=request.app.version,
         model=models[0],

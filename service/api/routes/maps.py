@@ -12,11 +12,12 @@ from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import JSON, OCTETS, render
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import summary_of
 from service.api.schemas.maps import MapOut, MapsResponse
-from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.api.state import State
 from service.core.auth import Holder
 from service.maps.history import load_version, version_file, version_tag
 from service.maps.snapshot import MapSnapshot
@@ -45,8 +46,8 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
 )
 async def list_maps(request: Request, state: StateOf, holder: HolderOf) -> Response:
     """By name, those that the key opens. Maps of a model that is not loaded are not searched."""
-    async with state.reads.enter(request):
-        content = await state.store(_listed, state, holder)
+    async with state.lanes.reads.enter(request):
+        content = await state.run(_listed, state, holder)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
@@ -74,8 +75,8 @@ async def put_map(
     replace: `If-Match: "ETAG"`, or `*` for any. `If-None-Match: *` only makes new maps.
     """
     holder.check_write(name)
-    async with state.uploads.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
-        written = await state.store(writer.put, name, body.content)
+    async with state.lanes.uploads.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
+        written = await state.run(writer.put, name, body.content)
         timing.lap("commit")
         tell_written(request, state, "put", written)
         return await put_response(state, holder, written)
@@ -104,18 +105,18 @@ async def get_map(
     Writing the file to this map restores the name.
     """
     holder.check_map(name)
-    stored = state.maps.get(name)
+    stored = state.engine.maps.get(name)
     if version is None and writer.conditions.is_known(stored.tag):
         return Response(status_code=304, headers={"ETag": f'"{stored.tag}"'})
     sequence = stored.head.sequence if version is None else version
     client = client_of(request)
-    async with state.reads.enter(request):
-        tag = await state.store(version_tag, state.maps.store, stored, sequence)
+    async with state.lanes.reads.enter(request):
+        tag = await state.run(version_tag, state.engine.maps.store, stored, sequence)
         name, make = _file(state, holder, stored, sequence, tag)
         return await state.answers.respond_shared(
             name,
             make,
-            state.store,
+            state.run,
             client,
             MEDIA_TYPE,
             {"ETag": f'"{tag}"'},
@@ -138,15 +139,15 @@ async def delete_map(
 ) -> None:
     """With all its versions. When the answer comes, it is gone from the disk."""
     holder.check_write(name)
-    async with state.edits.enter(request):
-        segments = await state.store(writer.delete, name)
+    async with state.lanes.edits.enter(request):
+        segments = await state.run(writer.delete, name)
     timing.lap("commit")
     tell(request, state, "delete", name, f"{segments} segments", segments)
 
 
 async def put_response(state: State, holder: Holder, written: WriteResult) -> Response:
     """The answer to a map that was stored whole."""
-    summary = await state.store(summary_of, written.stored, holder)
+    summary = await state.run(summary_of, written.stored, holder)
     return JSONResponse(
         summary.model_dump(mode="json"),
         status_code=201 if written.is_new else 200,
@@ -161,7 +162,7 @@ def _file(
     state: State, holder: Holder, stored: MapSnapshot, sequence: int, tag: str
 ) -> tuple[str, Callable[[], bytes]]:
     """Return a name for a version's file, equal for keys that see the same, and its maker."""
-    name, store, uid = f"{stored.head.uid} {tag}", state.maps.store, stored.head.uid
+    name, store, uid = f"{stored.head.uid} {tag}", state.engine.maps.store, stored.head.uid
     newest = sequence == stored.head.sequence
     if holder.opens_all or (newest and not is_hidden_from(holder, stored.layers)):
         return name, lambda: version_file(store, stored, sequence)[0]
@@ -177,8 +178,10 @@ def _listed(state: State, holder: Holder) -> bytes:
     response = MapsResponse(
         model_id=state.model_id,
         maps=[
-            summary_of(stored, holder) for stored in state.maps.all() if holder.opens(stored.name)
+            summary_of(stored, holder)
+            for stored in state.engine.maps.all()
+            if holder.opens(stored.name)
         ],
-        damaged=[name for name in state.maps.damaged() if holder.opens(name)],
+        damaged=[name for name in state.engine.maps.damaged() if holder.opens(name)],
     )
     return render(response, JSON)

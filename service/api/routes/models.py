@@ -5,8 +5,8 @@ from fastapi import APIRouter, Request
 from placecell.descriptors.manifest import ModelError
 from service.api.audit import logger
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf
 from service.api.schemas.info import ReloadResponse
-from service.api.state import HolderOf, State, StateOf
 from service.core.problems import Problem
 
 router = APIRouter(tags=["models"])
@@ -21,15 +21,10 @@ async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadRe
     """
     holder.check_admin()
     try:
-        await state.compute(_reload, state)
+        models = await state.run(state.engine.reload_models)
     except ModelError as error:
         raise Problem(409, "broken-model", f"The old model goes on. {error}.") from error
-    ids = [model.id for model in state.models.all()]
+    ids = [model.id for model in models]
     facts = {"key": holder.name, "request_id": request.scope["state"]["request_id"]}
     logger.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
     return ReloadResponse(model_id=ids[0], models=ids)
-
-
-def _reload(state: State) -> None:
-    state.models.reload()
-    state.maps.index_all()

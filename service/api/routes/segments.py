@@ -11,11 +11,12 @@ from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import OCTETS
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of
 from service.api.schemas.maps import IdsOut, WrittenOut
-from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.api.state import State
 from service.core.auth import Holder
 from service.maps.snapshot import MapSnapshot
 from service.maps.sync import SyncPage
@@ -93,8 +94,8 @@ async def edit_segments(
     the highest id in use; it must reserve higher ids.
     """
     holder.check_write(name)
-    async with state.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
-        written = await state.store(
+    async with state.lanes.edits.admit(request, (MEDIA_TYPE, OCTETS), timing) as body:
+        written = await state.run(
             writer.edit, name, body.content, robot, create, deduplicate, only_new
         )
     timing.lap("commit")
@@ -130,8 +131,8 @@ async def age_segments(
 ) -> WrittenOut:
     """A version of its own, that can be undone as any other."""
     holder.check_write(name)
-    async with state.edits.enter(request):
-        written = await state.store(writer.prune, name, unseen_since, dry_run)
+    async with state.lanes.edits.enter(request):
+        written = await state.run(writer.prune, name, unseen_since, dry_run)
     timing.lap("commit")
     if not dry_run:
         tell_written(request, state, "age", written)
@@ -158,8 +159,8 @@ async def reserve_ids(
     """
     holder.check_write(name)
     most = state.settings.limits.reserved_ids
-    async with state.edits.enter(request):
-        first = await state.store(writer.reserve, name, count, most)
+    async with state.lanes.edits.enter(request):
+        first = await state.run(writer.reserve, name, count, most)
     tell(request, state, "ids", name, f"{count} ids from {first} on")
     return IdsOut(first=first, count=count)
 
@@ -179,8 +180,8 @@ async def reset_ids(
     To free the ids of removed segments, compact the map first.
     """
     holder.check_write(name)
-    async with state.edits.enter(request):
-        head = await state.store(writer.reset_ids, name)
+    async with state.lanes.edits.enter(request):
+        head = await state.run(writer.reset_ids, name)
     count = head.end_id - head.next_id
     tell(request, state, "ids reset", name, f"{count} ids from {head.next_id} on are free")
     return IdsOut(first=head.next_id, count=count)
@@ -221,9 +222,9 @@ async def changes(
     with `since=0`.
     """
     holder.check_map(name)
-    stored = state.maps.get(name)
-    async with state.reads.enter(request):
-        page, content = await state.store(_page, state, holder, stored, since, cursor, limit)
+    stored = state.engine.maps.get(name)
+    async with state.lanes.reads.enter(request):
+        page, content = await state.run(_page, state, holder, stored, since, cursor, limit)
     headers = {
         "ETag": f'"{page.tag}"',
         "Placecell-Since": str(page.delta.since),
@@ -239,7 +240,7 @@ def _page(
 ) -> tuple[SyncPage, bytes]:
     """A page, and its file."""
     if cursor is None:
-        page = state.sync.first_page(stored, since, limit)
+        page = state.engine.sync.first_page(stored, since, limit)
     else:
-        page = state.sync.next_page(stored, cursor, limit)
+        page = state.engine.sync.next_page(stored, cursor, limit)
     return page, encode_delta(delta_for(holder, stored.head.uid, page.delta))

@@ -8,11 +8,12 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 from service.api.audit import tell, tell_written
 from service.api.body.body import OCTETS
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.routes.maps import NEW_RESPONSE, put_response
 from service.api.schemas.maps import MapOut, PartOut, UploadOut, UploadsResponse
-from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.api.state import State
 from service.maps.writes.writer import MapWriter, WriteResult
 
 router = APIRouter(tags=["maps"])
@@ -37,8 +38,8 @@ async def list_uploads(
 ) -> UploadsResponse:
     """Those of this key for this map, and how much of each was received."""
     holder.check_write(name)
-    async with state.reads.enter(request):
-        found = await state.store(state.partial_uploads.of, holder.name, name)
+    async with state.lanes.reads.enter(request):
+        found = await state.run(state.engine.partial_uploads.of, holder.name, name)
     uploads = [UploadOut(digest=each.digest, bytes=each.bytes, time=each.time) for each in found]
     return UploadsResponse(map=name, uploads=uploads)
 
@@ -69,9 +70,9 @@ async def put_part(
     completed with `POST`. A day after its last part an upload is removed.
     """
     holder.check_write(name)
-    async with state.uploads.admit(request, (OCTETS, MEDIA_TYPE), timing) as body:
-        add = state.partial_uploads.add
-        received = await state.store(add, holder.name, name, digest, offset, body.content)
+    async with state.lanes.uploads.admit(request, (OCTETS, MEDIA_TYPE), timing) as body:
+        add = state.engine.partial_uploads.add
+        received = await state.run(add, holder.name, name, digest, offset, body.content)
     return PartOut(digest=digest, bytes=received)
 
 
@@ -99,8 +100,8 @@ async def complete_upload(
     completed later; what is no map file is removed.
     """
     holder.check_write(name)
-    async with state.uploads.enter(request):
-        written = await state.store(_completed, state, writer, name, digest)
+    async with state.lanes.uploads.enter(request):
+        written = await state.run(_completed, state, writer, name, digest)
         timing.lap("commit")
         tell_written(request, state, "put", written)
         return await put_response(state, holder, written)
@@ -117,12 +118,12 @@ async def delete_upload(
 ) -> None:
     """The parts that were received are removed; the map is unchanged."""
     holder.check_write(name)
-    async with state.edits.enter(request):
-        await state.store(state.partial_uploads.remove, holder.name, name, digest)
+    async with state.lanes.edits.enter(request):
+        await state.run(state.engine.partial_uploads.remove, holder.name, name, digest)
     tell(request, state, "delete upload", name, f"upload {digest[:16]}")
 
 
 def _completed(state: State, writer: MapWriter, name: str, digest: str) -> WriteResult:
     """Write an upload to its map."""
-    with state.partial_uploads.whole(writer.holder.name, name, digest) as content:
+    with state.engine.partial_uploads.whole(writer.holder.name, name, digest) as content:
         return writer.put(name, content)

@@ -8,10 +8,11 @@ from service.api.admission.admission import client_of
 from service.api.audit import tell, tell_written
 from service.api.body.body import JSON, render
 from service.api.body.problem_json import documented
+from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of, version_of
 from service.api.schemas.maps import CompactOut, VersionsResponse, WrittenOut
-from service.api.state import HolderOf, State, StateOf, TimingOf, WriterOf
+from service.api.state import State
 from service.core.auth import Holder
 from service.maps.history import commits_of
 from service.maps.snapshot import MapSnapshot
@@ -34,9 +35,9 @@ async def list_versions(
 ) -> Response:
     """The newest first: who made it when, by what, and how much it changed."""
     holder.check_map(name)
-    stored = state.maps.get(name)
-    async with state.reads.enter(request):
-        content = await state.store(_listed, state, holder, stored, limit)
+    stored = state.engine.maps.get(name)
+    async with state.lanes.reads.enter(request):
+        content = await state.run(_listed, state, holder, stored, limit)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
@@ -57,8 +58,8 @@ async def restore_version(
 ) -> WrittenOut:
     """A new version with the content of an old one; so this can be undone too."""
     holder.check_write(name)
-    async with state.edits.enter(request):
-        written = await state.store(writer.restore, name, version)
+    async with state.lanes.edits.enter(request):
+        written = await state.run(writer.restore, name, version)
     timing.lap("commit")
     tell_written(request, state, "restore", written)
     response.headers["ETag"] = f'"{written.stored.tag}"'
@@ -81,8 +82,8 @@ async def compact_map(
 ) -> CompactOut:
     """What they alone hold is given back to the disk. The service does so by itself, in time."""
     holder.check_write(name)
-    async with state.edits.enter(request):
-        stored = await state.store(writer.compact, name, keep)
+    async with state.lanes.edits.enter(request):
+        stored = await state.run(writer.compact, name, keep)
     timing.lap("commit")
     head = stored.head
     tell(request, state, "compact", name, f"versions from {head.oldest} on are kept")
@@ -90,7 +91,7 @@ async def compact_map(
 
 
 def _listed(state: State, holder: Holder, stored: MapSnapshot, limit: int) -> bytes:
-    commits = commits_of(state.maps.store, stored)
+    commits = commits_of(state.engine.maps.store, stored)
     response = VersionsResponse(
         map=stored.name,
         oldest=commits[0].sequence,

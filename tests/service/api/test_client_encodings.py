@@ -11,6 +11,7 @@ from placecell_client.http.encoding import MEDIA_TYPES
 
 from placecell.descriptors.manifest import Manifest
 from service.api.body.body import MSGPACK, Body, parse, render
+from service.api.query_parsing import read_scan
 from service.api.schemas.msgpack import (
     PackedDescribeRequest,
     PackedDescribeResponse,
@@ -18,7 +19,6 @@ from service.api.schemas.msgpack import (
 )
 from service.api.schemas.recognition import DescribeRequest, Failed, ItemErrorOut
 from service.core.settings import Limits
-from service.inference.scan import Scan
 from tests.client.test_msgpack_document import CLOUD, ORIGIN, example
 from tests.service.service_builders import cloud, map_of, random_codes
 
@@ -115,7 +115,7 @@ def test_both_are_refused_with_the_same_words(clients: list[Client]) -> None:
 def test_the_documents_request_is_what_the_service_reads() -> None:
     body = Body(MSGPACK, example("request"))
     request = parse(DescribeRequest, PackedDescribeRequest, body, Limits())
-    scan = Scan.of(request.segments, request.origin)
+    scan = read_scan(request.segments, request.origin)
     np.testing.assert_array_equal(scan.points, CLOUD + ORIGIN)
     assert scan.counts.tolist() == [len(CLOUD)]
     np.testing.assert_array_equal(scan.sensors, np.add([[0.0, 0.0, 1.5]], ORIGIN))

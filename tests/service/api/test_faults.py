@@ -13,8 +13,8 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.api.state import StartError
 from service.child_process import Service
+from service.engine import StartError
 from tests.service.faulty_disk import failing, make_read_only, small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
 

@@ -78,10 +78,10 @@ def test_B10_a_segment_without_a_finite_point_is_an_error_of_its_own(service: An
     assert told.status_code == 200
     error = unpacked(told)["descriptors"][0]["error"]
     assert error["type"].endswith("too-few-points")
-    assert "0 points besides 40 non-finite ones" in error["detail"]
+    assert "0 points and 40 non-finite points" in error["detail"]
     assert unpacked(told)["dropped_points"] == 40
     told = post_packed(service, "/describe", {"segments": body["segments"][:1]})
-    assert_problem(told, 422, "no-usable-segment", "besides 40 non-finite ones")
+    assert_problem(told, 422, "no-usable-segment", "and 40 non-finite points")
 
 
 def test_B10_points_that_are_left_out_count_against_the_limit(start: Any) -> None:

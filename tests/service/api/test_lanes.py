@@ -90,8 +90,8 @@ def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
             path = "/maps/yard?version=1"
             pending = [pool.submit(service.get, path, headers=headers["ann"]) for _ in range(4)]
             assert begun.acquire(timeout=60)
-            while len(service.app.state.placecell.reads._inside) == 0 or (
-                service.app.state.placecell.reads._inside.total() < 4
+            while len(service.app.state.placecell.lanes.reads._inside) == 0 or (
+                service.app.state.placecell.lanes.reads._inside.total() < 4
             ):
                 time.sleep(0.01)
             for refused in (path, "/maps", "/maps/yard/versions", "/maps/yard/changes"):
@@ -142,7 +142,7 @@ def test_a_write_that_waits_for_another_ends_at_its_deadline(
     service: Any, manifest: Manifest
 ) -> None:
     put(service, "yard", manifest)
-    maps = service.app.state.placecell.maps
+    maps = service.app.state.placecell.engine.maps
     edit = edit_of(random_codes(1), manifest.model_id)
     with maps.writing("yard"):
         answer = service.post(
@@ -180,8 +180,8 @@ def test_work_of_a_client_that_left_is_cancelled(
                 sent = await ask_app(app, SCAN, leave_after=0.1)
                 assert begun.acquire(blocking=False)
                 assert sent[0]["status"] == 400
-                assert not state.recognition._inside
-                assert not state.recognition.threads._started
+                assert not state.lanes.recognition._inside
+                assert not state.lanes.recognition.threads._started
 
     asyncio.run(main())
 
@@ -231,7 +231,7 @@ def test_A6_bodies_that_trickle_take_no_place(
                 )
                 for _ in range(count)
             ]
-            receiver = state.edits._receiver
+            receiver = state.lanes.edits._receiver
             while receiver._receiving["key ann"] < 40:
                 await asyncio.sleep(0.01)
             data = encode(map_of(random_codes(5), manifest.model_id))
@@ -274,7 +274,7 @@ def test_A6_bytes_of_bodies_are_bounded_for_each_key(
             held = asyncio.create_task(
                 client.post("/describe", content=half(), headers=headers["ann"])
             )
-            budget = state.edits._receiver._budget
+            budget = state.lanes.edits._receiver._budget
             while budget.bytes < 1_500:
                 await asyncio.sleep(0.01)
             body = b" " * 1_500
@@ -316,7 +316,7 @@ def test_A6_full_lane_has_a_place_for_another_key(
             ]
             for _ in range(2):
                 assert begun.acquire(timeout=60)
-            inside = service.app.state.placecell.recognition._inside
+            inside = service.app.state.placecell.lanes.recognition._inside
             while inside.total() < 4:
                 time.sleep(0.01)
             for name in ("bob", "cid", "bob"):

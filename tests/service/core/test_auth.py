@@ -15,10 +15,11 @@ from typer.testing import CliRunner
 from cli import app
 from placecell.descriptors.manifest import Manifest
 from service.api.middleware.refusal_log import RefusalLog, address_of
-from service.api.state import StartError, open_state
+from service.api.state import open_state
 from service.core import auth as keys_module
 from service.core.auth import new_key, read_keys
 from service.core.settings import Settings
+from service.engine import StartError
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
 
 

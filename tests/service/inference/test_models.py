@@ -139,17 +139,17 @@ def test_a_model_has_its_own_probability_of_a_pose(
     content["model"]["highest"] = 0.75
     file = own_models / manifest.name / NAME
     with start(models_dir=own_models) as service:
-        assert service.app.state.placecell.models.default.confidence == shipped()
+        assert service.app.state.placecell.engine.models.default.confidence == shipped()
     content["fitted_on"]["model_id"] = manifest.model_id
     file.write_text(json.dumps(content))
     with start(models_dir=own_models) as service:
-        assert service.app.state.placecell.models.default.confidence.highest == 0.75
+        assert service.app.state.placecell.engine.models.default.confidence.highest == 0.75
     assert not caplog.records
     # Of a model that was trained again the old constants say nothing.
     content["fitted_on"]["model_id"] = "tiny-0"
     for text in (json.dumps(content), "[]", "{"):
         file.write_text(text)
         with start(models_dir=own_models) as service:
-            assert service.app.state.placecell.models.default.confidence == shipped()
+            assert service.app.state.placecell.engine.models.default.confidence == shipped()
         assert "default model's constants" in caplog.text
         caplog.clear()

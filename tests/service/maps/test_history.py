@@ -138,7 +138,7 @@ def test_a_clock_that_jumps_changes_only_what_is_told(
 ) -> None:
     times = iter([5e9, 1.0, 2e9])
     with start() as service:
-        monkeypatch.setattr(service.app.state.placecell.maps, "_clock", lambda: next(times))
+        monkeypatch.setattr(service.app.state.placecell.engine.maps, "_clock", lambda: next(times))
         service.put("/maps/yard", content=encode(map_of(random_codes(2), manifest.model_id)))
         for step in range(2):
             data = edit_of(random_codes(1, step), manifest.model_id, 500)

@@ -129,7 +129,7 @@ def test_A8_a_key_reserves_only_so_many_ids_ahead(
 
 def test_A8_old_reservations_do_not_count(start: Any, manifest: Manifest) -> None:
     with start(limits={"reserved_ids": 100}) as service:
-        store = service.app.state.placecell.maps.store
+        store = service.app.state.placecell.engine.maps.store
         assert edited(service, edit_of(random_codes(1), manifest.model_id, 0)).is_success
         assert reserved(service, 100).is_success
         assert_problem(reserved(service, 1), 409, "too-many-ids")

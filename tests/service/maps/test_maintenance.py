@@ -21,7 +21,7 @@ EAGER = MaintenanceThresholds(recent=3, share=0.0, commits=1_000)
 
 
 def keeper_of(state: State, data_dir: Path, bounds: MaintenanceThresholds) -> Maintenance:
-    return Maintenance(state.maps, state.sync, MapCache(data_dir), bounds)
+    return Maintenance(state.engine.maps, state.engine.sync, MapCache(data_dir), bounds)
 
 
 @contextmanager
@@ -53,15 +53,15 @@ def told(service: Any, manifest: Manifest) -> list[Any]:
 def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir: Path) -> None:
     with site(start, manifest) as (service, state):
         before = told(service, manifest)
-        assert len(state.maps.get("site").layers.recent) > 3
+        assert len(state.engine.maps.get("site").layers.recent) > 3
         keeper_of(state, data_dir, EAGER).run_once()
-        assert len(state.maps.get("site").layers.recent) == 0
-        assert state.maps.get("site").base_sequence == 6
+        assert len(state.engine.maps.get("site").layers.recent) == 0
+        assert state.engine.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
     with start() as service:
         assert told(service, manifest) == before
         # From the cache, which needed nothing replayed.
-        stored = service.app.state.placecell.maps.get("site")
+        stored = service.app.state.placecell.engine.maps.get("site")
         assert (stored.base_sequence, len(stored.layers.recent)) == (6, 0)
 
 
@@ -71,16 +71,16 @@ def test_what_is_written_during_a_fold_stays(
 ) -> None:
     with site(start, manifest) as (service, state):
         begun, written = threading.Event(), threading.Event()
-        indexed = state.maps._index
+        indexed = state.engine.maps._index
 
         def slowly(*arguments: Any) -> Any:
             # Once, in the fold: all is read, and nothing is shown yet.
-            monkeypatch.setattr(state.maps, "_index", indexed)
+            monkeypatch.setattr(state.engine.maps, "_index", indexed)
             begun.set()
             assert written.wait(60)
             return indexed(*arguments)
 
-        monkeypatch.setattr(state.maps, "_index", slowly)
+        monkeypatch.setattr(state.engine.maps, "_index", slowly)
         keeper = keeper_of(state, data_dir, EAGER)
         thread = threading.Thread(target=keeper.run_once)
         thread.start()
@@ -90,7 +90,7 @@ def test_what_is_written_during_a_fold_stays(
         before = told(service, manifest)
         written.set()
         thread.join(60)
-        assert state.maps.get("site").base_sequence == 6
+        assert state.engine.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
     with start() as service:
         assert told(service, manifest) == before
@@ -101,12 +101,12 @@ def test_a_map_that_is_removed_during_a_fold_stays_removed(
     start: Any, manifest: Manifest, data_dir: Path, what: str
 ) -> None:
     with site(start, manifest) as (service, state):
-        stored = state.maps.get("site")
+        stored = state.engine.maps.get("site")
         service.delete("/maps/site")
         if "anew" in what:
             service.put("/maps/site", content=encode(map_of(random_codes(1), manifest.model_id)))
         before = service.get("/maps").json()
-        assert state.maps.flatten(stored) is None
+        assert state.engine.maps.flatten(stored) is None
         assert service.get("/maps").json() == before
 
 
@@ -114,9 +114,9 @@ def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_
     with site(start, manifest) as (_, state):
         keeper = keeper_of(state, data_dir, MaintenanceThresholds(commits=5))
         keeper.run_once()
-        assert state.maps.get("site").base_sequence == 1
+        assert state.engine.maps.get("site").base_sequence == 1
         keeper_of(state, data_dir, MaintenanceThresholds(commits=4)).run_once()
-        assert state.maps.get("site").base_sequence == 6
+        assert state.engine.maps.get("site").base_sequence == 6
 
 
 @pytest.mark.slow
@@ -176,7 +176,7 @@ def test_a_cache_that_is_not_to_be_trusted_is_not(
     damage(file, how)
     with caplog.at_level(logging.WARNING), start() as service:
         assert told(service, manifest) == before
-        assert service.app.state.placecell.maps.get("site").base_sequence == 1
+        assert service.app.state.placecell.engine.maps.get("site").base_sequence == 1
     assert ("left aside" in caplog.text) == (how != "gone")
 
 
@@ -189,7 +189,7 @@ def test_a_cache_of_an_earlier_version_is_completed(
         service.post("/maps/site/segments", content=data)
         before = told(service, manifest)
     with start() as service:
-        assert service.app.state.placecell.maps.get("site").base_sequence == 6
+        assert service.app.state.placecell.engine.maps.get("site").base_sequence == 6
         assert told(service, manifest) == before
 
 
@@ -219,7 +219,7 @@ def test_what_fails_is_told_and_tried_again(
             patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "full")))
             keeper.run_once()
             assert "housekeeping failed at map 'site'" in caplog.text
-            patched.setattr(state.maps.store, "release_space", lambda: 1 / 0)
+            patched.setattr(state.engine.maps.store, "release_space", lambda: 1 / 0)
             keeper.run_once()
             assert "housekeeping failed at the data directory" in caplog.text
         assert service.get("/maps/site").status_code == 200
@@ -232,13 +232,13 @@ def test_it_works_by_itself_and_ends(
     with site(start, manifest) as (_, state):
         before = threading.active_count()
         looked = threading.Event()
-        monkeypatch.setattr(state.sync, "expire", looked.set)
+        monkeypatch.setattr(state.engine.sync, "expire", looked.set)
         bounds = MaintenanceThresholds(recent=3, share=0.0, seconds=0.01)
         with keeper_of(state, data_dir, bounds).running():
             assert threading.active_count() == before + 1
             assert looked.wait(60)
         assert threading.active_count() == before
-        assert state.maps.get("site").base_sequence == 6
+        assert state.engine.maps.get("site").base_sequence == 6
 
 
 def test_A2_only_maps_that_were_written_are_looked_at_again(

@@ -11,7 +11,7 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.api.state import StartError
+from service.engine import StartError
 from tests.service.service_builders import (
     assert_problem,
     cloud,
@@ -286,7 +286,7 @@ def test_a_failing_disk_leaves_the_map_as_it_was(
 ) -> None:
     service.put("/maps/yard", content=yard)
     before = service.get("/maps").json()
-    connection = service.app.state.placecell.maps.store._database._connection
+    connection = service.app.state.placecell.engine.maps.store._database._connection
     connection.execute(f"PRAGMA {setting}")
     edit = edit_of(random_codes(300, 9), manifest.model_id, 200)
     other = encode(map_of(random_codes(300, 9), manifest.model_id))

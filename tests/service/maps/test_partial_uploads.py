@@ -290,7 +290,7 @@ def test_B9_abandoned_uploads_are_removed_after_a_day(
     service: Any, yard: CompactMap, data_dir: Path
 ) -> None:
     send_parts(service, "yard", encode(yard))
-    uploads = service.app.state.placecell.partial_uploads
+    uploads = service.app.state.placecell.engine.partial_uploads
     (file,) = (data_dir / "uploads").iterdir()
     uploads.forget_old()
     assert file.exists()

@@ -31,7 +31,7 @@ def key_of(file: Path, name: str, *options: str) -> dict[str, str]:
 
 def keeper_of(service: Any, data_dir: Path, bounds: MaintenanceThresholds) -> Maintenance:
     state = service.app.state.placecell
-    return Maintenance(state.maps, state.sync, MapCache(data_dir), bounds)
+    return Maintenance(state.engine.maps, state.engine.sync, MapCache(data_dir), bounds)
 
 
 def traced(make: Any) -> tuple[Any, int, int]:
@@ -71,7 +71,7 @@ def test_A2_indexes_of_one_code_share_their_tables() -> None:
 def test_A2_an_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> None:
     empty = encode(map_of(random_codes(0), manifest.model_id))
     with start() as service:
-        maps = service.app.state.placecell.maps
+        maps = service.app.state.placecell.engine.maps
 
         def put(number: int) -> int:
             return int(service.put(f"/maps/m{number}", content=empty).status_code)
@@ -208,7 +208,7 @@ def test_A17_all_maps_together_have_a_quota(
         assert service.put("/maps/new", content=file).status_code == 201
         for name in ("yard", "hall", "new"):
             assert service.delete(f"/maps/{name}").status_code == 204
-        assert service.app.state.placecell.maps.stored_bytes == 0
+        assert service.app.state.placecell.engine.maps.stored_bytes == 0
 
 
 def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir: Path) -> None:
@@ -224,12 +224,12 @@ def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir:
         assert service.post("/maps/b/compact?keep=2").status_code == 200
         keeper_of(service, data_dir, MaintenanceThresholds(recent=3, share=0.0)).run_once()
         assert service.delete("/maps/b").status_code == 204
-        counted = service.app.state.placecell.maps._usage
+        counted = service.app.state.placecell.engine.maps._usage
         told = service.get("/maps").json()["maps"]
         assert (counted.maps, counted.bytes) == (1, told[0]["bytes"])
         assert counted.robots == told[0]["robots"]
     with start() as service:
-        assert service.app.state.placecell.maps._usage == counted
+        assert service.app.state.placecell.engine.maps._usage == counted
 
 
 # B19: a rebuild leaves nothing behind
@@ -268,7 +268,7 @@ def test_B19_a_fold_leaves_one_copy(
         file = encode(map_of(random_codes(300), manifest.model_id))
         assert service.put("/maps/yard", content=file).status_code == 201
         keeper = keeper_of(service, data_dir, MaintenanceThresholds(recent=10, share=0.0))
-        maps = service.app.state.placecell.maps
+        maps = service.app.state.placecell.engine.maps
         for step in range(1, 9):
             # Not over HTTP: a thread that has answered holds the map for a moment longer.
             changed = map_of(random_codes(200, step), manifest.model_id)

@@ -171,7 +171,7 @@ def test_a_cursor_that_was_made_up_does_no_harm(service: Any, site: str, cursor:
 def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
     service: Any, site: str, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sync = service.app.state.placecell.sync
+    sync = service.app.state.placecell.engine.sync
     for step in range(20):
         data = edit_of(random_codes(1, step), manifest.model_id, 900)
         service.post(f"{site}/segments", content=data)

@@ -29,7 +29,9 @@ def looks(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Looks of two maps, the index, and what is left of the client's patience."""
     monkeypatch.setattr(alignment, "SEARCHED", 10)
     monkeypatch.setattr(alignment, "BLOCK", 10)
-    monkeypatch.setattr(alignment, "likely", lambda model, one, other: (one == other).mean(axis=1))
+    monkeypatch.setattr(
+        alignment, "match_probabilities", lambda model, one, other: (one == other).mean(axis=1)
+    )
     patience = SimpleNamespace(left=100)
 
     def check() -> None:

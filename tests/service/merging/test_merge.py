@@ -311,7 +311,7 @@ def test_a_site_without_enough_ids_is_left_as_it_is(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     merge(stocked, "site", ["east", "west"])
-    store = stocked.app.state.placecell.maps.store
+    store = stocked.app.state.placecell.engine.maps.store
     with store._database.transaction() as connection:
         (head,) = (each for each in store.heads() if each.name == "site")
         row = row_of(connection, head.uid)

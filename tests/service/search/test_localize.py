@@ -358,7 +358,7 @@ NAN = float("nan")
     [
         ({"centroids": None}, 422, "invalid-request", "centroids"),
         ({"centroids": []}, 422, "invalid-request", "/centroids"),
-        ({"centroids": [[0, 0, 0]]}, 422, "invalid-request", "1 of them for 40 codes"),
+        ({"centroids": [[0, 0, 0]]}, 422, "invalid-request", "1 centroids for 40 codes"),
         ({"centroids": [[0, 0]] * 40}, 422, "invalid-request", "/centroids/0"),
         ({"centroids": [[0, 0, 1e9]] * 40}, 422, "invalid-request", "/centroids/0/2"),
         ({"centroids": [["0", 0, 0]] * 40}, 422, "invalid-request", "/centroids/0/0"),
@@ -388,7 +388,7 @@ def test_bad_requests_are_refused_with_the_reason(
         ({"centroids": b"\0" * 25}, "/centroids: found 25 bytes, expected a multiple of 24"),
         ({"centroids": np.full(120, NAN).tobytes()}, "/centroids/0/0"),
         ({"centroids": np.full(120, 1e9).tobytes()}, "/centroids/0/0"),
-        ({"centroids": b"\0" * 24}, "1 of them for 40 codes"),
+        ({"centroids": b"\0" * 24}, "1 centroids for 40 codes"),
         ({"centroids": [0.0] * 120}, "/centroids: expected binary data"),
         ({"codes": b"\0" * 13}, "/codes: 13 bytes"),
     ],
@@ -417,7 +417,7 @@ def test_a_key_sees_its_own_maps_and_sessions(
         assert service.post("/localize", json=body, headers=halls).json()["localisations"] == []
         named = body | {"maps": ["street"]}
         assert_problem(service.post("/localize", json=named, headers=halls), 403, "forbidden")
-        sessions = service.app.state.placecell.sessions
+        sessions = service.app.state.placecell.engine.sessions
         assert service.post(
             "/localize", json=body | {"session": "s"}, headers=everything
         ).is_success

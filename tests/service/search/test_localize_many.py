@@ -240,13 +240,13 @@ def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_told(
     from service.search import localization
 
     searched = []
-    query_in = localization.query_in
+    map_query = localization.map_query
 
-    def counted(*args: Any) -> Any:
-        searched.append(args[3].name)
-        return query_in(*args)
+    def counted(**arguments: Any) -> Any:
+        searched.append(arguments["stored"].name)
+        return map_query(**arguments)
 
-    monkeypatch.setattr(localization, "query_in", counted)
+    monkeypatch.setattr(localization, "map_query", counted)
     for name in ("map-000", "map-039"):
         searched.clear()
         told = ask(stocked, by_codes(manifest, *seen_in(many(manifest)[name])))
@@ -346,10 +346,10 @@ def test_B13_maps_of_other_keys_do_not_crowd_out_one_s_own(
         after = service.post("/localize", json=body, headers=halls)
         assert before.json() == after.json()
         assert "yard" not in after.text
-        shared = service.app.state.placecell.maps.shared
+        shared = service.app.state.placecell.engine.maps.shared
         service.post("/localize", json=body, headers=everything)
         for indexes in shared._by_model.values():
-            maps = service.app.state.placecell.maps.all()
+            maps = service.app.state.placecell.engine.maps.all()
             names = {each.head.uid: each.name.split("-")[0] for each in maps}
             for index in indexes:
                 assert len({names[uid] for uid, *_ in index.keys}) == 1
@@ -359,7 +359,7 @@ def test_B13_maps_of_other_keys_do_not_crowd_out_one_s_own(
 def test_B13_a_shared_index_is_kept_while_little_changes(stocked: Any, manifest: Manifest) -> None:
     body = by_codes(manifest, *seen_in(many(manifest)["map-007"]))
     assert ask(stocked, body)[0]["map"] == "map-007"
-    maps = stocked.app.state.placecell.maps
+    maps = stocked.app.state.placecell.engine.maps
     (before,) = maps.shared._by_model[manifest.model_id]
     for number in range(3):
         edit = edit_of(random_codes(1, 800 + number), manifest.model_id, first_id=700)
@@ -374,10 +374,10 @@ def test_B13_a_shared_index_is_kept_while_little_changes(stocked: Any, manifest:
 
 
 def test_B13_a_cancelled_search_stops(stocked: Any, manifest: Manifest) -> None:
-    maps = stocked.app.state.placecell.maps
+    maps = stocked.app.state.placecell.engine.maps
     searched = tuple(maps.all())
     codes, centroids = seen_in(many(manifest)["map-001"])
-    model = stocked.app.state.placecell.models.default
+    model = stocked.app.state.placecell.engine.models.default
     known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantizer, ())
     parameters = LocalizationParameters()
     votes = votes_of(codes, centroids, searched, known, parameters)
@@ -393,9 +393,9 @@ def test_B13_votes_are_counted_in_parts_where_there_are_too_many(
     stocked: Any, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(ranking, "PAIRS", 20_000)
-    searched = tuple(stocked.app.state.placecell.maps.all())
+    searched = tuple(stocked.app.state.placecell.engine.maps.all())
     codes, centroids = seen_in(many(manifest)["map-001"])
-    model = stocked.app.state.placecell.models.default
+    model = stocked.app.state.placecell.engine.models.default
     known = SharedIndexes().parts(searched, searched, model.id, model.manifest.quantizer, ())
     votes = votes_of(codes, centroids, searched, known, LocalizationParameters())
     assert votes.argmax() == 1
@@ -415,4 +415,4 @@ def test_few_small_maps_need_no_shared_index(service: Any, manifest: Manifest) -
         put(service, name, content)
     body = by_codes(manifest, *seen_in(many(manifest, 5)["map-004"]))
     assert ask(service, body)[0]["map"] == "map-004"
-    assert service.app.state.placecell.maps.shared._by_model[manifest.model_id] == []
+    assert service.app.state.placecell.engine.maps.shared._by_model[manifest.model_id] == []

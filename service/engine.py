@@ -1,0 +1,459 @@
+"""Engine: place recognition in one process, without a server.
+
+    from pathlib import Path
+
+    from service.core.settings import Settings
+    from service.engine import Engine
+
+    settings = Settings(data_dir=Path("maps"), models_dir=Path("models"), model="context")
+    with Engine.open(settings) as engine:
+        engine.put_map("yard", yard)
+        seen = engine.describe(clouds, sensors)
+        result = engine.localize(seen, maps=["yard"])
+        print(result[0].localization.pose)
+
+Here `yard` is a `CompactMap`, `clouds` holds the points of each segment, and `sensors` the sensor
+positions. The HTTP service is a layer above the engine: a route parses a request, calls the engine,
+and serializes the result. The engine needs no HTTP library.
+"""
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import TracebackType
+from typing import Literal, Self
+
+from numpy.typing import ArrayLike
+from placecell_client import CompactMap, Delta, Info, decode, encode, encode_delta
+from placecell_client.maps.map_file import VERSION
+
+from placecell.core.cancellation import current
+from placecell.descriptors.manifest import Manifest, ModelError
+from placecell.localization import LocalizationParameters
+from placecell.map_alignment import AlignmentParameters, MapAlignment
+from service.core.auth import ANYONE, Holder
+from service.core.metrics import Metrics
+from service.core.preconditions import Preconditions
+from service.core.settings import Settings
+from service.core.timing import Timing
+from service.inference.describer import Descriptors
+from service.inference.model_registry import Model, Models
+from service.inference.scan import Scan
+from service.maps.cache import MapCache
+from service.maps.history import commits_of, version_file
+from service.maps.quotas import Quotas
+from service.maps.repository import MapRepository
+from service.maps.shared_index import Patterns
+from service.maps.snapshot import MapSnapshot
+from service.maps.sqlite.store import SqliteMapStore
+from service.maps.store import Commit, StoreError, StoreLockedError
+from service.maps.sync import MapSync, SyncPage
+from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
+from service.maps.writes.partial_uploads import PartialUploads
+from service.maps.writes.writer import MapWriter, WriteResult
+from service.merging.alignment import MapSide, align_maps, check_same_model
+from service.merging.merge import Merger, MergeResult
+from service.search.localization import LocalizationResult, localize
+from service.search.matching import MatchResult, match
+from service.search.query import Query, query_of_codes, query_of_scan, select_maps
+from service.search.sessions import RobotSession, Session, Sessions
+from service.warm_up import warm_up
+
+Motion = Literal["yaw", "se3"]
+"""Degrees of freedom of a pose: yaw and translation, or all six."""
+
+NO_CONDITIONS = Preconditions()
+
+
+class StartError(Exception):
+    """The engine or the service cannot start; the message gives the reason."""
+
+
+class Engine:
+    """Models and maps of one process; safe to use from many threads. Close it after use.
+
+    Each method raises `Problem` for what the service answers with an error. A write returns when it
+    is safely on disk.
+
+    Attributes:
+        settings: settings that the engine was opened with.
+        metrics: counters and times.
+        models: loaded models.
+        maps: stored maps.
+        partial_uploads: map files that are uploaded in parts and are not complete.
+        sync: incremental transfers of maps, for robots that keep a copy.
+        sessions: results of robots' last requests.
+    """
+
+    def __init__(
+        self, settings: Settings, metrics: Metrics, key_patterns: Callable[[], Patterns]
+    ) -> None:
+        """Open the data directory and load models and maps; `open` does so too.
+
+        Raises:
+            StartError: a model or the data directory cannot be used.
+        """
+        self.settings = settings
+        self.metrics = metrics
+        self._key_patterns = key_patterns
+        self._open_parts = ExitStack()
+        limits = settings.limits
+        try:
+            self.models = Models(settings, metrics)
+        except ModelError as error:
+            raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
+        warm_up(self.models, limits)
+        with ExitStack() as opened:
+            try:
+                store = opened.enter_context(SqliteMapStore.owned(settings.data_dir))
+                cache = MapCache(settings.data_dir)
+                self.maps = MapRepository(store, self.models, Quotas(limits), cache)
+            except (StoreLockedError, StoreError) as error:
+                raise StartError(f"data directory: {error}") from error
+            except OSError as error:
+                raise StartError(f"data directory {settings.data_dir}: {error}") from error
+            self.sync = MapSync(store)
+            self.partial_uploads = PartialUploads(settings.data_dir, limits)
+            self.sessions = Sessions(limits.sessions)
+            bounds = MaintenanceThresholds(
+                map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
+            )
+            maintenance = Maintenance(self.maps, self.sync, cache, bounds, self.partial_uploads)
+            opened.enter_context(maintenance.running())
+            self._open_parts = opened.pop_all()
+        metrics.maps.set_function(lambda: len(self.maps))
+        metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.all()))
+
+    @classmethod
+    def open(
+        cls,
+        settings: Settings | None = None,
+        metrics: Metrics | None = None,
+        key_patterns: Callable[[], Patterns] = tuple,
+    ) -> Self:
+        """Open the data directory of some settings and load models and maps.
+
+        Args:
+            settings: settings as of the service; the service's own defaults unless given.
+            metrics: counters and times; new ones unless given.
+            key_patterns: gives the map name patterns that API keys open; only maps that the same
+                keys open share an index.
+
+        Raises:
+            StartError: a model or the data directory cannot be used.
+        """
+        return cls(settings or Settings(), metrics or Metrics(), key_patterns)
+
+    @classmethod
+    def temporary(cls, model: Path) -> Self:
+        """Open an engine with the model of a folder and no maps; closing it deletes its maps.
+
+        Raises:
+            ModelError: the folder holds no usable model.
+            StartError: the model cannot be loaded.
+        """
+        Manifest.load(model)
+        with ExitStack() as opened:
+            folder = opened.enter_context(TemporaryDirectory(prefix="placecell-"))
+            engine = cls.open(
+                Settings(data_dir=Path(folder), models_dir=model.resolve().parent, model=model.name)
+            )
+            # Parts are closed in reverse order: the folder is deleted last.
+            opened.push(engine._open_parts.pop_all())
+            engine._open_parts = opened.pop_all()
+        return engine
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Stop the maintenance and release the data directory."""
+        self._open_parts.close()
+
+    @property
+    def model(self) -> Model:
+        """Return the default model."""
+        return self.models.default
+
+    def info(self) -> Info:
+        """Return facts about the engine, as `Client.info` returns those of a service."""
+        manifest = self.model.manifest
+        return Info(
+            version="",
+            model_id=manifest.model_id,
+            model={"name": manifest.name, "preprocessing": manifest.preprocessing},
+            limits=self.settings.limits.model_dump(),
+            map_file_version=VERSION,
+        )
+
+    # Recognition.
+
+    def describe(
+        self, segments: Sequence[ArrayLike], sensors: ArrayLike, model: str | None = None
+    ) -> Descriptors:
+        """Describe the segments of one scan.
+
+        Args:
+            segments: points of each segment, (n, 3), meters, in one z-up frame.
+            sensors: sensor position of each segment, (segments, 3), or one for all, (3,).
+            model: id or name of a loaded model; the default model unless given.
+
+        Raises:
+            Problem: 409 if the model is not loaded, 413 if there are too many segments, 422 if no
+                segment can be described.
+        """
+        describer = self.models.named(model).describer
+        prepared = describer.prepare(Scan.from_clouds(segments, sensors), Timing())
+        return describer.describe_alone(prepared)
+
+    def match(
+        self,
+        seen: Descriptors | Scan,
+        maps: Sequence[str] | None = None,
+        k: int = 10,
+        holder: Holder = ANYONE,
+    ) -> MatchResult:
+        """Return the k nearest map segments of each segment.
+
+        Args:
+            seen: descriptors, which are searched in maps of their model; or a scan, which is
+                described by the model of each map.
+            maps: names of maps; all maps unless given.
+            k: largest number of candidates of a segment.
+            holder: holder of a key, which may not open all maps.
+
+        Raises:
+            Problem: as `query`.
+        """
+        timing = Timing()
+        query = self.query(seen, maps, k, holder, timing)
+        return self.matches(query, query.describe_alone())
+
+    def localize(
+        self,
+        seen: Descriptors | Scan,
+        maps: Sequence[str] | None = None,
+        k: int = 25,
+        parameters: LocalizationParameters | None = None,
+        session: str | Session | None = None,
+        holder: Holder = ANYONE,
+    ) -> LocalizationResult:
+        """Return the robot's pose in each map, or the reason for none; the most probable first.
+
+        Args:
+            seen: descriptors with centroids, or a scan: all segments around the robot.
+            maps: names of maps; all maps unless given.
+            k: largest number of candidates of a segment and map.
+            parameters: parameters of the localization; the default ones unless given.
+            session: id that this robot uses for all its requests in one odometry frame; requests of
+                the last seconds support each other.
+            holder: holder of a key, which may not open all maps.
+
+        Raises:
+            Problem: as `query`.
+        """
+        timing = Timing()
+        query = self.query(seen, maps, k, holder, timing)
+        descriptors = query.describe_alone()
+        return self.poses(query, descriptors, timing, parameters, session, holder)
+
+    def query(
+        self,
+        seen: Descriptors | Scan,
+        maps: Sequence[str] | None,
+        k: int,
+        holder: Holder,
+        timing: Timing,
+    ) -> Query:
+        """Select the maps to search and prepare the segments: the first step of a search.
+
+        The second step is `Query.describe`, the third `matches` or `poses`.
+
+        Raises:
+            Problem: 403 if the key does not open a named map, 404 if there is none of the name, 409
+                if its model is not loaded or not that of the descriptors, 413 if the request is too
+                much work, 422 if no segment can be described.
+        """
+        if isinstance(seen, Descriptors):
+            only = self.models.named(seen.model_id)
+            selection = select_maps(self.maps, self.models, maps, only, holder)
+            return query_of_codes(seen, selection, k, self.settings.limits, timing)
+        selection = select_maps(self.maps, self.models, maps, None, holder)
+        return query_of_scan(seen, self.models.default, selection, k, timing)
+
+    def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
+        """Search the nearest segments: the third step of a match."""
+        return match(query, descriptors, self.maps, self._key_patterns())
+
+    def poses(
+        self,
+        query: Query,
+        descriptors: Sequence[Descriptors],
+        timing: Timing,
+        parameters: LocalizationParameters | None = None,
+        session: str | Session | None = None,
+        holder: Holder = ANYONE,
+    ) -> LocalizationResult:
+        """Search the robot's pose: the third step of a localization."""
+        if isinstance(session, str):
+            session = RobotSession(self.sessions, holder.name, session)
+        return localize(
+            query=query,
+            descriptors=descriptors,
+            maps=self.maps,
+            patterns=self._key_patterns(),
+            parameters=parameters or LocalizationParameters(),
+            timing=timing,
+            session=session,
+        )
+
+    def reload_models(self) -> list[Model]:
+        """Load the models anew that changed on disk, and return all; the default model first.
+
+        Raises:
+            ModelError: a model cannot be used; the loaded models stay in use.
+        """
+        self.models.reload()
+        self.maps.index_all()
+        return self.models.all()
+
+    # Maps.
+
+    def align(
+        self, name: str, other: str, parameters: AlignmentParameters | None = None
+    ) -> MapAlignment:
+        """Return the transform from another map's frame into a map's, or the reason for none.
+
+        Args:
+            name: name of the map.
+            other: name of the other map.
+            parameters: parameters of the alignment; the default ones unless given.
+
+        Raises:
+            Problem: 404 if there is no such map, 409 if two models made the maps.
+        """
+        here, there = self.maps.get(name), self.maps.get(other)
+        check_same_model(here, there)
+        model = self.models.named(here.model_id)
+        a, b = MapSide.of(here), MapSide.of(there)
+        options = parameters or AlignmentParameters()
+        return align_maps(a, b, a.index(model), model, options, current().check)
+
+    def writer(
+        self, holder: Holder = ANYONE, conditions: Preconditions = NO_CONDITIONS
+    ) -> MapWriter:
+        """Return a writer of maps, with the rights of a key and the conditions of a request."""
+        return MapWriter(self.maps, self.models, holder, conditions)
+
+    def put_map(
+        self,
+        name: str,
+        content: CompactMap | bytes,
+        holder: Holder = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> WriteResult:
+        """Store a map, given as such or as its file; see `MapWriter.put`."""
+        file = content if isinstance(content, bytes) else encode(content)
+        return self.writer(holder, conditions).put(name, file)
+
+    def get_map(self, name: str, version: int | None = None) -> CompactMap:
+        """Return a stored map, or one of its earlier versions.
+
+        Raises:
+            Problem: 404 if there is no such map or version, 410 if the version is no longer kept.
+        """
+        stored = self.maps.get(name)
+        if version is None:
+            return stored.layers.content()
+        file, _ = version_file(self.maps.store, stored, version)
+        return decode(file)
+
+    def edit_map(
+        self,
+        name: str,
+        delta: Delta | bytes,
+        robot: str | None = None,
+        create: bool = False,
+        deduplicate: bool = False,
+        only_new: bool = False,
+        holder: Holder = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> WriteResult:
+        """Add, replace and remove segments of a map, all or none; see `MapWriter.edit`."""
+        file = delta if isinstance(delta, bytes) else encode_delta(delta)
+        return self.writer(holder, conditions).edit(
+            name,
+            file,
+            robot=robot,
+            create=create,
+            deduplicate=deduplicate,
+            only_new=only_new,
+        )
+
+    def delete_map(
+        self, name: str, holder: Holder = ANYONE, conditions: Preconditions = NO_CONDITIONS
+    ) -> None:
+        """Remove a map with all its versions; see `MapWriter.delete`."""
+        self.writer(holder, conditions).delete(name)
+
+    def restore_map(
+        self,
+        name: str,
+        version: int,
+        holder: Holder = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> WriteResult:
+        """Make a new version with the content of an earlier one; see `MapWriter.restore`."""
+        return self.writer(holder, conditions).restore(name, version)
+
+    def prune_map(
+        self,
+        name: str,
+        unseen_since: float,
+        dry_run: bool = False,
+        holder: Holder = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> WriteResult:
+        """Remove segments that were last seen before a time; see `MapWriter.prune`."""
+        return self.writer(holder, conditions).prune(name, unseen_since, dry_run)
+
+    def compact_map(self, name: str, keep: int = 1, holder: Holder = ANYONE) -> MapSnapshot:
+        """Drop all but the newest versions of a map; see `MapWriter.compact`."""
+        return self.writer(holder).compact(name, keep)
+
+    def versions(self, name: str) -> list[Commit]:
+        """Return the versions of a map that are kept, oldest first."""
+        return commits_of(self.maps.store, self.maps.get(name))
+
+    def changes(self, name: str, since: str | int = 0, limit: int = 20_000) -> SyncPage:
+        """Return the first page of a map's changes since a version; see `MapSync.first_page`."""
+        return self.sync.first_page(self.maps.get(name), f"{since}", limit)
+
+    def merge_maps(
+        self,
+        name: str,
+        maps: Sequence[str],
+        parameters: AlignmentParameters | None = None,
+        deduplicate: bool = True,
+        dry_run: bool = False,
+        holder: Holder = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> MergeResult:
+        """Align maps with each other and write their segments into one map; see `Merger.merge`."""
+        merger = Merger(
+            writer=self.writer(holder, conditions),
+            parameters=parameters or AlignmentParameters(),
+            deduplicate=deduplicate,
+            dry_run=dry_run,
+            check=current().check,
+        )
+        return merger.merge(name, maps)

@@ -1,0 +1,158 @@
+"""Query: the segments that a request searches for, and the maps that it searches."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from service.core.auth import Holder
+from service.core.cost import Cost, check_cost, cost_of_search
+from service.core.problems import Problem
+from service.core.settings import Limits
+from service.core.timing import Timing
+from service.inference.describer import Descriptors, PreparedScan
+from service.inference.model_registry import Model, Models
+from service.inference.scan import Scan
+from service.maps.repository import MapRepository
+from service.maps.snapshot import MapSnapshot
+
+
+@dataclass(frozen=True, slots=True)
+class MapSelection:
+    """Maps to search, grouped by the model that made them, and maps that are skipped.
+
+    Attributes:
+        searched: models with their maps, which have an index; one group at least. Where no map can
+            be searched, it is the request's own model without a map.
+        skipped: maps whose model is not loaded, or is not the model of the codes.
+    """
+
+    searched: tuple[tuple[Model, tuple[MapSnapshot, ...]], ...]
+    skipped: tuple[MapSnapshot, ...]
+
+    @property
+    def maps(self) -> list[MapSnapshot]:
+        """Return all maps to search, by name."""
+        maps = [stored for _, group in self.searched for stored in group]
+        return sorted(maps, key=lambda stored: stored.name)
+
+    @property
+    def segments(self) -> int:
+        """Return the number of segments of all maps to search."""
+        return sum(len(stored) for _, group in self.searched for stored in group)
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """Segments to search for, and the maps to search.
+
+    Attributes:
+        model_id: id of the model that the answer names: that of the codes, or the default.
+        selection: the maps.
+        k: largest number of candidates of a segment.
+        given: the request's own descriptors; None if it has segments.
+        prepared: the request's scan, prepared for each model of the selection.
+    """
+
+    model_id: str
+    selection: MapSelection
+    k: int
+    given: Descriptors | None
+    prepared: tuple[PreparedScan, ...]
+
+    async def describe(self, timing: Timing) -> list[Descriptors]:
+        """Return the descriptors by each model of the selection, computed in batches."""
+        if self.given is not None:
+            return [self.given]
+        return [
+            await model.describer.describe(prepared, timing)
+            for (model, _), prepared in zip(self.selection.searched, self.prepared, strict=True)
+        ]
+
+    def describe_alone(self) -> list[Descriptors]:
+        """Return the descriptors as `describe` does, without an event loop."""
+        if self.given is not None:
+            return [self.given]
+        return [
+            model.describer.describe_alone(prepared)
+            for (model, _), prepared in zip(self.selection.searched, self.prepared, strict=True)
+        ]
+
+
+def select_maps(
+    maps: MapRepository,
+    models: Models,
+    names: Sequence[str] | None,
+    only: Model | None,
+    holder: Holder,
+) -> MapSelection:
+    """Select the maps to search.
+
+    Args:
+        maps: all maps.
+        models: loaded models.
+        names: names of the maps; None: all maps that the key opens.
+        only: model that made the codes; None: each model describes the segments itself.
+        holder: holder of the key.
+
+    Raises:
+        Problem: 403 if the key does not open a named map, 404 if there is none of the name, 409 if
+            the map's model is not loaded or is not the model of the codes.
+    """
+    if names is None:
+        chosen = [stored for stored in maps.all() if holder.opens(stored.name)]
+    else:
+        for name in names:
+            holder.check_map(name)
+        chosen = [maps.get(name) for name in sorted(set(names))]
+    groups: dict[str, list[MapSnapshot]] = {}
+    skipped = []
+    for stored in chosen:
+        made_by = stored.model_id
+        if stored.index is not None and only in (None, models.find(made_by)):
+            groups.setdefault(made_by, []).append(stored)
+        elif names is None:
+            skipped.append(stored)
+        else:
+            usable = only.id if only is not None else ", ".join(each.id for each in models.all())
+            raise Problem(
+                409,
+                "other-model",
+                f"Map {stored.name!r} was made by model {made_by!r}, but this request can use only "
+                f"{usable}.",
+            )
+    searched = [(models.named(made_by), tuple(group)) for made_by, group in groups.items()]
+    # Without a map to search, the segments are checked and described all the same.
+    return MapSelection(tuple(searched) or ((only or models.default, ()),), tuple(skipped))
+
+
+def query_of_codes(
+    given: Descriptors, selection: MapSelection, k: int, limits: Limits, timing: Timing
+) -> Query:
+    """Build the query of a request that has descriptors.
+
+    Raises:
+        Problem: 413 if the search is too much work.
+    """
+    timing.lap("decode")
+    check_cost(_search_cost(len(given), selection, k), limits.cost_seconds)
+    return Query(given.model_id, selection, k, given, ())
+
+
+def query_of_scan(
+    scan: Scan, default: Model, selection: MapSelection, k: int, timing: Timing
+) -> Query:
+    """Build the query of a request that has segments: prepare them for each model.
+
+    Raises:
+        Problem: 413 if it is too much work, 422 if no segment can be described.
+    """
+    cost = _search_cost(len(scan), selection, k)
+    prepared = []
+    for model, _ in selection.searched:
+        one = model.describer.prepare(scan, timing, besides=cost)
+        prepared.append(one)
+        cost += one.cost
+    return Query(default.id, selection, k, None, tuple(prepared))
+
+
+def _search_cost(queries: int, selection: MapSelection, k: int) -> Cost:
+    return cost_of_search(queries, selection.segments, k, len(selection.searched))
