@@ -31,8 +31,8 @@ def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segm
 def scans_in(recording: Recording) -> list[Segments]:
     """The segments of each scan that is a frame, as a robot would send them."""
     return [
-        recording.segments.take(np.flatnonzero(recording.frames == scan))
-        for scan in np.unique(recording.frames)
+        recording.segments.take(np.flatnonzero(recording.captures == scan))
+        for scan in np.unique(recording.captures)
     ]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.datasets import open_drive
-from placecell.segmentation.pipeline import Progress, segment_frames, silent
+from placecell.segmentation.pipeline import Progress, segment_captures, silent
 from town import City, write_drive
 
 
@@ -46,7 +46,7 @@ def measure_town(
     simulated = time.process_time()
     drive = open_drive(folder)
     # The first frame compiles.
-    frames = segment_frames(drive, PROTOCOL_V1.for_drive(scans, 2), progress=progress)
+    frames = segment_captures(drive, PROTOCOL_V1.for_drive(scans, 2), progress=progress)
     next(frames)
     begun = time.process_time()
     segments = [len(some) for _, some in frames]

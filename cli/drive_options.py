@@ -11,11 +11,11 @@ from cli.errors import clear_errors
 from placecell.datasets.scan_options import (
     DType,
     Order,
-    Reading,
+    ScanOptions,
     TimeUnit,
     Unit,
     parse_columns,
-    reading,
+    use_scan_options,
 )
 
 PANEL = "Recorded drives"
@@ -94,10 +94,10 @@ def takes_drives(command: Callable[..., None]) -> Callable[..., None]:
         given = {name: words.pop(name) for name in OPTIONS}
         with clear_errors():
             names = given.pop("columns")
-            options = Reading(
+            options = ScanOptions(
                 columns=None if names is None else parse_columns(names), tell=tell, **given
             )
-        with reading(options):
+        with use_scan_options(options):
             command(**words)
 
     signature = inspect.signature(command, eval_str=True)

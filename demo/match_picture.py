@@ -51,7 +51,7 @@ def draw_matches(
     )
     for robot, shift, color in ((mapper, 0 * aside, "#1f5fa8"), (asker, aside, "#7a3fa0")):
         for recording in robot.recordings:
-            scans = np.unique(recording.frames)
+            scans = np.unique(recording.captures)
             path = robot.in_common(robot.drive.poses[scans, :3, 3])[:, :2] + shift
             axes.plot(*path.T, color=color, linewidth=2.5)
     answered = [index for index, answer in enumerate(answers) if len(answer.candidates)]

@@ -28,7 +28,7 @@ def draw_site(
     figure, axes = plt.subplots(figsize=(11, 8), layout="constrained")
     axes.scatter(centroids[:, 0], centroids[:, 1], s=14, color="0.6", linewidths=0)
     axes.plot([], [], "o", color="0.6", markersize=4, label=f"segments of {mapper.name}")
-    way = mapper.drive.poses[np.unique(np.concatenate([r.frames for r in mapper.recordings]))]
+    way = mapper.drive.poses[np.unique(np.concatenate([r.captures for r in mapper.recordings]))]
     axes.plot(*way[:, :2, 3].T, ".", color=MAPPER, markersize=3, label=f"path of {mapper.name}")
     if meeting.laid is not None:
         seen = np.concatenate([each.segments.centroids() for each in asker.recordings])

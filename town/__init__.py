@@ -23,7 +23,7 @@ Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
 
 from town.city import City
 from town.drives.drive import ORIGIN_FILE, read_origin, write_drive
-from town.drives.pair import Pair
+from town.drives.pair import StretchPair
 from town.drives.pairs import draw_pairs
 from town.drives.robots import several_robots, two_robots, way_of
 from town.drives.traversal import Traversal
@@ -44,11 +44,11 @@ __all__ = [
     "Lidar",
     "Mesh",
     "Odometry",
-    "Pair",
     "Planner",
     "Route",
     "Scene",
     "SceneObject",
+    "StretchPair",
     "Town",
     "Traversal",
     "draw_pairs",

@@ -10,7 +10,7 @@ from town.geometry.scene import Scene, WholeTown
 from town.objects.block import SceneObject, furnish
 from town.objects.traffic import traffic
 from town.streets.ground import Ground
-from town.streets.plan import Plan
+from town.streets.plan import StreetPlan
 from town.streets.terrain import Terrain
 
 
@@ -29,7 +29,7 @@ class Town:
     """
 
     seed: int
-    plan: Plan
+    plan: StreetPlan
     terrain: Terrain
     ground: Mesh
     objects: tuple[SceneObject, ...]
@@ -45,7 +45,7 @@ class Town:
             ValueError: fewer than two streets a direction.
         """
         rng = np.random.default_rng([seed, 0])
-        plan = Plan.draw(rng, streets)
+        plan = StreetPlan.draw(rng, streets)
         terrain = Terrain.draw(rng)
         objects = [
             thing for frontage in plan.frontages() for thing in furnish(frontage, terrain, rng)

@@ -61,7 +61,7 @@ class Drives:
             recording = recording_of(drive, None, file, progress)
             robot = Robot(folder.name, drive, [recording], np.eye(4))
             maps.append(robot.build_map(engine, folder.name))
-            scans.append(np.unique(recording.frames))
+            scans.append(np.unique(recording.captures))
         first = recording.parameters.accumulated_scans - 1
         return cls((maps[0], maps[1]), (scans[0], scans[1]), first, recording.parameters.protocol)
 

@@ -43,7 +43,7 @@ def measure_views(
     manifest = extractor.manifest
     found = extractor.describe(segments, None if seen is None else seen[rows])
     codes = manifest.quantizer.encode(found)
-    content = _map_of(codes, segments, recording.frames[rows], manifest.model_id)
+    content = _map_of(codes, segments, recording.captures[rows], manifest.model_id)
     nothing = empty(content.model_id, content.preprocessing, content.frame, content.code_bytes)
     same = SameView.of(manifest)
 

@@ -20,7 +20,7 @@ from evaluation.poses.queries import (
 from evaluation.poses.report import Outcome, report
 from placecell.localization import Localization, LocalizationParameters
 from placecell.localization.covariance import at_point
-from placecell.localization.evidence import History
+from placecell.localization.evidence import RequestHistory
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
@@ -66,7 +66,7 @@ def evaluate(
         manifest = engine.model.manifest
         # Compile all loops before the time is taken.
         localize_query(engine, fullest, MAP, k, parameters)
-        memory = DriveSession(History(parameters)) if session else None
+        memory = DriveSession(RequestHistory(parameters)) if session else None
         outcomes = []
         for number in progress(range(len(queries)), len(queries), "localising"):
             query = queries[number]

@@ -17,7 +17,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
 from placecell.datasets import open_drive
 from placecell.localization import Hypothesis, Localization, LocalizationParameters, Pose
-from placecell.localization.evidence import Evidence, History
+from placecell.localization.evidence import Evidence, RequestHistory
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 from service.inference.describer import Descriptors
@@ -161,7 +161,7 @@ class DriveSession:
         time: time of the present request, seconds.
     """
 
-    history: History
+    history: RequestHistory
     time: float = 0.0
 
     def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:

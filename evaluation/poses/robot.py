@@ -62,14 +62,14 @@ class Robot:
     def views(self) -> Iterator[tuple[int, Segments, np.ndarray]]:
         """Each frame's scan, all its segments, if any, and which of them are no duplicates."""
         for recording in self.recordings:
-            for scan in recording.frame_scans:
-                members = np.flatnonzero(recording.frames == scan)
+            for scan in recording.capture_scans:
+                members = np.flatnonzero(recording.captures == scan)
                 yield scan, recording.segments.take(members), recording.distinct[members]
 
     @property
     def frames(self) -> list[int]:
         """Scans that are frames, in the order of `views`."""
-        return [scan for recording in self.recordings for scan in recording.frame_scans]
+        return [scan for recording in self.recordings for scan in recording.capture_scans]
 
     def check_segments(self) -> None:
         """See that the robot saw something.

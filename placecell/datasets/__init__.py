@@ -6,7 +6,7 @@ from placecell.datasets.drive import Drive
 from placecell.datasets.errors import DriveError
 from placecell.datasets.kitti_odometry import KittiOdometry
 from placecell.datasets.kitti_raw import KittiRaw
-from placecell.datasets.scan_options import Reading, parse_columns, reading
+from placecell.datasets.scan_options import ScanOptions, parse_columns, use_scan_options
 
 FORMATS = (KittiOdometry, KittiRaw)
 
@@ -16,10 +16,10 @@ __all__ = [
     "DriveError",
     "KittiOdometry",
     "KittiRaw",
-    "Reading",
+    "ScanOptions",
     "open_drive",
     "parse_columns",
-    "reading",
+    "use_scan_options",
 ]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from placecell.core.types import Float32, Float64
 from placecell.datasets.errors import DriveError
 from placecell.datasets.point_layout import KITTI, PointLayout, find_layout, implausible
-from placecell.datasets.scan_options import Reading, current_reading
+from placecell.datasets.scan_options import ScanOptions, current_scan_options
 
 SHOWN = 5
 """Largest number of scans that a message names."""
@@ -58,7 +58,7 @@ class Drive(ABC):
     poses: Float64
     origin: Float64
     times: Float64
-    options: Reading = Reading()
+    options: ScanOptions = ScanOptions()
     point_layout: PointLayout = KITTI
 
     @classmethod
@@ -81,7 +81,7 @@ class Drive(ABC):
             DriveError: the layout is not sure, most scans cannot be used, or one cannot and the
                 options are strict.
         """
-        self.options = current_reading()
+        self.options = current_scan_options()
         sizes = [size_of(file) for file in self.scan_files]
         self.point_layout = find_layout(self.scan_files, sizes, self.options)
         if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:

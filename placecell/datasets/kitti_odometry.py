@@ -14,7 +14,7 @@ from placecell.datasets.drive import (
     read_table,
 )
 from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import SECONDS, current_reading
+from placecell.datasets.scan_options import SECONDS, current_scan_options
 
 
 class KittiOdometry(Drive):
@@ -61,7 +61,7 @@ class KittiOdometry(Drive):
             raise DriveError(
                 f"{time_file}: {len(self.times)} times for {len(self.scan_files)} scans"
             )
-        options = current_reading()
+        options = current_scan_options()
         if options.time_unit != "s":
             self.times = (self.times - self.times[0]) * SECONDS[options.time_unit]
         for remark in check_motion(self.poses, self.times, pose_file, time_file):

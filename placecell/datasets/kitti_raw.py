@@ -16,7 +16,7 @@ from placecell.datasets.drive import (
     read_table,
 )
 from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import current_reading
+from placecell.datasets.scan_options import current_scan_options
 
 EARTH_RADIUS = 6_378_137.0
 """Metres, WGS 84's equatorial radius, as in KITTI's development kit."""
@@ -66,7 +66,7 @@ class KittiRaw(Drive):
             folder / "velodyne_points" / "timestamps.txt",
         )
         for remark in remarks:
-            current_reading().tell(remark)
+            current_scan_options().tell(remark)
         self.examine()
 
     @classmethod

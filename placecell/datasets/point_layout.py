@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64, Int64
 from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import METERS, DType, Order, Reading
+from placecell.datasets.scan_options import METERS, DType, Order, ScanOptions
 
 SAMPLED_SCANS = 8
 STRETCHES = 8
@@ -105,17 +105,17 @@ class PointLayout:
 KITTI = PointLayout()
 
 
-def stated_layout(reading: Reading) -> PointLayout:
+def stated_layout(options: ScanOptions) -> PointLayout:
     """Return the layout that the options state; what they leave open follows KITTI."""
     return PointLayout(
-        columns=reading.columns or NAMES,
-        dtype=reading.dtype or "float32",
-        order=reading.order,
-        scale=METERS[reading.unit],
+        columns=options.columns or NAMES,
+        dtype=options.dtype or "float32",
+        order=options.order,
+        scale=METERS[options.unit],
     )
 
 
-def find_layout(files: Sequence[Path], sizes: Sequence[int], reading: Reading) -> PointLayout:
+def find_layout(files: Sequence[Path], sizes: Sequence[int], options: ScanOptions) -> PointLayout:
     """Find the layout of a drive's scans.
 
     KITTI's own layout is kept unless the content contradicts it.
@@ -129,17 +129,17 @@ def find_layout(files: Sequence[Path], sizes: Sequence[int], reading: Reading) -
     whole = np.array([size for size in sizes if size > 0])
     sampled = sample(files, sizes)
     if not len(whole) or not sampled:
-        return stated_layout(reading)
+        return stated_layout(options)
     folder = files[0].parent
-    if reading.states_layout:
-        layout = stated_layout(reading)
+    if options.states_layout:
+        layout = stated_layout(options)
         if divisible(whole, layout.point_bytes) < 0.5:
             raise DriveError(
                 f"{folder}: {count_of(whole, layout.point_bytes)} have no whole number of points "
                 f"of {layout}; the stated layout does not fit"
             )
     else:
-        layout = told_by_content(folder, whole, sampled, METERS[reading.unit])
+        layout = told_by_content(folder, whole, sampled, METERS[options.unit])
     check_unit(folder, layout, sampled)
     return layout
 

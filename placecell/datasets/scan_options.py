@@ -20,7 +20,7 @@ def silent(message: str) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ScanOptions:
     """Options for reading a drive; the defaults infer everything from the files' content.
 
     Attributes:
@@ -47,16 +47,16 @@ class Reading:
         return self.columns is not None or self.dtype is not None or self.order != "rows"
 
 
-_current: ContextVar[Reading] = ContextVar("reading", default=Reading())  # noqa: B039 -- frozen
+_current: ContextVar[ScanOptions] = ContextVar("reading", default=ScanOptions())  # noqa: B039 -- frozen
 
 
-def current_reading() -> Reading:
+def current_scan_options() -> ScanOptions:
     """Return the options that `open_drive` uses by default."""
     return _current.get()
 
 
 @contextmanager
-def reading(options: Reading) -> Iterator[None]:
+def use_scan_options(options: ScanOptions) -> Iterator[None]:
     """Use these options for all drives that are opened inside the block."""
     token = _current.set(options)
     try:

@@ -17,8 +17,8 @@ from placecell.core.types import Float32
 from placecell.descriptors.eigenvalue import FEATURES, eigenvalue_descriptors
 from placecell.descriptors.manifest import FILE, Manifest, ModelError
 from placecell.descriptors.neighborhood import describe_neighborhood
-from placecell.descriptors.orientation import align
-from placecell.descriptors.voxels import voxelize_aligned
+from placecell.descriptors.orientation import orient
+from placecell.descriptors.voxels import voxelize_oriented
 
 MODEL_FILE = "model.onnx"
 BATCH = 16
@@ -112,18 +112,18 @@ class OnnxExtractor(Extractor):
     ) -> Inputs:
         """Occupancy grids, extents and, of a model that looks around, surroundings."""
         inputs: Inputs = {}
-        looks = self.manifest.neighborhood
-        if looks is not None:
+        parameters = self.manifest.neighborhood
+        if parameters is not None:
             inputs["surroundings"] = (
-                describe_neighborhood(segments, None, looks)
+                describe_neighborhood(segments, None, parameters)
                 if neighborhood is None
                 else neighborhood
             )
             lap("look")
-        aligned = align(segments)
+        oriented = orient(segments)
         lap("align")
-        inputs["occupancy"], inputs["extents"] = voxelize_aligned(
-            aligned, segments.ends, self.manifest.parameters
+        inputs["occupancy"], inputs["extents"] = voxelize_oriented(
+            oriented, segments.ends, self.manifest.parameters
         )
         lap("voxelise")
         return inputs
@@ -138,9 +138,9 @@ class OnnxExtractor(Extractor):
 
     def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
         """Descriptors, float32 (segments, dimension), a batch at a time: grids are large."""
-        looks = self.manifest.neighborhood
-        if looks is not None and neighborhood is None:
-            neighborhood = describe_neighborhood(segments, None, looks)
+        parameters = self.manifest.neighborhood
+        if parameters is not None and neighborhood is None:
+            neighborhood = describe_neighborhood(segments, None, parameters)
 
         def some(first: int, end: int) -> Float32:
             rows = np.arange(first, end)
@@ -190,7 +190,7 @@ def load_extractor(folder: Path, threads: int = 0) -> Extractor:
         lengths = [len(manifest.standardization.get(name, ())) for name in ("mean", "deviation")]
         if lengths != [len(FEATURES)] * 2:
             raise ModelError(
-                f"{folder / FILE}: its 'standardisation' needs 'mean' and 'deviation', "
+                f"{folder / FILE}: its 'standardization' needs 'mean' and 'deviation', "
                 f"{len(FEATURES)} numbers each"
             )
         return EigenvalueExtractor(manifest)

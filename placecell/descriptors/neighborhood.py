@@ -37,14 +37,14 @@ BLOCK = 1024
 
 def describe_neighborhood(
     segments: Segments,
-    frames: Int64 | None = None,
+    captures: Int64 | None = None,
     parameters: NeighborhoodParameters = NEIGHBORHOOD_V1,
 ) -> Float32:
     """Histograms of what stands around each segment.
 
     Args:
         segments: in a common z-up frame.
-        frames: int64 (segments,), which were seen together; None: all of them.
+        captures: int64 (segments,), which were seen together; None: all of them.
 
     Returns:
         float32 (segments, rings x heights): log(1 + voxels) in each ring and layer, averaged over
@@ -52,9 +52,9 @@ def describe_neighborhood(
     """
     found = np.zeros((len(segments), *parameters.shape), dtype=np.float32)
     members = [np.arange(len(segments))]
-    if frames is not None:
-        order = np.argsort(frames, kind="stable")
-        members = np.split(order, np.flatnonzero(np.diff(frames[order])) + 1)
+    if captures is not None:
+        order = np.argsort(captures, kind="stable")
+        members = np.split(order, np.flatnonzero(np.diff(captures[order])) + 1)
     for together in members:
         some = segments.take(together)
         voxels, owners = voxels_by_owner(some, parameters.voxel)

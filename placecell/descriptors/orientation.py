@@ -19,7 +19,7 @@ def sensor_bearings(segments: Segments) -> Float64:
     return _bearings(segments.sensors, segments.centroids())
 
 
-def align(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
+def orient(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
     """Points about their segment's centroid, the robot on the positive x axis.
 
     Args:
@@ -32,12 +32,12 @@ def align(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
     Raises:
         ValueError: `ends` do not divide the points into segments.
     """
-    aligned = np.empty((len(segments.points), 3), dtype=np.float32)
+    oriented = np.empty((len(segments.points), 3), dtype=np.float32)
     centroids = segments.centroids()
     turn = np.asarray(yaw - _bearings(segments.sensors, centroids))
     points = np.ascontiguousarray(segments.points)
-    _turn(points, segments.ends, centroids, np.cos(turn), np.sin(turn), aligned)
-    return aligned
+    _turn(points, segments.ends, centroids, np.cos(turn), np.sin(turn), oriented)
+    return oriented
 
 
 def _bearings(sensors: Float32, centroids: Float64) -> Float64:
@@ -53,7 +53,7 @@ def _turn(
     centroids: Float64,
     cosines: Float64,
     sines: Float64,
-    aligned: Float32,
+    oriented: Float32,
 ) -> None:
     """Each point minus its segment's centroid, turned about z; float64 until it is stored."""
     start = 0
@@ -63,7 +63,7 @@ def _turn(
         for point in range(start, ends[segment]):
             dx = points[point, 0] - x
             dy = points[point, 1] - y
-            aligned[point, 0] = cosine * dx - sine * dy
-            aligned[point, 1] = sine * dx + cosine * dy
-            aligned[point, 2] = points[point, 2] - z
+            oriented[point, 0] = cosine * dx - sine * dy
+            oriented[point, 1] = sine * dx + cosine * dy
+            oriented[point, 2] = points[point, 2] - z
         start = ends[segment]

@@ -10,7 +10,7 @@ from placecell.core.jit import compiled
 from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, Float64, Int64, UInt8
-from placecell.descriptors.orientation import align
+from placecell.descriptors.orientation import orient
 
 
 def voxelize(
@@ -26,22 +26,22 @@ def voxelize(
         occupancy, uint8 (segments, *grid), 1 where a voxel holds a point; and extents, float32
         (segments, 3): edges in meters of each aligned segment's box, before points are dropped.
     """
-    return voxelize_aligned(align(segments, yaw), segments.ends, parameters)
+    return voxelize_oriented(orient(segments, yaw), segments.ends, parameters)
 
 
-def voxelize_aligned(
-    aligned: Float32, ends: Int64, parameters: Parameters
+def voxelize_oriented(
+    oriented: Float32, ends: Int64, parameters: Parameters
 ) -> tuple[UInt8, Float32]:
     """The same of segments that are aligned already: points, float32 (n, 3), and their ends."""
     occupancy = np.zeros((len(ends), *parameters.grid), dtype=np.uint8)
     extents = np.empty((len(ends), 3), dtype=np.float32)
-    _fill(aligned, ends, np.float32(parameters.grid_voxel), occupancy, extents)
+    _fill(oriented, ends, np.float32(parameters.grid_voxel), occupancy, extents)
     return occupancy, extents
 
 
 @compiled
 def _fill(
-    aligned: Float32, ends: Int64, voxel: np.float32, occupancy: UInt8, extents: Float32
+    oriented: Float32, ends: Int64, voxel: np.float32, occupancy: UInt8, extents: Float32
 ) -> None:
     """Mark the voxels that hold a point.
 
@@ -53,11 +53,11 @@ def _fill(
     half = np.float32(0.5)
     start = 0
     for segment in range(len(ends)):
-        low_x = high_x = aligned[start, 0]
-        low_y = high_y = aligned[start, 1]
-        low_z = high_z = aligned[start, 2]
+        low_x = high_x = oriented[start, 0]
+        low_y = high_y = oriented[start, 1]
+        low_z = high_z = oriented[start, 2]
         for point in range(start + 1, ends[segment]):
-            x, y, z = aligned[point, 0], aligned[point, 1], aligned[point, 2]
+            x, y, z = oriented[point, 0], oriented[point, 1], oriented[point, 2]
             low_x, high_x = min(low_x, x), max(high_x, x)
             low_y, high_y = min(low_y, y), max(high_y, y)
             low_z, high_z = min(low_z, z), max(high_z, z)
@@ -68,9 +68,9 @@ def _fill(
         middle_y = (low_y + high_y) * half
         middle_z = (low_z + high_z) * half
         for point in range(start, ends[segment]):
-            x = np.floor((aligned[point, 0] - middle_x) / voxel + half_x)
-            y = np.floor((aligned[point, 1] - middle_y) / voxel + half_y)
-            z = np.floor((aligned[point, 2] - middle_z) / voxel + half_z)
+            x = np.floor((oriented[point, 0] - middle_x) / voxel + half_x)
+            y = np.floor((oriented[point, 1] - middle_y) / voxel + half_y)
+            z = np.floor((oriented[point, 2] - middle_z) / voxel + half_z)
             # Compared as floats: a coordinate that is no number is outside.
             if 0 <= x < columns and 0 <= y < rows and 0 <= z < layers:
                 occupancy[segment, int(x), int(y), int(z)] = 1

@@ -17,7 +17,7 @@ from placecell.localization.pose import Pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Past:
+class PastRequest:
     """What is kept of a request.
 
     Attributes:
@@ -42,8 +42,8 @@ class Evidence:
         parameters: say what the same place is, and what the past is worth.
     """
 
-    past: tuple[Past, ...]
-    independent: tuple[Past, ...]
+    past: tuple[PastRequest, ...]
+    independent: tuple[PastRequest, ...]
     time: float
     parameters: LocalizationParameters
 
@@ -84,12 +84,12 @@ class Evidence:
         return places
 
 
-class History:
+class RequestHistory:
     """The last requests of one session. Not safe to use from two threads at once."""
 
     def __init__(self, parameters: LocalizationParameters) -> None:
         self._parameters = parameters
-        self._past: deque[Past] = deque(maxlen=parameters.remembered)
+        self._past: deque[PastRequest] = deque(maxlen=parameters.remembered)
 
     def at(self, time: float, middle: Float64) -> Evidence:
         """What the past says now; what is older than the memory is forgotten.
@@ -114,7 +114,7 @@ class History:
     def add(self, time: float, middle: Float64, hypotheses: Sequence[Hypothesis]) -> None:
         """Remember what a request found by itself."""
         found = tuple((each.pose, each.score) for each in hypotheses)
-        self._past.append(Past(time, middle, found))
+        self._past.append(PastRequest(time, middle, found))
 
 
 def middle_of(centroids: Float64) -> Float64:

@@ -21,10 +21,10 @@ from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.refinement import kernel
 
 
-class Surroundings(Protocol):
+class MapSegments(Protocol):
     """A map that what the robot sees can be compared with."""
 
-    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
+    def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Rows of the map about these places: all that are near one, and some around (`within`).
 
         Args:
@@ -35,11 +35,11 @@ class Surroundings(Protocol):
             Rows, int64 (m,), and their centroids, float64 (m, 3), meters.
         """
 
-    def likely(self, queries: Int64, rows: Int64) -> Float64:
+    def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         """How likely each query and row, (m,) each, are the same, pair by pair, float64 (m,)."""
 
 
-class AmongCandidates:
+class CandidateSegments:
     """As much of a map as the candidates show."""
 
     def __init__(self, candidates: Candidates) -> None:
@@ -51,12 +51,12 @@ class AmongCandidates:
         self._pairs, first = np.unique(self._numbered(queries, rows), return_index=True)
         self._beliefs = beliefs[queries, columns][first]
 
-    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
+    def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Of the rows that are anyone's candidate."""
         inside = within(self._centroids, places, meters)
         return self._rows[inside], self._centroids[inside]
 
-    def likely(self, queries: Int64, rows: Int64) -> Float64:
+    def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         """The belief in each candidate; 0 where the row is none of the query's."""
         pairs = self._numbered(queries, rows)
         at = np.searchsorted(self._pairs, pairs).clip(max=len(self._pairs) - 1)
@@ -66,10 +66,10 @@ class AmongCandidates:
         return queries * len(self._rows) + np.searchsorted(self._rows, rows)
 
 
-def look_again(
+def match_guided(
     hypothesis: Hypothesis,
     candidates: Candidates,
-    there: Surroundings,
+    there: MapSegments,
     parameters: LocalizationParameters,
     beliefs: Float64 | None = None,
 ) -> Hypothesis:
@@ -81,22 +81,26 @@ def look_again(
     """
     seen = np.flatnonzero(np.isfinite(candidates.centroids).all(axis=1))
     places = hypothesis.pose.apply(candidates.centroids[seen])
-    rows, points = there.about(places, parameters.gate)
+    rows, points = there.near(places, parameters.gate)
     here, near = near_pairs(places, points, parameters.gate, parameters.most_pairs)
     queries, found = seen[here], rows[near]
-    likely = there.likely(queries, found)
+    match_probabilities = there.match_probabilities(queries, found)
     # What the query may be besides; the row itself, where it is a candidate, is among it already.
     others = (candidates.beliefs.sum(axis=1) if beliefs is None else beliefs)[queries]
     is_candidate = (candidates.rows[queries] == found[:, None]).any(axis=1)
-    share = likely / np.maximum(others + np.where(is_candidate, 0.0, likely), 1e-9)
+    share = match_probabilities / np.maximum(
+        others + np.where(is_candidate, 0.0, match_probabilities), 1e-9
+    )
     nearness = kernel(np.linalg.norm(places[here] - points[near], axis=1), parameters.kernel)
     worth = np.log1p(share / parameters.unlikely) * nearness
-    things = number_places(found, points[near], parameters.same_place)
+    landmarks = number_places(found, points[near], parameters.same_place)
     best = np.lexsort((found, queries, -worth))
-    for owners in (queries, things):
+    for owners in (queries, landmarks):
         best = best[np.sort(np.unique(owners[best], return_index=True)[1])]
-    of_queries, looks = np.zeros((2, len(candidates)))
+    of_queries, similarity = np.zeros((2, len(candidates)))
     of_queries[queries[best]] = worth[best]
     distinct = np.minimum(share[best], parameters.distinct)
-    looks[queries[best]] = np.log1p(distinct / parameters.unlikely)
-    return replace(hypothesis, score=float(worth[best].sum()), worth=of_queries, looks=looks)
+    similarity[queries[best]] = np.log1p(distinct / parameters.unlikely)
+    return replace(
+        hypothesis, score=float(worth[best].sum()), worth=of_queries, similarity=similarity
+    )

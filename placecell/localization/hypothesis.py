@@ -31,7 +31,7 @@ class Hypothesis:
         residuals: float64 (inliers,), meters.
         worth: float64 (n,), what each of the candidates' queries adds to the score (guided
             matching); None before that.
-        looks: float64 (n,), how much each query's counterpart looks like it, whatever its distance,
+        similarity: float64 (n,), how similar each counterpart is,
             up to a bound; 0 where there is none. For comparing maps (`joint`).
     """
 
@@ -43,7 +43,7 @@ class Hypothesis:
     source: Float64
     residuals: Float64
     worth: Float64 | None = None
-    looks: Float64 | None = None
+    similarity: Float64 | None = None
 
     def __len__(self) -> int:
         return len(self.queries)

@@ -19,11 +19,11 @@ from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, features_of
 from placecell.localization.evidence import Evidence
-from placecell.localization.guided_matching import Surroundings, look_again
+from placecell.localization.guided_matching import MapSegments, match_guided
 from placecell.localization.hypothesis import Hypothesis, same_place
 from placecell.localization.localize import (
     Localization,
-    Places,
+    PlaceHypotheses,
     find_places,
     judge,
     totals_of,
@@ -53,7 +53,7 @@ class MapQuery:
     name: str
     model: str
     candidates: Candidates
-    there: Surroundings
+    there: MapSegments
     confidence: Confidence
     evidence: Evidence | None = None
 
@@ -81,7 +81,7 @@ class Rival:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Judged:
+class JointLocalization:
     """One map's part of a joint judgment.
 
     Attributes:
@@ -99,7 +99,7 @@ def localize_jointly(
     queries: Sequence[MapQuery],
     parameters: LocalizationParameters,
     link: Link = lambda *_: None,
-) -> list[Judged]:
+) -> list[JointLocalization]:
     """Localize the robot in several maps and judge the hypotheses of all maps together.
 
     Args:
@@ -121,10 +121,10 @@ def localize_jointly(
             places = find_places(query.candidates, loose)
             only_rivals.add(number)
         hypotheses = tuple(
-            look_again(each, query.candidates, query.there, parameters, beliefs)
+            match_guided(each, query.candidates, query.there, parameters, beliefs)
             for each in places.hypotheses
         )
-        found.append(Places(hypotheses, places.usable))
+        found.append(PlaceHypotheses(hypotheses, places.usable))
     return judge_jointly(queries, found, parameters, link, only_rivals)
 
 
@@ -151,11 +151,11 @@ def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
 
 def judge_jointly(
     queries: Sequence[MapQuery],
-    found: Sequence[Places],
+    found: Sequence[PlaceHypotheses],
     parameters: LocalizationParameters,
     link: Link = lambda *_: None,
     only_rivals: Collection[int] = (),
-) -> list[Judged]:
+) -> list[JointLocalization]:
     """Judge the hypotheses of all maps together.
 
     Args:
@@ -178,7 +178,7 @@ def judge_jointly(
     judged = []
     for number, own in enumerate(alone):
         if own.best is None:
-            judged.append(Judged(own, 0.0))
+            judged.append(JointLocalization(own, 0.0))
             continue
         here = int(np.argmax(totals[number]))
         total = float(totals[number][here])
@@ -192,7 +192,7 @@ def judge_jointly(
             if other != number and groups[other, at] != groups[number, here]
         ]
         told, rival = _against(own, number, found[number].usable, rivals, queries, parameters)
-        judged.append(Judged(told, total, rival))
+        judged.append(JointLocalization(told, total, rival))
     return judged
 
 
@@ -207,16 +207,18 @@ def _compared(
     parameters: LocalizationParameters,
 ) -> Rival:
     """Compare a rival in another map with a map's best hypothesis, segment by segment."""
-    assert own.looks is not None
-    assert rival.looks is not None
+    assert own.similarity is not None
+    assert rival.similarity is not None
     assert own.worth is not None
     assert rival.worth is not None
     of_own = own_evidence.support(own) if own_evidence else 0.0
     of_rival = evidence.support(rival) if evidence else 0.0
-    ratio = (float(rival.looks.sum()) + of_rival) / max(float(own.looks.sum()) + of_own, 1e-9)
+    ratio = (float(rival.similarity.sum()) + of_rival) / max(
+        float(own.similarity.sum()) + of_own, 1e-9
+    )
     ahead = 0.0
-    if len(own.looks) == len(rival.looks):
-        apart, past = own.looks - rival.looks, of_own - of_rival
+    if len(own.similarity) == len(rival.similarity):
+        apart, past = own.similarity - rival.similarity, of_own - of_rival
         most = np.log1p(parameters.distinct / parameters.unlikely)
         weight = max(each.weight if each else 0.0 for each in (own_evidence, evidence))
         variance = (
@@ -319,9 +321,12 @@ def chance_of_map(ahead: float, parameters: LocalizationParameters) -> float:
 
 def _told(own: Hypothesis, rival: Hypothesis) -> str:
     """Return how many segments support each of two maps, as text."""
-    assert own.looks is not None
-    assert rival.looks is not None
-    here, there = own.looks > 0.5 * own.looks.max(), rival.looks > 0.5 * rival.looks.max()
+    assert own.similarity is not None
+    assert rival.similarity is not None
+    here, there = (
+        own.similarity > 0.5 * own.similarity.max(),
+        rival.similarity > 0.5 * rival.similarity.max(),
+    )
     both = int(np.count_nonzero(here & there))
     return (
         f"{both} segments fit both maps, {int(np.count_nonzero(here)) - both} only this one, "
@@ -336,7 +341,7 @@ ADVICE = (
 
 
 def _same_places(
-    found: Sequence[Places], parameters: LocalizationParameters, link: Link
+    found: Sequence[PlaceHypotheses], parameters: LocalizationParameters, link: Link
 ) -> dict[tuple[int, int], int]:
     """Number the places: hypotheses of linked maps at the same place share a number.
 

@@ -12,7 +12,7 @@ from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, features_of, shipped
 from placecell.localization.correspondences import correspond
 from placecell.localization.evidence import Evidence
-from placecell.localization.guided_matching import AmongCandidates, Surroundings, look_again
+from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
 from placecell.localization.hypothesis import Hypothesis, find_hypotheses
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
@@ -59,7 +59,7 @@ def localize(
     parameters: LocalizationParameters = PARAMETERS,
     confidence: Confidence | None = None,
     evidence: Evidence | None = None,
-    there: Surroundings | None = None,
+    there: MapSegments | None = None,
 ) -> Localization:
     """Find the robot's frame in the map's.
 
@@ -72,13 +72,13 @@ def localize(
     places = find_places(candidates, parameters, evidence)
     if not places.hypotheses:
         return unknown(places.usable, parameters)
-    there = there or AmongCandidates(candidates)
-    hypotheses = [look_again(each, candidates, there, parameters) for each in places.hypotheses]
+    there = there or CandidateSegments(candidates)
+    hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
     return judge(hypotheses, places.usable, parameters, confidence or shipped(), evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Places:
+class PlaceHypotheses:
     """Candidate places of the robot in one map, before they are scored and judged.
 
     Attributes:
@@ -92,14 +92,16 @@ class Places:
 
 def find_places(
     candidates: Candidates, parameters: LocalizationParameters, evidence: Evidence | None = None
-) -> Places:
+) -> PlaceHypotheses:
     """Find the places in one map that candidates agree on, and those of earlier requests."""
     correspondences = correspond(candidates, parameters)
     if correspondences.usable < parameters.least_segments:
-        return Places((), correspondences.usable)
+        return PlaceHypotheses((), correspondences.usable)
     voted = most_voted(correspondences, parameters)
     guesses = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
-    return Places(tuple(find_hypotheses(voted, parameters, guesses)), correspondences.usable)
+    return PlaceHypotheses(
+        tuple(find_hypotheses(voted, parameters, guesses)), correspondences.usable
+    )
 
 
 def unknown(usable: int, parameters: LocalizationParameters) -> Localization:

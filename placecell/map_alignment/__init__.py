@@ -7,22 +7,22 @@ poses that agree are one guess, and a guess is held against the whole overlap th
 `loops.py` checks the alignments of more than two maps. No step knows of models, files or requests.
 """
 
-from placecell.map_alignment.align import MapAlignment, align, lies_as_well
-from placecell.map_alignment.loops import Alignment, check_loops, poses_from
-from placecell.map_alignment.map_view import Likeness, Looks, MapView
+from placecell.map_alignment.align import MapAlignment, align, fits_as_well
+from placecell.map_alignment.loops import PairwiseAlignment, check_loops, poses_from
+from placecell.map_alignment.map_view import DescriptorSearch, MapView, MatchProbabilities
 from placecell.map_alignment.overlap import Overlap
 from placecell.map_alignment.parameters import AlignmentParameters
 
 __all__ = [
-    "Alignment",
     "AlignmentParameters",
-    "Likeness",
-    "Looks",
+    "DescriptorSearch",
     "MapAlignment",
     "MapView",
+    "MatchProbabilities",
     "Overlap",
+    "PairwiseAlignment",
     "align",
     "check_loops",
-    "lies_as_well",
+    "fits_as_well",
     "poses_from",
 ]

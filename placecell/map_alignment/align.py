@@ -12,8 +12,8 @@ from placecell.localization.covariance import rotation_deviation
 from placecell.localization.hypothesis import find_hypotheses, same_place
 from placecell.localization.localize import Reason
 from placecell.localization.voting import most_voted
-from placecell.map_alignment.consensus import Guess, common_pose, consensus
-from placecell.map_alignment.map_view import Likeness, Looks, MapView
+from placecell.map_alignment.consensus import SubmapPose, common_pose, consensus
+from placecell.map_alignment.map_view import DescriptorSearch, MapView, MatchProbabilities
 from placecell.map_alignment.overlap import Overlap, overlap_of
 from placecell.map_alignment.parameters import AlignmentParameters
 from placecell.map_alignment.submaps import Submap, candidates_of, cut
@@ -45,7 +45,7 @@ class MapAlignment:
 
 
 def align(
-    a: MapView, b: MapView, looks: Looks, parameters: AlignmentParameters = PARAMETERS
+    a: MapView, b: MapView, search: DescriptorSearch, parameters: AlignmentParameters = PARAMETERS
 ) -> MapAlignment:
     """Find b's frame in a's.
 
@@ -56,42 +56,46 @@ def align(
     if min(len(a), len(b)) < least:
         detail = f"{min(len(a), len(b))} segments in a map; {least} or more are needed."
         return MapAlignment(None, None, "too-few-segments", detail)
-    guesses = guess(cut(b, parameters), a, b, looks, parameters)
+    guesses = submap_poses(cut(b, parameters), a, b, search, parameters)
     overlaps = [
-        overlap_of(a, b, common_pose(members, parameters), looks, parameters)
+        overlap_of(a, b, common_pose(members, parameters), search, parameters)
         for members in consensus(guesses, parameters)
     ]
     overlaps += [
-        overlap_of(a, b, turned(best.pose, b.stands[best.rows_b]), looks, parameters)
+        overlap_of(a, b, turned_around(best.pose, b.viewpoints[best.rows_b]), search, parameters)
         for best in distinct(overlaps, parameters)[:1]
     ]
     return judge(overlaps, parameters)
 
 
-def guess(
-    submaps: Sequence[Submap], a: MapView, b: MapView, looks: Looks, parameters: AlignmentParameters
-) -> list[Guess]:
+def submap_poses(
+    submaps: Sequence[Submap],
+    a: MapView,
+    b: MapView,
+    search: DescriptorSearch,
+    parameters: AlignmentParameters,
+) -> list[SubmapPose]:
     """Where each submap of b may be in a: the hypotheses of localization, not yet judged."""
     guesses = []
     for number, submap in enumerate(submaps):
-        candidates = candidates_of(submap, b, a, looks, parameters)
+        candidates = candidates_of(submap, b, a, search, parameters)
         voted = most_voted(correspond(candidates, parameters.local), parameters.local)
         guesses += [
-            Guess(number, submap.middle, each.pose, each.score)
+            SubmapPose(number, submap.middle, each.pose, each.score)
             for each in find_hypotheses(voted, parameters.local)
         ]
     return guesses
 
 
-def turned(pose: Pose, stands: Float64) -> Pose:
+def turned_around(pose: Pose, viewpoints: Float64) -> Pose:
     """The map turned around on the spot, to hold against how it was laid.
 
     Where much lies densely and looks alike, what agrees does so by chance, and would turned, too.
 
     Args:
-        stands: float64 (n, 3), meters, from where the robot saw what agrees.
+        viewpoints: float64 (n, 3), meters, from where the robot saw what agrees.
     """
-    spot = stands.mean(axis=0)
+    spot = viewpoints.mean(axis=0)
     there = pose.after(Pose.of_yaw(np.pi, np.zeros(3)))
     return Pose(there.rotation, pose.apply(spot) - there.rotation @ spot)
 
@@ -142,19 +146,19 @@ def is_as_good(second: Overlap, best: Overlap, parameters: AlignmentParameters) 
     )
 
 
-def lies_as_well(
+def fits_as_well(
     a: MapView,
     b: MapView,
     pose: Pose,
     best: Overlap,
-    looks: Likeness,
+    search: MatchProbabilities,
     parameters: AlignmentParameters = PARAMETERS,
 ) -> bool:
     """Whether b lies in a by this pose as well as by the best one, which puts it elsewhere.
 
     No where the two would not overlap, for nothing speaks for that.
     """
-    found = overlap_of(a, b, pose, looks, parameters)
+    found = overlap_of(a, b, pose, search, parameters)
     is_another = not same_place(found.pose, best.pose, best.source.mean(axis=0), parameters.local)
     return is_another and is_as_good(found, best, parameters)
 

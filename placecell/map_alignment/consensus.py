@@ -20,7 +20,7 @@ LEVER = np.concatenate([np.zeros((1, 3)), 10.0 * np.eye(3)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Guess:
+class SubmapPose:
     """Where one submap may be.
 
     Attributes:
@@ -36,7 +36,9 @@ class Guess:
     score: float
 
 
-def consensus(guesses: Sequence[Guess], parameters: AlignmentParameters) -> list[list[Guess]]:
+def consensus(
+    guesses: Sequence[SubmapPose], parameters: AlignmentParameters
+) -> list[list[SubmapPose]]:
     """Guesses that agree with the best seed, and so on with what is left, the weightiest first.
 
     A submap counts once in a set, by its best guess.
@@ -47,7 +49,7 @@ def consensus(guesses: Sequence[Guess], parameters: AlignmentParameters) -> list
     scores = np.array([each.score for each in guesses])
     submaps = np.array([each.submap for each in guesses])
     left = np.ones(len(guesses), dtype=bool)
-    sets: list[list[Guess]] = []
+    sets: list[list[SubmapPose]] = []
     while left.any() and len(sets) < parameters.alignments:
         worth = [_best_of_each(scores, submaps, row & left).sum() for row in graph]
         seed = int(np.where(left, worth, -np.inf).argmax())
@@ -57,7 +59,7 @@ def consensus(guesses: Sequence[Guess], parameters: AlignmentParameters) -> list
     return sets
 
 
-def agreement(guesses: Sequence[Guess], parameters: AlignmentParameters) -> Bool:
+def agreement(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) -> Bool:
     """Whether each two guesses put the map in the same place, symmetric, bool (g, g)."""
     middles = np.array([each.middle for each in guesses])
     # [i, j]: where the pose of guess i puts the middle of j.
@@ -71,7 +73,7 @@ def agreement(guesses: Sequence[Guess], parameters: AlignmentParameters) -> Bool
     return np.asarray(near & (turn <= np.radians(parameters.apart_yaw)))
 
 
-def common_pose(guesses: Sequence[Guess], parameters: AlignmentParameters) -> Pose:
+def common_pose(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) -> Pose:
     """The pose that is nearest to all, by their scores, in the least-squares sense."""
     source = np.concatenate([each.middle + LEVER for each in guesses])
     target = np.concatenate([each.pose.apply(each.middle + LEVER) for each in guesses])

@@ -24,7 +24,7 @@ METERS, DEGREES = 1.0, 2.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Alignment:
+class PairwiseAlignment:
     """An alignment of two maps: an edge between them.
 
     Attributes:
@@ -49,7 +49,7 @@ class Alignment:
         return self.middle if number == self.one else self.pose.inverse().apply(self.middle)
 
 
-Lies = Callable[[int, Pose], bool]
+FitsAsWell = Callable[[int, Pose], bool]
 """Whether the maps of an alignment, by its index, lie as well by another pose as by its own."""
 
 
@@ -77,7 +77,7 @@ class Loop:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class LoopCheck:
     """What the loops say of alignments.
 
     Attributes:
@@ -91,7 +91,9 @@ class Checked:
     proven: frozenset[int]
 
 
-def check_loops(alignments: Sequence[Alignment], lies: Lies = lambda *_: False) -> Checked:
+def check_loops(
+    alignments: Sequence[PairwiseAlignment], fits_as_well: FitsAsWell = lambda *_: False
+) -> LoopCheck:
     """Reject alignments until every loop closes.
 
     First the one that fails in most loops more than it holds in. Of several in one loop, the one
@@ -100,7 +102,7 @@ def check_loops(alignments: Sequence[Alignment], lies: Lies = lambda *_: False) 
 
     Args:
         alignments: one between each two maps, at most.
-        lies: is asked once, at most, of each alignment of a loop that fails.
+        fits_as_well: is asked once, at most, of each alignment of a loop that fails.
     """
     rejected: list[int] = []
     every = loops = loops_of(alignments, rejected)
@@ -109,11 +111,12 @@ def check_loops(alignments: Sequence[Alignment], lies: Lies = lambda *_: False) 
         wrong = [
             index
             for index in suspects
-            if len(suspects) == 1 or lies(index, by_the_rest(loop, index, alignments))
+            if len(suspects) == 1
+            or fits_as_well(index, pose_by_other_alignments(loop, index, alignments))
         ]
         rejected += wrong if len(wrong) == 1 else suspects
         loops = loops_of(alignments, rejected)
-    return Checked(tuple(rejected), every, frozenset(counted(loops)))
+    return LoopCheck(tuple(rejected), every, frozenset(loops_by_alignment(loops)))
 
 
 def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, list[int]]:
@@ -121,7 +124,10 @@ def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, 
 
     Of several loops that with the fewest of them, and then the shortest.
     """
-    fails, holds = counted(failing), counted(loop for loop in loops if loop.closes)
+    fails, holds = (
+        loops_by_alignment(failing),
+        loops_by_alignment(loop for loop in loops if loop.closes),
+    )
     worst = max(fails[index] - holds[index] for index in fails)
     suspects = [
         (loop, [index for index in loop.alignments if fails[index] - holds[index] == worst])
@@ -132,7 +138,9 @@ def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, 
     )
 
 
-def by_the_rest(loop: Loop, index: int, alignments: Sequence[Alignment]) -> Pose:
+def pose_by_other_alignments(
+    loop: Loop, index: int, alignments: Sequence[PairwiseAlignment]
+) -> Pose:
     """How the two maps of an alignment lie, as its `pose` tells it, by the rest of a loop."""
     begin = loop.alignments.index(index) + 1
     around = Pose.of_matrix(np.eye(4))
@@ -144,7 +152,9 @@ def by_the_rest(loop: Loop, index: int, alignments: Sequence[Alignment]) -> Pose
     return around if alignments[index].one == after else around.inverse()
 
 
-def loops_of(alignments: Sequence[Alignment], without: Sequence[int] = ()) -> tuple[Loop, ...]:
+def loops_of(
+    alignments: Sequence[PairwiseAlignment], without: Sequence[int] = ()
+) -> tuple[Loop, ...]:
     """Loops of alignments: all short ones, and of the long ones a basis."""
     graph = networkx.Graph()
     for index, each in enumerate(alignments):
@@ -152,10 +162,12 @@ def loops_of(alignments: Sequence[Alignment], without: Sequence[int] = ()) -> tu
             graph.add_edge(each.one, each.other, index=index)
     short = networkx.simple_cycles(graph, length_bound=LONGEST)
     basis = (maps for maps in networkx.cycle_basis(graph) if len(maps) > LONGEST)
-    return tuple(measured(maps, graph, alignments) for maps in [*short, *basis])
+    return tuple(measure_loop(maps, graph, alignments) for maps in [*short, *basis])
 
 
-def measured(maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[Alignment]) -> Loop:
+def measure_loop(
+    maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[PairwiseAlignment]
+) -> Loop:
     """Once around from the first map, by what one misses at the middle of the first alignment."""
     steps = list(zip(maps, [*maps[1:], maps[0]], strict=True))
     indices = tuple(graph.edges[step]["index"] for step in steps)
@@ -167,12 +179,14 @@ def measured(maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[Al
     return Loop(tuple(maps), indices, meters, float(np.degrees(angle)))
 
 
-def counted(loops: Iterable[Loop]) -> Counter[int]:
+def loops_by_alignment(loops: Iterable[Loop]) -> Counter[int]:
     """In how many loops each alignment is."""
     return Counter(index for loop in loops for index in loop.alignments)
 
 
-def poses_from(start: int, alignments: Sequence[Alignment], checked: Checked) -> dict[int, Pose]:
+def poses_from(
+    start: int, alignments: Sequence[PairwiseAlignment], checked: LoopCheck
+) -> dict[int, Pose]:
     """Pose of each map that can be reached, from its frame to that of the map to start from.
 
     Along alignments that a loop proves where there are such, and then the weightiest: the maximum

@@ -17,11 +17,11 @@ class MapView:
 
     Attributes:
         centroids: float64 (n, 3), meters.
-        stands: float64 (n, 3), the sensor's position when each was seen, meters.
+        viewpoints: float64 (n, 3), the sensor's position when each was seen, meters.
     """
 
     centroids: Float64
-    stands: Float64
+    viewpoints: Float64
 
     def __len__(self) -> int:
         return len(self.centroids)
@@ -29,7 +29,7 @@ class MapView:
     @cached_property
     def places(self) -> Float64:
         """Where the robot was, float64 (p, 3), each place once however much was seen from there."""
-        return np.unique(self.stands, axis=0)
+        return np.unique(self.viewpoints, axis=0)
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -38,21 +38,21 @@ class MapView:
 
     def take(self, rows: Int64) -> "MapView":
         """These segments."""
-        return MapView(self.centroids[rows], self.stands[rows])
+        return MapView(self.centroids[rows], self.viewpoints[rows])
 
     def moved(self, pose: Pose) -> "MapView":
         """In another frame."""
-        return MapView(pose.apply(self.centroids), pose.apply(self.stands))
+        return MapView(pose.apply(self.centroids), pose.apply(self.viewpoints))
 
 
-class Likeness(Protocol):
+class MatchProbabilities(Protocol):
     """How much segments of two maps, a and b, look like each other."""
 
-    def likely(self, a: Int64, b: Int64) -> Float64:
+    def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         """How likely rows of a and of b, (m,) each, are the same, pair by pair, float64 (m,)."""
 
 
-class Looks(Likeness, Protocol):
+class DescriptorSearch(MatchProbabilities, Protocol):
     """And which of them look most alike."""
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:

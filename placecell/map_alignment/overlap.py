@@ -10,7 +10,7 @@ from placecell.localization import Pose
 from placecell.localization.correspondences import Correspondences, number_places
 from placecell.localization.covariance import covariance_of
 from placecell.localization.refinement import kernel, refine, residuals
-from placecell.map_alignment.map_view import Likeness, MapView
+from placecell.map_alignment.map_view import MapView, MatchProbabilities
 from placecell.map_alignment.parameters import AlignmentParameters
 
 
@@ -53,27 +53,29 @@ class Overlap:
 
 
 def overlap_of(
-    a: MapView, b: MapView, pose: Pose, looks: Likeness, parameters: AlignmentParameters
+    a: MapView, b: MapView, pose: Pose, matches: MatchProbabilities, parameters: AlignmentParameters
 ) -> Overlap:
     """Refine a pose with all that agrees, and see how much of what should agree does."""
     guessed = b.moved(pose)
-    rows_b = evenly(np.flatnonzero(near_stands(guessed, a, parameters)), parameters.rows)
+    rows_b = evenly(np.flatnonzero(near_viewpoints(guessed, a, parameters)), parameters.rows)
     laid = guessed.take(rows_b)
-    rows_a = evenly(np.flatnonzero(near_stands(a, laid, parameters)), parameters.rows)
+    rows_a = evenly(np.flatnonzero(near_viewpoints(a, laid, parameters)), parameters.rows)
     here, there = b.take(rows_b), a.take(rows_a)
     radius = parameters.local.same_place
-    things_b, things_a = (
+    landmarks_b, landmarks_a = (
         number_places(np.arange(len(view)), view.centroids, radius) for view in (here, there)
     )
-    pairs_a, pairs_b, likely = alike(there, laid, rows_a, rows_b, looks, parameters)
-    found, chosen = pairs_of_things(there, here, (pairs_a, pairs_b, likely), things_a, things_b)
+    pairs_a, pairs_b, match_probabilities = alike(there, laid, rows_a, rows_b, matches, parameters)
+    found, chosen = pairs_of_landmarks(
+        there, here, (pairs_a, pairs_b, match_probabilities), landmarks_a, landmarks_b
+    )
     pose, support = refine(pose, found, parameters.local)
     agreeing, whole = found.take(support), b.moved(pose)
     laid = whole.take(rows_b)
     off = residuals(pose, agreeing)
     worth = agreeing.weights * kernel(off, parameters.local.kernel)
-    seen_a = np.unique(things_a[should_be_seen(there, laid, parameters)])
-    seen_b = np.unique(things_b[should_be_seen(laid, there, parameters)])
+    seen_a = np.unique(landmarks_a[should_be_seen(there, laid, parameters)])
+    seen_b = np.unique(landmarks_b[should_be_seen(laid, there, parameters)])
     return Overlap(
         pose=pose,
         covariance=covariance_of(pose, agreeing.source, agreeing.target, parameters.local),
@@ -91,15 +93,15 @@ def overlap_of(
     )
 
 
-def near_stands(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
+def near_viewpoints(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
     """Which segments of one map were seen from where the other's robot was too, bool (n,)."""
-    return near_places(one.stands, other, parameters)
+    return near_places(one.viewpoints, other, parameters)
 
 
 def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
     """Which segments of one map the other's robot should have seen, bool (n,)."""
-    close = np.linalg.norm(one.centroids - one.stands, axis=1) <= parameters.seen_from
-    return np.asarray(close & near_stands(one, other, parameters))
+    close = np.linalg.norm(one.centroids - one.viewpoints, axis=1) <= parameters.seen_from
+    return np.asarray(close & near_viewpoints(one, other, parameters))
 
 
 def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float:
@@ -107,11 +109,11 @@ def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float
     return float(near_places(one.places, other, parameters).mean())
 
 
-def near_places(stands: Float64, view: MapView, parameters: AlignmentParameters) -> Bool:
+def near_places(viewpoints: Float64, view: MapView, parameters: AlignmentParameters) -> Bool:
     """Which of the stands (n, 3) are where the map's robot was too, bool (n,)."""
     if not len(view):
-        return np.zeros(len(stands), dtype=bool)
-    distances, _ = view.tree.query(stands, distance_upper_bound=parameters.shared_stand)
+        return np.zeros(len(viewpoints), dtype=bool)
+    distances, _ = view.tree.query(viewpoints, distance_upper_bound=parameters.shared_viewpoint)
     return np.asarray(np.isfinite(distances))
 
 
@@ -120,7 +122,7 @@ def alike(
     b: MapView,
     rows_a: Int64,
     rows_b: Int64,
-    looks: Likeness,
+    matches: MatchProbabilities,
     parameters: AlignmentParameters,
 ) -> tuple[Int64, Int64, Float64]:
     """Pairs of segments that lie near each other and look alike.
@@ -135,35 +137,37 @@ def alike(
     pairs_a, pairs_b = near_pairs(
         a.centroids, b.centroids, parameters.local.wide_gate, parameters.pairs
     )
-    likely = looks.likely(rows_a[pairs_a], rows_b[pairs_b])
-    kept = likely >= parameters.alike
-    return pairs_a[kept], pairs_b[kept], likely[kept]
+    match_probabilities = matches.match_probabilities(rows_a[pairs_a], rows_b[pairs_b])
+    kept = match_probabilities >= parameters.alike
+    return pairs_a[kept], pairs_b[kept], match_probabilities[kept]
 
 
-def pairs_of_things(
+def pairs_of_landmarks(
     a: MapView,
     b: MapView,
     pairs: tuple[Int64, Int64, Float64],
-    things_a: Int64,
-    things_b: Int64,
+    landmarks_a: Int64,
+    landmarks_b: Int64,
 ) -> tuple[Correspondences, Int64]:
     """Pairs of things instead of views: each by the two views that look most alike.
 
     Returns:
         The correspondences from b to a, `rows` of a's part; and the row of b's part of each.
     """
-    rows_a, rows_b, likely = pairs
-    order = np.lexsort((rows_a, rows_b, -likely, things_a[rows_a], things_b[rows_b]))
-    places, queries = things_a[rows_a[order]], things_b[rows_b[order]]
+    rows_a, rows_b, match_probabilities = pairs
+    order = np.lexsort(
+        (rows_a, rows_b, -match_probabilities, landmarks_a[rows_a], landmarks_b[rows_b])
+    )
+    places, queries = landmarks_a[rows_a[order]], landmarks_b[rows_b[order]]
     first = order[np.flatnonzero(np.diff(queries, prepend=-1) | np.diff(places, prepend=-1))]
     rows_a, rows_b = rows_a[first], rows_b[first]
     found = Correspondences(
-        queries=things_b[rows_b],
-        places=things_a[rows_a],
+        queries=landmarks_b[rows_b],
+        places=landmarks_a[rows_a],
         rows=rows_a,
         source=b.centroids[rows_b],
         target=a.centroids[rows_a],
-        weights=likely[first],
+        weights=match_probabilities[first],
         usable=len(np.unique(rows_b)),
     )
     return found, rows_b

@@ -13,7 +13,7 @@ class AlignmentParameters:
     """Of a submap's pose, and of the refinement."""
 
     # Submaps.
-    stand: float = 10.0
+    submap_radius: float = 10.0
     """A submap holds what was seen from within this of its middle: 20 m of a robot's way."""
     spacing: float = 10.0
     """Between the middles of submaps, at least."""
@@ -21,7 +21,7 @@ class AlignmentParameters:
     """At most, evenly over the map."""
     views: int = 4
     """Of a thing, that candidates are looked for of."""
-    things: int = 2_000
+    landmarks: int = 2_000
     """Of a submap, that candidates are looked for of, at most, evenly over it."""
 
     # Consensus.
@@ -34,7 +34,7 @@ class AlignmentParameters:
     """That are looked at: the best, and others to hold against it."""
 
     # Overlap.
-    shared_stand: float = 10.0
+    shared_viewpoint: float = 10.0
     """Where one robot was, the other was too, if it was this near."""
     seen_from: float = 20.0
     """What is this near to where both were, both see."""

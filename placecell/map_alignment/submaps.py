@@ -9,7 +9,7 @@ from placecell.core.spatial import evenly
 from placecell.core.types import Float64, Int64
 from placecell.localization import Candidates
 from placecell.localization.correspondences import number_places
-from placecell.map_alignment.map_view import Looks, MapView
+from placecell.map_alignment.map_view import DescriptorSearch, MapView
 from placecell.map_alignment.parameters import AlignmentParameters
 
 
@@ -28,14 +28,14 @@ class Submap:
 
 def cut(view: MapView, parameters: AlignmentParameters) -> list[Submap]:
     """Submaps about stands that are apart from each other, evenly over the map if it is large."""
-    stands = view.stands[spread(view.stands, parameters.spacing)]
-    chosen = stands[evenly(np.arange(len(stands)), parameters.submaps)]
+    viewpoints = view.viewpoints[spread(view.viewpoints, parameters.spacing)]
+    chosen = viewpoints[evenly(np.arange(len(viewpoints)), parameters.submaps)]
     if not len(chosen):
         return []
-    tree = cKDTree(view.stands)
+    tree = cKDTree(view.viewpoints)
     submaps = []
-    for stand in chosen:
-        about = tree.query_ball_point(stand, parameters.stand, return_sorted=True)
+    for viewpoint in chosen:
+        about = tree.query_ball_point(viewpoint, parameters.submap_radius, return_sorted=True)
         rows = evenly(np.array(about, dtype=np.int64), parameters.rows)
         submaps.append(Submap(view.centroids[rows].mean(axis=0), rows))
     return submaps
@@ -50,7 +50,11 @@ def spread(points: Float64, spacing: float) -> Int64:
 
 
 def candidates_of(
-    submap: Submap, view: MapView, other: MapView, looks: Looks, parameters: AlignmentParameters
+    submap: Submap,
+    view: MapView,
+    other: MapView,
+    search: DescriptorSearch,
+    parameters: AlignmentParameters,
 ) -> Candidates:
     """What each thing of a submap may be in the other map.
 
@@ -61,7 +65,7 @@ def candidates_of(
     order = np.argsort(numbers, kind="stable")
     _, starts, counts = np.unique(numbers[order], return_index=True, return_counts=True)
     means = np.add.reduceat(view.centroids[rows][order], starts) / counts[:, None]
-    asking = evenly(np.arange(len(starts)), parameters.things)
+    asking = evenly(np.arange(len(starts)), parameters.landmarks)
     starts, counts, means = starts[asking], counts[asking], means[asking]
     # Some of the views of each, spread over them; of few views one stands more than once.
     shares = np.arange(parameters.views) / parameters.views
@@ -69,12 +73,12 @@ def candidates_of(
     asked = rows[order][places]
     repeats = np.zeros(places.shape, dtype=bool)
     repeats[:, 1:] = places[:, 1:] == places[:, :-1]
-    found, probabilities = looks.nearest(asked.ravel())
+    found, probabilities = search.nearest(asked.ravel())
     probabilities = np.where(repeats.ravel()[:, None], 0.0, probabilities)
-    things = len(starts)
+    landmarks = len(starts)
     return Candidates(
         means,
-        found.reshape(things, -1),
-        other.centroids[found].reshape(things, -1, 3),
-        probabilities.reshape(things, -1),
+        found.reshape(landmarks, -1),
+        other.centroids[found].reshape(landmarks, -1, 3),
+        probabilities.reshape(landmarks, -1),
     )

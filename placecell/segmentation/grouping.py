@@ -19,7 +19,7 @@ class Grouper:
         self._centroids = np.zeros((0, 3))
         self._groups = np.zeros(0, dtype=np.int64)
 
-    def add_frame(self, centroids: Float64) -> Int64:
+    def add_capture(self, centroids: Float64) -> Int64:
         """Groups of the next frame's segments, int64 (segments,), from their centroids (n, 3)."""
         groups = np.full(len(centroids), -1, dtype=np.int64)
         now, before = nearest_pairs(centroids, self._centroids, self.d_same)

@@ -48,12 +48,12 @@ class Accumulator:
         self.first = first
         self._moved: OrderedDict[int, Float32] = OrderedDict()
 
-    def local_map(self, frame: int) -> Float32:
+    def local_map(self, capture: int) -> Float32:
         """The local map at a scan: float32 (n, 3), meters, world frame."""
-        first = max(self.first, frame - self.parameters.accumulated_scans + 1)
-        scans = [self._in_world(index) for index in range(first, frame + 1)]
+        first = max(self.first, capture - self.parameters.accumulated_scans + 1)
+        scans = [self._in_world(index) for index in range(first, capture + 1)]
         points = np.concatenate(scans)
-        sensor = self.drive.poses[frame, :3, 3]
+        sensor = self.drive.poses[capture, :3, 3]
         offset = points[:, :2] - sensor[:2].astype(np.float32)
         near = np.einsum("ij,ij->i", offset, offset) <= self.parameters.local_map_radius**2
         return voxel_means(points[near], self.parameters.map_voxel)

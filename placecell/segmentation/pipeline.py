@@ -31,7 +31,7 @@ def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:
     return [objects[indices] for indices in segment_indices(objects, parameters)]
 
 
-def segment_frames(
+def segment_captures(
     drive: Drive,
     parameters: Parameters,
     scans: range | None = None,
@@ -43,12 +43,12 @@ def segment_frames(
         scans: of the drive, all unless given; no scan outside feeds a local map.
     """
     scans = range(len(drive)) if scans is None else scans
-    frames = scans[:: parameters.frame_step]
+    captures = scans[:: parameters.frame_step]
     accumulator = Accumulator(drive, parameters, first=scans.start)
-    for frame in progress(frames, len(frames), f"segments of {drive.folder.name}"):
-        clouds = segment_map(accumulator.local_map(frame), parameters)
-        sensor = drive.poses[frame, :3, 3]
-        yield frame, Segments.of(clouds, np.tile(sensor, (len(clouds), 1)))
+    for capture in progress(captures, len(captures), f"segments of {drive.folder.name}"):
+        clouds = segment_map(accumulator.local_map(capture), parameters)
+        sensor = drive.poses[capture, :3, 3]
+        yield capture, Segments.of(clouds, np.tile(sensor, (len(clouds), 1)))
 
 
 def record(
@@ -63,11 +63,11 @@ def record(
         parameters: with the `frame_step` to use (see `Parameters.for_drive`).
     """
     grouper = Grouper(parameters.d_same)
-    frames, parts, groups = [], [], []
-    for frame, some in segment_frames(drive, parameters, scans, progress):
-        frames.append(np.full(len(some), frame, dtype=np.int64))
+    captures, parts, groups = [], [], []
+    for capture, some in segment_captures(drive, parameters, scans, progress):
+        captures.append(np.full(len(some), capture, dtype=np.int64))
         parts.append(some)
-        groups.append(grouper.add_frame(some.centroids()))
+        groups.append(grouper.add_capture(some.centroids()))
     read = range(len(drive)) if scans is None else scans
     drive.check_usable(read)
     skipped, dropped = drive.dropouts.within(read)
@@ -80,7 +80,7 @@ def record(
         name=drive.folder.name,
         parameters=parameters,
         segments=segments,
-        frames=np.concatenate(frames),
+        captures=np.concatenate(captures),
         groups=group,
         distinct=keep_distinct(packed_grids(segments, parameters), group, parameters.th_H),
         scans=len(drive),

@@ -45,7 +45,7 @@ class Recording:
         name: of the drive.
         parameters: that made it, the protocol's name among them.
         segments: all of them, in the drive's world frame.
-        frames: int64 (segments,): the scan at whose time each was captured.
+        captures: int64 (segments,): the scan at whose time each was captured.
         groups: int64 (segments,): numbers from 0, one a surface.
         distinct: bool (segments,): false for duplicates inside their group.
         scans: how many the drive has.
@@ -59,7 +59,7 @@ class Recording:
     name: str
     parameters: Parameters
     segments: Segments
-    frames: Int64
+    captures: Int64
     groups: Int64
     distinct: Bool
     scans: int
@@ -70,7 +70,7 @@ class Recording:
     dropped_points: int = 0
 
     @property
-    def frame_scans(self) -> range:
+    def capture_scans(self) -> range:
         """Scans that are frames, whether any segment was seen there or not."""
         scans = range(self.scans) if self.part is None else self.part
         return scans[:: self.parameters.frame_step]
@@ -80,13 +80,13 @@ class Recording:
         count = int(self.groups.max(initial=-1)) + 1
         earliest = np.full(count, np.iinfo(np.int64).max)
         latest = np.full(count, -1)
-        np.minimum.at(earliest, self.groups, self.frames)
-        np.maximum.at(latest, self.groups, self.frames)
+        np.minimum.at(earliest, self.groups, self.captures)
+        np.maximum.at(latest, self.groups, self.captures)
         return ((earliest >= first) & (latest <= last))[self.groups]
 
     def neighborhood(self, parameters: NeighborhoodParameters) -> Float32:
         """What stood around each segment in its frame, float32 (segments, size)."""
-        return describe_neighborhood(self.segments, self.frames, parameters)
+        return describe_neighborhood(self.segments, self.captures, parameters)
 
     def save(self, file: Path) -> None:
         """Write the recording as safetensors.
@@ -118,7 +118,7 @@ class Recording:
             "points": self.segments.points,
             "ends": self.segments.ends,
             "sensors": self.segments.sensors,
-            "frames": self.frames,
+            "frames": self.captures,
             "groups": self.groups,
             "distinct": self.distinct,
         }
@@ -152,7 +152,7 @@ class Recording:
                 name=header["name"],
                 parameters=Parameters(**parameters | {"grid": tuple(parameters["grid"])}),
                 segments=Segments(columns["points"], columns["ends"], columns["sensors"]),
-                frames=columns["frames"],
+                captures=columns["frames"],
                 groups=columns["groups"],
                 distinct=columns["distinct"],
                 scans=header["scans"],

@@ -167,7 +167,7 @@ def cost_of_aligning(sizes: Sequence[int], k: int, parameters: AlignmentParamete
         k: candidates per segment.
         parameters: constants of the alignment.
     """
-    asked = parameters.submaps * parameters.things
+    asked = parameters.submaps * parameters.landmarks
     total = NOTHING
     for place, rows in enumerate(sizes):
         for other in sizes[place + 1 :]:

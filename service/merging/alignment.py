@@ -46,8 +46,8 @@ class MapSide:
     def of(cls, stored: MapSnapshot) -> "MapSide":
         """Of a map as it is now."""
         content = stored.layers.content()
-        stands = content.frame_positions[content.frame_index]
-        return cls(stored, content, MapView(content.centroids, stands))
+        viewpoints = content.frame_positions[content.frame_index]
+        return cls(stored, content, MapView(content.centroids, viewpoints))
 
     def index(self, model: Model) -> MapIndex:
         """Over its content: the map's own, or a new one if the map was written to since."""
@@ -57,8 +57,8 @@ class MapSide:
         return index_of(self.content.codes, model.manifest.quantizer)
 
 
-class MapLikeness:
-    """`Likeness` of two maps, a and b, that one model made."""
+class StoredMatchProbabilities:
+    """`MatchProbabilities` of two maps, a and b, that one model made."""
 
     def __init__(
         self, model: Model, a: CompactMap, b: CompactMap, check: Check = lambda: None
@@ -67,7 +67,7 @@ class MapLikeness:
         self._a, self._b = a.codes, b.codes
         self._check = check
 
-    def likely(self, a: Int64, b: Int64) -> Float64:
+    def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         """How likely each row of a and row of b are the same."""
         told = [np.zeros(0)]
         for begin in range(0, len(a), BLOCK):
@@ -77,8 +77,8 @@ class MapLikeness:
         return np.concatenate(told)
 
 
-class MapLooks(MapLikeness):
-    """`Looks` of two maps."""
+class StoredDescriptorSearch(StoredMatchProbabilities):
+    """`DescriptorSearch` of two maps."""
 
     def __init__(
         self,
@@ -102,8 +102,8 @@ class MapLooks(MapLikeness):
             parts.append(near)
         found = np.concatenate(parts)
         asked = np.repeat(distinct, found.shape[1])
-        likely = self.likely(found.ravel(), asked).reshape(found.shape)
-        return found[inverse], likely[inverse]
+        match_probabilities = self.match_probabilities(found.ravel(), asked).reshape(found.shape)
+        return found[inverse], match_probabilities[inverse]
 
 
 def align_maps(
@@ -115,8 +115,8 @@ def align_maps(
     check: Check = lambda: None,
 ) -> MapAlignment:
     """How b lies to a, with a's index."""
-    looks = MapLooks(model, a.content, b.content, index, check)
-    return align(a.view, b.view, looks, parameters)
+    search = StoredDescriptorSearch(model, a.content, b.content, index, check)
+    return align(a.view, b.view, search, parameters)
 
 
 def check_same_model(a: MapSnapshot, b: MapSnapshot) -> None:

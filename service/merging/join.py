@@ -88,16 +88,16 @@ def known_pose(site: CompactMap, part: CompactMap, parameters: AlignmentParamete
     if not len(rows):
         return None
     frames, others = part.frame_index[rows], site.frame_index[places]
-    stands, there = part.frame_positions[frames], site.frame_positions[others]
-    by_stands = register(stands, there, np.ones(len(rows)), parameters.local)
+    viewpoints, there = part.frame_positions[frames], site.frame_positions[others]
+    by_stands = register(viewpoints, there, np.ones(len(rows)), parameters.local)
     turned = [
         Rotation.from_quat(orientations[0])
         for orientations in (part.frame_orientations[frames], site.frame_orientations[others])
     ]
     turn = (turned[1] * turned[0].inv()).as_matrix()
-    by_turn = Pose(turn, (there - stands @ turn.T).mean(axis=0))
+    by_turn = Pose(turn, (there - viewpoints @ turn.T).mean(axis=0))
     for pose in (by_stands, by_turn):
-        away = np.abs(pose.apply(stands) - there).max()
+        away = np.abs(pose.apply(viewpoints) - there).max()
         off = np.abs(pose.apply(part.centroids[rows]) - site.centroids[places]).max(axis=1)
         if away <= ROUNDED and np.median(off) <= ROUNDED:
             return pose

@@ -5,17 +5,17 @@ from dataclasses import dataclass
 
 from placecell.localization import Pose
 from placecell.map_alignment import (
-    Alignment,
     AlignmentParameters,
     MapAlignment,
+    PairwiseAlignment,
     check_loops,
-    lies_as_well,
+    fits_as_well,
     poses_from,
 )
-from placecell.map_alignment.loops import Checked
+from placecell.map_alignment.loops import LoopCheck
 from service.inference.model_registry import Model
 from service.maps.snapshot import MapSnapshot
-from service.merging.alignment import Check, MapLikeness, MapSide, align_maps
+from service.merging.alignment import Check, MapSide, StoredMatchProbabilities, align_maps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,7 +49,7 @@ class MergePlan:
 
     sides: tuple[MapSide, ...]
     pairings: tuple[AlignedPair, ...]
-    checked: Checked
+    checked: LoopCheck
     poses: dict[int, Pose]
 
     @property
@@ -67,7 +67,7 @@ def plan_merge(
     for one in range(len(sides) - 1):
         found |= _with_later(one, sides, model, parameters, check)
     edges = [
-        Alignment(
+        PairwiseAlignment(
             one,
             other,
             each.best.pose,
@@ -83,8 +83,8 @@ def plan_merge(
         one, other = edges[index].one, edges[index].other
         best = found[one, other].best
         assert best is not None  # of that it is an edge
-        likeness = MapLikeness(model, sides[one].content, sides[other].content, check)
-        return lies_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
+        likeness = StoredMatchProbabilities(model, sides[one].content, sides[other].content, check)
+        return fits_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
 
     checked = check_loops(edges, lies)
     numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}

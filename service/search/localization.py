@@ -9,7 +9,7 @@ from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
 from placecell.localization import Candidates, Localization, LocalizationParameters
 from placecell.localization.evidence import Evidence, middle_of
-from placecell.localization.joint import Judged, MapQuery, localize_jointly
+from placecell.localization.joint import JointLocalization, MapQuery, localize_jointly
 from placecell.localization.localize import unknown
 from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
@@ -25,8 +25,8 @@ from service.search.ranking import FULL, best_of, votes_of
 from service.search.sessions import Session
 
 
-class StoredSurroundings:
-    """Segments of a stored map around a position, for guided matching (`Surroundings`)."""
+class StoredNeighborhood:
+    """Segments of a stored map around a position, for guided matching (`MapSegments`)."""
 
     def __init__(self, codes: Int8, model: Model, stored: MapSnapshot) -> None:
         """Compare with queries of these codes, int8 (q, code bytes), made by the map's model."""
@@ -34,12 +34,12 @@ class StoredSurroundings:
         self._model = model
         self._layers = stored.layers
 
-    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
+    def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Return the rows near some places, and their centroids."""
         rows = self._layers.rows_near(places, meters)
         return rows, self._layers.column("centroids", rows)
 
-    def likely(self, queries: Int64, rows: Int64) -> Float64:
+    def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         """Return the match probability of each pair of query and row."""
         codes = self._layers.column("codes", rows)
         return match_probabilities(self._model, self._codes[queries], codes)
@@ -64,11 +64,13 @@ def map_query(
         evidence: result of the robot's earlier requests.
     """
     nearest = nearest_segments(codes, model, (stored,), k)
-    there = StoredSurroundings(codes, model, stored)
+    there = StoredNeighborhood(codes, model, stored)
     probabilities = nearest.probabilities
     if probabilities is None:
         queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
-        probabilities = there.likely(queries, nearest.rows.ravel()).reshape(nearest.rows.shape)
+        probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
+            nearest.rows.shape
+        )
     places = stored.layers.column("centroids", nearest.rows)
     candidates = Candidates(centroids, nearest.rows, places, probabilities)
     return MapQuery(stored.name, model.id, candidates, there, model.confidence, evidence)
@@ -109,7 +111,7 @@ class MapLocalization:
     stored: MapSnapshot
     group: int
     segments: Int64
-    judged: Judged
+    judged: JointLocalization
     is_full: bool
     rival: MapSnapshot | None = None
 
@@ -252,7 +254,7 @@ def localize_among(
             of_map = full.get((number, place))
             if of_map is None:
                 usable = len(group.codes) if len(stored) else 0
-                of_map = Judged(not_searched(usable, parameters, len(chosen)), 0.0)
+                of_map = JointLocalization(not_searched(usable, parameters, len(chosen)), 0.0)
             answers.append(
                 MapLocalization(
                     stored=stored,

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from placecell.core.types import Float64
 from placecell.localization import Hypothesis, LocalizationParameters
-from placecell.localization.evidence import Evidence, History
+from placecell.localization.evidence import Evidence, RequestHistory
 from service.maps.snapshot import MapSnapshot
 
 
@@ -73,7 +73,7 @@ class Sessions:
         self._clock = clock
         self._lock = Lock()
         # The last used session is at the end, in both: of all API keys, and of each.
-        self._by_key: OrderedDict[SessionKey, tuple[float, History]] = OrderedDict()
+        self._by_key: OrderedDict[SessionKey, tuple[float, RequestHistory]] = OrderedDict()
         self._of_holder: defaultdict[str, OrderedDict[SessionKey, None]] = defaultdict(OrderedDict)
 
     def __len__(self) -> int:
@@ -95,7 +95,7 @@ class Sessions:
         """Add the hypotheses that one request found by itself."""
         with self._lock:
             now = self._clock()
-            _, history = self._by_key.get(key) or (now, History(self._parameters))
+            _, history = self._by_key.get(key) or (now, RequestHistory(self._parameters))
             history.add(now, middle, hypotheses)
             self._by_key[key] = now, history
             self._by_key.move_to_end(key)

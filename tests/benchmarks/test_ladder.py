@@ -35,7 +35,7 @@ def recorded(views: int = 200) -> Recording:
         name="boxes",
         parameters=PROTOCOL_V1,
         segments=shapes.segments,
-        frames=frames,
+        captures=frames,
         groups=shapes.groups + 8 * (frames >= views // 2),
         distinct=np.ones(len(frames), dtype=bool),
         scans=views,
@@ -47,7 +47,7 @@ def recorded(views: int = 200) -> Recording:
 def recorded_from_two_places() -> Recording:
     """The same, from places 7 m apart in turn."""
     boxes = recorded()
-    sensors = boxes.segments.sensors + np.outer(boxes.frames % 2, [0, 7, 0]).astype(np.float32)
+    sensors = boxes.segments.sensors + np.outer(boxes.captures % 2, [0, 7, 0]).astype(np.float32)
     return replace(boxes, segments=replace(boxes.segments, sensors=sensors))
 
 

@@ -22,7 +22,7 @@ def driven_past(views: int) -> Recording:
     """The boxes, seen from places three metres apart."""
     recording = recorded(views)
     sensors = (
-        recording.segments.sensors + np.array([3, 0, 0], np.float32) * recording.frames[:, None]
+        recording.segments.sensors + np.array([3, 0, 0], np.float32) * recording.captures[:, None]
     )
     segments = replace(recording.segments, sensors=sensors.astype(np.float32))
     return replace(recording, segments=segments)

@@ -3,8 +3,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from placecell.core.types import Float64
-from town import City, Pair, Route, Traversal, draw_pairs
-from town.drives.pairs import APART, Drawer, means
+from town import City, Route, StretchPair, Traversal, draw_pairs
+from town.drives.pairs import APART, StretchPairDrawer, means
 from town.streets.network import OWN
 
 METERS = 150.0
@@ -27,7 +27,9 @@ def drives(city: City) -> tuple[Traversal, Traversal]:
 
 
 @pytest.fixture(scope="module")
-def pairs(city: City, drives: tuple[Traversal, Traversal]) -> tuple[list[Pair], list[Pair]]:
+def pairs(
+    city: City, drives: tuple[Traversal, Traversal]
+) -> tuple[list[StretchPair], list[StretchPair]]:
     return draw_pairs(city, *drives, COUNT, METERS, seed=1)
 
 
@@ -36,7 +38,7 @@ def places(drive: Traversal, scans: tuple[int, int]) -> Float64:
 
 
 def test_stretches_are_as_long_as_asked(
-    drives: tuple[Traversal, Traversal], pairs: tuple[list[Pair], list[Pair]]
+    drives: tuple[Traversal, Traversal], pairs: tuple[list[StretchPair], list[StretchPair]]
 ) -> None:
     for pair in pairs[0] + pairs[1]:
         for drive, scans in zip(drives, (pair.scans_a, pair.scans_b), strict=True):
@@ -45,7 +47,7 @@ def test_stretches_are_as_long_as_asked(
 
 
 def test_overlaps_are_those_asked_for(
-    drives: tuple[Traversal, Traversal], pairs: tuple[list[Pair], list[Pair]]
+    drives: tuple[Traversal, Traversal], pairs: tuple[list[StretchPair], list[StretchPair]]
 ) -> None:
     overlapping, _ = pairs
     assert len(overlapping) == COUNT
@@ -56,7 +58,7 @@ def test_overlaps_are_those_asked_for(
 
 
 def test_maps_without_overlap_are_far_apart(
-    drives: tuple[Traversal, Traversal], pairs: tuple[list[Pair], list[Pair]]
+    drives: tuple[Traversal, Traversal], pairs: tuple[list[StretchPair], list[StretchPair]]
 ) -> None:
     _, apart = pairs
     assert len(apart) == COUNT
@@ -67,7 +69,9 @@ def test_maps_without_overlap_are_far_apart(
 
 
 def test_every_second_one_of_those_looks_alike(
-    city: City, drives: tuple[Traversal, Traversal], pairs: tuple[list[Pair], list[Pair]]
+    city: City,
+    drives: tuple[Traversal, Traversal],
+    pairs: tuple[list[StretchPair], list[StretchPair]],
 ) -> None:
     _, apart = pairs
     for pair in apart:
@@ -83,7 +87,7 @@ def test_every_second_one_of_those_looks_alike(
 
 
 def test_the_truth_takes_one_map_to_the_other(
-    drives: tuple[Traversal, Traversal], pairs: tuple[list[Pair], list[Pair]]
+    drives: tuple[Traversal, Traversal], pairs: tuple[list[StretchPair], list[StretchPair]]
 ) -> None:
     a, b = drives
     for pair in pairs[0] + pairs[1]:
@@ -113,7 +117,7 @@ def test_what_cannot_be_found_is_said(city: City, drives: tuple[Traversal, Trave
     with pytest.raises(ValueError, match="has no stretch of"):
         draw_pairs(city, a, b, 1, 1e6)
     here = Traversal(a.poses[:110], a.origin)
-    drawer = Drawer.of(city, here, here, METERS, np.random.default_rng(0))
+    drawer = StretchPairDrawer.of(city, here, here, METERS, np.random.default_rng(0))
     for alike in (True, False):
         with pytest.raises(ValueError, match="100 m apart"):
             drawer.apart(alike)

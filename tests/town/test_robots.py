@@ -61,7 +61,7 @@ def test_a_frame_holds_as_many_segments_as_a_real_street(
     recordings: tuple[Recording, Recording],
 ) -> None:
     for recording in recordings:
-        frames = recording.frames[recording.frames >= 10]  # with a full local map
+        frames = recording.captures[recording.captures >= 10]  # with a full local map
         a_frame = np.bincount(frames)[np.unique(frames)]
         assert 30 <= a_frame.mean() <= 100
         sizes = np.diff(recording.segments.ends, prepend=0)

@@ -183,7 +183,7 @@ def test_recordings_cut_otherwise_are_not_mixed_and_no_scan_is_taken_twice() -> 
         name="toy",
         parameters=PROTOCOL_V1,
         segments=make_shapes(views=1, seed=0).segments,
-        frames=np.arange(8),
+        captures=np.arange(8),
         groups=np.arange(8),
         distinct=np.ones(8, dtype=bool),
         scans=8,

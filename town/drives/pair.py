@@ -6,7 +6,7 @@ from placecell.core.types import Float64
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class StretchPair:
     """Two stretches of two drives.
 
     Attributes:

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from placecell.core.types import Bool, Float64, Int64
 from town.city import City
-from town.drives.pair import Pair
+from town.drives.pair import StretchPair
 from town.drives.traversal import Traversal
 from town.streets.network import OWN
 
@@ -37,7 +37,7 @@ FARTHEST = 5000.0
 
 def draw_pairs(
     city: City, a: Traversal, b: Traversal, count: int, meters: float, seed: int = 0
-) -> tuple[list[Pair], list[Pair]]:
+) -> tuple[list[StretchPair], list[StretchPair]]:
     """Pairs of maps: so many with an overlap of 10% to 100%, in even steps, and as many with none.
 
     Half of those with none are chosen for streets that look alike.
@@ -51,14 +51,14 @@ def draw_pairs(
     """
     if count < 1:
         raise ValueError(f"there must be one pair or more, not {count}")
-    drawer = Drawer.of(city, a, b, meters, np.random.default_rng([seed, 10]))
+    drawer = StretchPairDrawer.of(city, a, b, meters, np.random.default_rng([seed, 10]))
     overlapping = [drawer.overlapping(float(share)) for share in np.linspace(0.1, 1.0, count)]
     apart = [drawer.apart(alike=number % 2 == 0) for number in range(count)]
     return overlapping, apart
 
 
 @dataclass(frozen=True)
-class Drawer:
+class StretchPairDrawer:
     """Draws pairs of stretches.
 
     Attributes:
@@ -95,7 +95,7 @@ class Drawer:
             rng,
         )
 
-    def overlapping(self, share: float) -> Pair:
+    def overlapping(self, share: float) -> StretchPair:
         """A pair of which the second has this share in common with the first.
 
         Raises:
@@ -110,7 +110,7 @@ class Drawer:
                 return self._pair(first_a, first_b, float(shared[first_b]))
         raise ValueError(f"found no two stretches of the drives that share {share:.0%}")
 
-    def apart(self, alike: bool) -> Pair:
+    def apart(self, alike: bool) -> StretchPair:
         """A pair that shares nothing.
 
         Args:
@@ -146,10 +146,10 @@ class Drawer:
         alike = (self.designs_b != OWN) & np.isin(self.designs_b, designs)
         return means(alike, self.scans_b)
 
-    def _pair(self, first_a: int, first_b: int, overlap: float) -> Pair:
+    def _pair(self, first_a: int, first_b: int, overlap: float) -> StretchPair:
         frame_a, frame_b = self._frame(), self._frame()
         b_in_town = self.b.origin @ np.linalg.inv(frame_b)
-        return Pair(
+        return StretchPair(
             scans_a=(first_a, first_a + self.scans_a - 1),
             scans_b=(first_b, first_b + self.scans_b - 1),
             overlap=overlap,

@@ -6,11 +6,11 @@ import numpy as np
 
 from town.objects.block import SceneObject
 from town.objects.car import car, person
-from town.streets.plan import BAY_WIDTH, CURB_HEIGHT, Frontage, Plan
+from town.streets.plan import BAY_WIDTH, CURB_HEIGHT, Frontage, StreetPlan
 from town.streets.terrain import Terrain
 
 
-def traffic(plan: Plan, terrain: Terrain, seed: int) -> Iterator[SceneObject]:
+def traffic(plan: StreetPlan, terrain: Terrain, seed: int) -> Iterator[SceneObject]:
     """Cars in the parking bays and people on the pavements, as they are in one drive."""
     rng = np.random.default_rng([seed, 1])
     for frontage in plan.frontages():

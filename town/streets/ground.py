@@ -8,7 +8,7 @@ import numpy as np
 
 from placecell.core.types import Bool, Float64, Int64
 from town.geometry.mesh import Mesh, Reflectance
-from town.streets.plan import CURB_HEIGHT, Plan
+from town.streets.plan import CURB_HEIGHT, StreetPlan
 from town.streets.terrain import Terrain
 
 GROUND_CELL = 2.0
@@ -40,7 +40,7 @@ class Ground:
     raised: Bool
 
     @classmethod
-    def of(cls, plan: Plan, terrain: Terrain, raised: Bool | None = None) -> Self:
+    def of(cls, plan: StreetPlan, terrain: Terrain, raised: Bool | None = None) -> Self:
         """The ground of a town, with all the streets of its plan unless `raised` says otherwise."""
         spans_x, spans_y = plan.spans()
         x, y = grid_lines(spans_x), grid_lines(spans_y)

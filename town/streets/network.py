@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from placecell.core.types import Bool, Float64, Int64
-from town.streets.plan import Crossing, Plan
+from town.streets.plan import Crossing, StreetPlan
 from town.streets.terrain import Terrain
 
 LONGEST = 200_000.0
@@ -45,7 +45,7 @@ class Network:
         joined: bool (crossings, crossings).
     """
 
-    plan: Plan
+    plan: StreetPlan
     terrain: Terrain
     streets: Int64
     lengths: Float64
@@ -71,7 +71,7 @@ class Network:
         terrain = Terrain.winding(np.random.default_rng([seed, 3]))
         for size in count(5):
             rng = np.random.default_rng([seed, 4, size])
-            plan = Plan.draw(rng, (size // 2, size - size // 2))
+            plan = StreetPlan.draw(rng, (size // 2, size - size // 2))
             streets = grid_streets(plan)
             lengths = np.array([arc_length(line) for line in center_lines(plan, terrain, streets)])
             if lengths.sum() >= SPARE * meters:
@@ -135,7 +135,7 @@ class Network:
         return center_lines(self.plan, self.terrain, self.streets)
 
 
-def grid_streets(plan: Plan) -> Int64:
+def grid_streets(plan: StreetPlan) -> Int64:
     """All streets of a plan, as the numbers of the crossings that each joins: (streets, 2)."""
     numbers = np.arange(len(plan.easts) * len(plan.norths)).reshape(len(plan.easts), -1)
     along = np.stack([numbers[:, :-1].ravel(), numbers[:, 1:].ravel()], axis=1)
@@ -143,7 +143,7 @@ def grid_streets(plan: Plan) -> Int64:
     return np.concatenate([along, across]).astype(np.int64)
 
 
-def center_lines(plan: Plan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
+def center_lines(plan: StreetPlan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
     """Of each street (streets, 2) the center line in the town frame: (n, 2), a step apart."""
     for ends in streets:
         start, end = (plan.crossing(*divmod(int(number), len(plan.norths))) for number in ends)

@@ -58,7 +58,7 @@ class Frontage:
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class StreetPlan:
     """Streets north-south and east-west.
 
     Attributes:

@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
-from town.streets.plan import Crossing, Plan
+from town.streets.plan import Crossing, StreetPlan
 from town.streets.terrain import Terrain
 
 CORNER_RADIUS = 9.0
@@ -35,7 +35,11 @@ class Route:
 
     @classmethod
     def through(
-        cls, plan: Plan, terrain: Terrain, crossings: Sequence[Crossing], lane_offset: float = 1.6
+        cls,
+        plan: StreetPlan,
+        terrain: Terrain,
+        crossings: Sequence[Crossing],
+        lane_offset: float = 1.6,
     ) -> Self:
         """A route over crossings, each (column, row) next to the one before it.
 
@@ -51,7 +55,11 @@ class Route:
 
     @classmethod
     def over(
-        cls, plan: Plan, terrain: Terrain, crossings: Sequence[Crossing], lane_offset: float = 1.6
+        cls,
+        plan: StreetPlan,
+        terrain: Terrain,
+        crossings: Sequence[Crossing],
+        lane_offset: float = 1.6,
     ) -> Self:
         """A route straight from crossing to crossing of a plan, whatever streets there are."""
         corners = np.stack([plan.crossing(*crossing) for crossing in crossings])
@@ -59,7 +67,12 @@ class Route:
 
     @classmethod
     def wander(
-        cls, plan: Plan, terrain: Terrain, length: float, seed: int = 0, lane_offset: float = 1.6
+        cls,
+        plan: StreetPlan,
+        terrain: Terrain,
+        length: float,
+        seed: int = 0,
+        lane_offset: float = 1.6,
     ) -> Self:
         """A random route of at least this length, that never turns back on the spot.
 
@@ -162,7 +175,7 @@ def unit(vector: Float64) -> Float64:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def stroll(plan: Plan, length: float, rng: np.random.Generator) -> list[tuple[int, int]]:
+def stroll(plan: StreetPlan, length: float, rng: np.random.Generator) -> list[tuple[int, int]]:
     """Crossings of a random walk on the grid, until it is this long."""
     columns, rows = len(plan.easts), len(plan.norths)
     here = (int(rng.integers(columns)), int(rng.integers(rows)))

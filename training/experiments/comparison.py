@@ -15,7 +15,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Float32, Float64, Int64
 from placecell.descriptors.extractor import Extractor, load_extractor
 from placecell.descriptors.manifest import Manifest
-from placecell.descriptors.orientation import align
+from placecell.descriptors.orientation import orient
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from training.data.training_set import TrainingSet
 from training.export.pair_classifier import Pairs, concatenated, train_forest
@@ -90,7 +90,7 @@ def roc_curve(positive: Float64, negative: Float64, points: int = 101) -> list[l
 
 def fits_grid(data: TrainingSet) -> float:
     """Share of segments that fit entirely into the voxel grid (the paper's: about 95%)."""
-    aligned = Segments(align(data.segments), data.segments.ends, data.segments.sensors)
+    aligned = Segments(orient(data.segments), data.segments.ends, data.segments.sensors)
     lowest, highest = aligned.bounds()
     limit = np.array(data.parameters.grid) * data.parameters.grid_voxel
     return float((highest - lowest <= limit).all(axis=1).mean())

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from placecell.datasets import DriveError, KittiOdometry, Reading, open_drive, reading
+from placecell.datasets import DriveError, KittiOdometry, ScanOptions, open_drive, use_scan_options
 from tests.placecell.segment_builders import KITTI_TR, pose, write_odometry, write_scan
 
 # Straight ahead, then a bend to the left, uphill.
@@ -160,7 +160,10 @@ def test_broken_scan_is_skipped_and_refused_if_strict(
 ) -> None:
     file = folder / "velodyne" / "000001.bin"
     file.write_bytes(content)
-    with pytest.raises(DriveError, match=what) as caught, reading(Reading(strict=True)):
+    with (
+        pytest.raises(DriveError, match=what) as caught,
+        use_scan_options(ScanOptions(strict=True)),
+    ):
         open_drive(folder)
     assert str(file) in str(caught.value)
     drive = open_drive(folder)
@@ -174,7 +177,7 @@ def test_scan_of_nan_is_skipped_and_refused_if_strict(folder: Path) -> None:
     drive = open_drive(folder)
     assert len(drive.scan(3)) == 0
     assert "not finite" in drive.dropouts.skipped[3]
-    with reading(Reading(strict=True)):
+    with use_scan_options(ScanOptions(strict=True)):
         strict = open_drive(folder)
     with pytest.raises(DriveError, match=r"000003\.bin: .*not finite"):
         strict.scan(3)

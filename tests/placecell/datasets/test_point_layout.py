@@ -8,7 +8,7 @@ import pytest
 
 import placecell
 from placecell.core.types import Float32, Float64
-from placecell.datasets import DriveError, Reading, open_drive, parse_columns, reading
+from placecell.datasets import DriveError, ScanOptions, open_drive, parse_columns, use_scan_options
 from placecell.datasets.point_layout import PointLayout, find_layout
 from tests.placecell.segment_builders import pose, write_odometry
 
@@ -59,9 +59,9 @@ def written(folder: Path, scans: list[Float32], change: Callable[[Float32], obje
     return files
 
 
-def found(files: list[Path], options: Reading | None = None) -> PointLayout:
+def found(files: list[Path], options: ScanOptions | None = None) -> PointLayout:
     sizes = [file.stat().st_size for file in files]
-    return find_layout(files, sizes, options or Reading())
+    return find_layout(files, sizes, options or ScanOptions())
 
 
 def f4(*columns: object) -> Float32:
@@ -124,13 +124,13 @@ def test_B4_what_is_stated_is_used(scans: list[Float32], tmp_path: Path) -> None
     files = written(
         tmp_path, scans, lambda s: f4(ring(s), s).astype("<f8").T * [[1], *[[1000]] * 4]
     )
-    options = Reading(
+    options = ScanOptions(
         columns=parse_columns("ring,x,y,z,intensity"), dtype="float64", order="columns", unit="mm"
     )
     points = found(files, options).read(files[1])
     assert points == pytest.approx(scans[1][:, :3], rel=1e-5)
     with pytest.raises(DriveError, match="does not fit"):
-        found(files, Reading(columns=parse_columns("7")))
+        found(files, ScanOptions(columns=parse_columns("7")))
 
 
 @pytest.mark.parametrize("text", ["2", "x,y", "x,y,z,z", "x,y,z,,i", "65"])
@@ -168,7 +168,7 @@ def test_B4_six_real_points_of_five_columns_are_not_sure() -> None:
         pytest.skip("no lyft_5col_tiny.bin: files of real sensors are in no repository")
     with pytest.raises(DriveError, match="fit 5 columns"):
         found([file])
-    points = found([file], Reading(columns=parse_columns("5"))).read(file)
+    points = found([file], ScanOptions(columns=parse_columns("5"))).read(file)
     assert points[0] == pytest.approx([49.62201, 6.024905, 6.3698897])
 
 
@@ -188,7 +188,7 @@ def test_B10_bad_scans_are_skipped_and_counted_before_and_while_they_are_read(fo
     values[[0, 5, 9]] = np.nan, np.inf, np.nan
     values.tofile(scans / "000003.bin")
     told: list[str] = []
-    with reading(Reading(tell=told.append)):
+    with use_scan_options(ScanOptions(tell=told.append)):
         drive = open_drive(folder)
     assert len(drive) == 6
     assert "3 of 6 scans skipped" in told[0]
@@ -197,7 +197,10 @@ def test_B10_bad_scans_are_skipped_and_counted_before_and_while_they_are_read(fo
     assert [len(drive.scan(index)) for index in range(6)] == [960, 0, 0, 957, 0, 960]
     assert drive.dropouts.within(range(6)) == ((1, 2, 4), 3)
     assert drive.dropouts.within(range(2)) == ((1,), 0)
-    with pytest.raises(DriveError, match=r"000001\.bin"), reading(Reading(strict=True)):
+    with (
+        pytest.raises(DriveError, match=r"000001\.bin"),
+        use_scan_options(ScanOptions(strict=True)),
+    ):
         open_drive(folder)
 
 
@@ -235,7 +238,7 @@ def test_B4_B16_times_in_other_units_are_named(
     np.savetxt(folder / "times.txt", (5 + np.arange(6) * 0.1) * factor, fmt="%.0f")
     with pytest.raises(DriveError, match=f"{name}seconds.*--time-unit {unit}"):
         open_drive(folder)
-    with reading(Reading(time_unit=unit)):  # type: ignore[arg-type]
+    with use_scan_options(ScanOptions(time_unit=unit)):  # type: ignore[arg-type]
         assert np.diff(open_drive(folder).times) == pytest.approx(0.1)
 
 

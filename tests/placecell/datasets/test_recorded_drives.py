@@ -80,7 +80,7 @@ def test_standing_things_coincide_over_the_scans(drive: Drive) -> None:
 
 
 def test_segments_a_frame(recording: Recording) -> None:
-    _, counts = np.unique(recording.frames, return_counts=True)
+    _, counts = np.unique(recording.captures, return_counts=True)
     # 37 from the first scan alone, 46 from two, 52 to 60 from there on.
     assert len(counts) == 10
     assert counts.min() >= 30
@@ -91,7 +91,7 @@ def test_segments_a_frame(recording: Recording) -> None:
 def test_groups_over_the_frames(recording: Recording) -> None:
     # Most of what one frame has, the next has too.
     for frame in range(4, 10):
-        before, now = (set(recording.groups[recording.frames == f]) for f in (frame - 1, frame))
+        before, now = (set(recording.groups[recording.captures == f]) for f in (frame - 1, frame))
         assert len(before & now) > 0.6 * len(now)
     assert 0.3 < recording.distinct.mean() < 0.9
 

@@ -81,10 +81,10 @@ def test_a_segment_alone_has_no_neighborhood() -> None:
 
 def test_frames_do_not_see_one_another() -> None:
     segments = street()
-    frames = np.array([7, 3] * 6)
-    found = describe_neighborhood(segments, frames)
+    captures = np.array([7, 3] * 6)
+    found = describe_neighborhood(segments, captures)
     for frame in (3, 7):
-        members = np.flatnonzero(frames == frame)
+        members = np.flatnonzero(captures == frame)
         assert (found[members] == describe_neighborhood(segments.take(members))).all()
 
 

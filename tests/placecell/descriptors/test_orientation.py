@@ -4,7 +4,7 @@ import pytest
 from placecell.core.jit import compiled
 from placecell.core.segments import Segments
 from placecell.core.types import Int64
-from placecell.descriptors.orientation import align, sensor_bearings
+from placecell.descriptors.orientation import orient, sensor_bearings
 from tests.placecell.segment_builders import many_segments, one_segment, yaw_matrix
 
 # Nothing about it is symmetric; its centroid is (2, 1, 2).
@@ -16,7 +16,7 @@ def test_points_are_about_the_centroid_with_the_robot_on_positive_x() -> None:
     # The robot is north of the hook: north (y) must become x, and west become y.
     segment = one_segment(HOOK, sensor=(2.0, 11.0, 2.0))
 
-    aligned = align(segment)
+    aligned = orient(segment)
 
     by_hand = np.array([[-1, 2, -2], [-1, -2, -1], [0, -2, 1], [2, 2, 2]])
     assert aligned.dtype == np.float32
@@ -30,7 +30,7 @@ def test_surface_seen_from_each_side_ends_up_alike(side: int) -> None:
     points = (HOOK - CENTROID) @ turn.T
     sensor = turn @ [7.0, 0.0, 1.5]
 
-    aligned = align(one_segment(points, sensor))
+    aligned = orient(one_segment(points, sensor))
 
     assert aligned == pytest.approx(HOOK - CENTROID, abs=1e-5)
 
@@ -39,7 +39,7 @@ def test_from_another_side_another_side_faces_the_robot() -> None:
     for bearing, face in {0.0: (1, 0), 90.0: (0, 1), 180.0: (-1, 0), 270.0: (0, -1)}.items():
         direction = np.array([np.cos(np.radians(bearing)), np.sin(np.radians(bearing)), 0.0])
         markers = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], np.float32)
-        aligned = align(one_segment(markers, 9 * direction))
+        aligned = orient(one_segment(markers, 9 * direction))
         facing = markers[np.argmax(aligned[:, 0])]
         assert tuple(facing[:2]) == face
         assert aligned[:, 0].max() == pytest.approx(1.0, abs=1e-6)
@@ -64,17 +64,17 @@ def test_world_turned_and_moved_makes_no_difference() -> None:
         (segments.sensors @ turn.T + shift).astype(np.float32),
     )
     # float32 coordinates of 120 m are good to 8 micrometers.
-    assert align(moved) == pytest.approx(align(segments), abs=1e-4)
+    assert orient(moved) == pytest.approx(orient(segments), abs=1e-4)
 
 
 def test_distance_and_height_of_the_robot_make_no_difference() -> None:
     near = one_segment(HOOK, CENTROID + [3.0, 4.0, 0.0])
     far = one_segment(HOOK, CENTROID + [30.0, 40.0, 5.0])
-    assert align(near) == pytest.approx(align(far), abs=1e-5)
+    assert orient(near) == pytest.approx(orient(far), abs=1e-5)
 
 
 def test_heights_are_about_the_centroid_and_otherwise_untouched() -> None:
-    aligned = align(one_segment(HOOK, (-5.0, 3.0, 60.0)), yaw=1.0)
+    aligned = orient(one_segment(HOOK, (-5.0, 3.0, 60.0)), yaw=1.0)
     assert aligned[:, 2].tolist() == [-2.0, -1.0, 1.0, 2.0]
 
 
@@ -82,12 +82,12 @@ def test_heights_are_about_the_centroid_and_otherwise_untouched() -> None:
 def test_robot_straight_above_or_below_leaves_the_segment_as_it_lies(above: float) -> None:
     segment = one_segment(HOOK, CENTROID + [0.0, 0.0, above])
     assert sensor_bearings(segment).tolist() == [0.0]
-    assert align(segment) == pytest.approx(HOOK - CENTROID, abs=1e-6)
+    assert orient(segment) == pytest.approx(HOOK - CENTROID, abs=1e-6)
 
 
 def test_extra_yaw_turns_counter_clockwise_after_alignment() -> None:
     segment = one_segment(HOOK, CENTROID + [9.0, 0.0, 0.0])
-    quarter = align(segment, yaw=np.pi / 2)
+    quarter = orient(segment, yaw=np.pi / 2)
     by_hand = np.array([[1, -2, -2], [1, 2, -1], [0, 2, 1], [-2, -2, 2]])
     assert quarter == pytest.approx(by_hand, abs=1e-6)
 
@@ -95,9 +95,9 @@ def test_extra_yaw_turns_counter_clockwise_after_alignment() -> None:
 def test_each_segment_has_its_own_yaw() -> None:
     segments = many_segments([30, 40, 50])
     yaws = np.array([0.3, -1.2, 2.5])
-    together = align(segments, yaws)
+    together = orient(segments, yaws)
     for index, yaw in enumerate(yaws):
-        alone = align(segments.take([index]), float(yaw))
+        alone = orient(segments.take([index]), float(yaw))
         rows = segments.owners == index
         assert np.array_equal(together[rows], alone)
 
@@ -117,7 +117,7 @@ def test_against_numpy_bit_for_bit() -> None:
             ],
             axis=1,
         ).astype(np.float32)
-        assert np.array_equal(align(segments, yaw)[segments.owners == index], by_hand)
+        assert np.array_equal(orient(segments, yaw)[segments.owners == index], by_hand)
 
 
 def test_centroid_is_the_mean_in_double_precision() -> None:
@@ -134,7 +134,7 @@ def test_points_that_must_not_be_written_or_do_not_lie_in_order() -> None:
     columns = np.asfortranarray(segments.points)
     for points in (fixed, columns):
         other = Segments(points, segments.ends, segments.sensors)
-        assert np.array_equal(align(other), align(segments))
+        assert np.array_equal(orient(other), orient(segments))
 
 
 def test_compiles_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -154,10 +154,10 @@ def test_ends_that_do_not_divide_the_points_are_refused(ends: list[int]) -> None
     points = np.zeros((100, 3), np.float32)
     segments = Segments(points, np.array(ends), np.zeros((len(ends), 3), np.float32))
     with pytest.raises(ValueError, match="do not divide the 100 points"):
-        align(segments)
+        orient(segments)
 
 
 def test_no_segments() -> None:
     nothing = Segments.of([], np.zeros((0, 3)))
     assert sensor_bearings(nothing).shape == (0,)
-    assert align(nothing).shape == (0, 3)
+    assert orient(nothing).shape == (0, 3)

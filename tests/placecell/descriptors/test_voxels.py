@@ -7,7 +7,7 @@ import pytest
 from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, UInt8
-from placecell.descriptors.orientation import align
+from placecell.descriptors.orientation import orient
 from placecell.descriptors.voxels import voxelize
 from tests.placecell.segment_builders import box, many_segments, one_segment
 
@@ -45,7 +45,7 @@ def test_against_slow_reference() -> None:
     # Deviations of 1.5, 1.0 and 0.7 m: some of the points are outside the grid's 3.6 m of height.
     segments = many_segments([10, 300, 2000, 50, 1])
     occupancy, _ = voxelize(segments, PROTOCOL_V1)
-    aligned = align(segments)
+    aligned = orient(segments)
     for index in range(len(segments)):
         assert np.array_equal(occupancy[index], slow_grid(aligned[segments.owners == index]))
 

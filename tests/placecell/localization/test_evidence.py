@@ -3,7 +3,7 @@ import pytest
 
 from placecell.core.types import Float64
 from placecell.localization import LocalizationParameters, Pose, localize
-from placecell.localization.evidence import History, middle_of
+from placecell.localization.evidence import RequestHistory, middle_of
 from placecell.localization.hypothesis import Hypothesis
 from tests.placecell.localization.scene_builders import scene
 from tests.placecell.localization.test_localize import look_alikes
@@ -24,14 +24,14 @@ def at(x: float) -> Float64:
     return np.array([x, 0.0, 0.0])
 
 
-def driven(history: History, start: float, end: float, *found: Hypothesis) -> None:
+def driven(history: RequestHistory, start: float, end: float, *found: Hypothesis) -> None:
     """Five requests, four meters apart, that all found the same; then the robot is at 0."""
     for number, time in enumerate(np.linspace(start, end, 5)):
         history.add(float(time), at(4.0 * number - 20), found)
 
 
 def test_the_same_place_is_supported_and_another_is_not() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     history.add(100.0, at(-5), [hypothesis(0, 20), hypothesis(50, 8), hypothesis(51, 6)])
     now = history.at(100.0, at(0))
     assert now.support(hypothesis(1, 5)) == pytest.approx(10)
@@ -41,7 +41,7 @@ def test_the_same_place_is_supported_and_another_is_not() -> None:
 
 
 def test_support_fades_and_is_forgotten() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     history.add(100.0, at(-5), [hypothesis(0, 20)])
     assert history.at(103.0, at(0)).support(hypothesis(0, 5)) == pytest.approx(5)
     assert history.at(109.9, at(0)).past
@@ -49,7 +49,7 @@ def test_support_fades_and_is_forgotten() -> None:
 
 
 def test_requests_add_up_to_a_number_that_is_bounded() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     for number in range(100):
         history.add(100.0 + number / 1e3, at(5 * number), [hypothesis(0, 20)])
     now = history.at(100.1, at(500))
@@ -57,7 +57,7 @@ def test_requests_add_up_to_a_number_that_is_bounded() -> None:
 
 
 def test_a_robot_that_stands_learns_nothing() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     history.add(99.7, at(0), [hypothesis(0, 20)])
     now = history.at(100.0, at(2.9))
     assert now.support(hypothesis(0, 5)) == 0
@@ -69,7 +69,7 @@ def test_a_robot_that_stands_learns_nothing() -> None:
 
 
 def test_what_has_no_place_is_no_evidence() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     history.add(100.0, middle_of(np.full((2, 3), np.nan)), [hypothesis(0, 20)])
     assert history.at(100.0, at(0)).support(hypothesis(0, 5)) == 0
     history.add(100.0, at(5), [hypothesis(0, 20)])
@@ -82,7 +82,7 @@ def test_the_middle_by_hand() -> None:
 
 
 def test_guesses_are_the_best_places_of_the_past_the_latest_first() -> None:
-    history = History(PARAMETERS)
+    history = RequestHistory(PARAMETERS)
     history.add(100.0, at(0), [hypothesis(0, 20), hypothesis(50, 8)])
     history.add(101.0, at(0), [])
     history.add(102.0, at(0), [hypothesis(7, 9)])
@@ -95,7 +95,7 @@ def test_what_was_known_before_decides_between_two_places() -> None:
     """The robot saw where it turned into one of two streets that are alike."""
     made = look_alikes(2, 60.0)
     assert localize(made.candidates).reason == "ambiguous"
-    history = History(LocalizationParameters())
+    history = RequestHistory(LocalizationParameters())
     second = Pose.of_yaw(0.0, np.array([60.0, 0, 0]))
     there = hypothesis(60.0, 100.0)
     assert there.pose.difference(second, np.zeros(3)) == (0, 0)
@@ -107,7 +107,7 @@ def test_what_was_known_before_decides_between_two_places() -> None:
 
 def test_the_past_alone_is_no_place() -> None:
     """Nothing of what the robot sees now is where it was before."""
-    history = History(LocalizationParameters())
+    history = RequestHistory(LocalizationParameters())
     history.add(50.0, at(-5), [hypothesis(1e4, 1000.0)])
     made = scene(1)
     found = localize(made.candidates, evidence=history.at(50.1, at(0)))
@@ -121,7 +121,7 @@ def test_the_past_alone_is_no_place() -> None:
 def test_a_place_of_the_past_is_looked_at_again() -> None:
     """Too few agree to be found among all, but enough where the robot is expected."""
     made = scene(3, segments=60, found=0.12, k=25)
-    history = History(LocalizationParameters())
+    history = RequestHistory(LocalizationParameters())
     source = made.candidates.centroids[:4]
     before = Hypothesis(made.pose, np.eye(4), 60.0, np.arange(4), np.arange(4), source, np.zeros(4))
     driven(history, 50.0, 50.4, before)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from placecell.core.spatial import within
 from placecell.core.types import Float64, Int64
 from placecell.localization import Candidates, Hypothesis, LocalizationParameters, Pose, localize
-from placecell.localization.guided_matching import AmongCandidates, look_again
+from placecell.localization.guided_matching import CandidateSegments, match_guided
 
 PARAMETERS = LocalizationParameters()
 HERE = Pose.of_yaw(0.0, np.zeros(3))
@@ -17,15 +17,15 @@ HERE = Pose.of_yaw(0.0, np.zeros(3))
 class Things:
     """A map whose rows look like the queries as far as they do, [query, row]."""
 
-    def __init__(self, centroids: Float64, likely: Float64) -> None:
+    def __init__(self, centroids: Float64, match_probabilities: Float64) -> None:
         self.centroids = centroids
-        self.looks = likely
+        self.looks = match_probabilities
 
-    def about(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
+    def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         rows = within(self.centroids, places, meters)
         return rows, np.asarray(self.centroids[rows])
 
-    def likely(self, queries: Int64, rows: Int64) -> Float64:
+    def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         return np.asarray(self.looks[queries, rows])
 
 
@@ -48,12 +48,12 @@ def guess(pose: Pose = HERE) -> Hypothesis:
 
 
 def score(centroids: Float64, there: Things, pose: Pose = HERE, believed: float = 0.5) -> float:
-    return look_again(guess(pose), elsewhere(centroids, believed), there, PARAMETERS).score
+    return match_guided(guess(pose), elsewhere(centroids, believed), there, PARAMETERS).score
 
 
-def worth(likely: float, believed: float = 0.5) -> float:
+def worth(match_probabilities: float, believed: float = 0.5) -> float:
     """Of a segment that may also be what is far away; a hundredth of its belief is chance."""
-    return float(np.log1p(likely / (likely + believed) / 0.01))
+    return float(np.log1p(match_probabilities / (match_probabilities + believed) / 0.01))
 
 
 def test_by_hand() -> None:
@@ -69,7 +69,7 @@ def test_a_row_that_is_a_candidate_is_no_rival_of_itself() -> None:
     rows = np.array([[0, 7]])
     places = np.array([[[0.0, 0, 0], [1e4, 0, 0]]])
     candidates = Candidates(grid(1), rows, places, beliefs)
-    found = look_again(guess(), candidates, Things(grid(1), np.array([[0.6]])), PARAMETERS)
+    found = match_guided(guess(), candidates, Things(grid(1), np.array([[0.6]])), PARAMETERS)
     assert found.score == pytest.approx(np.log1p(0.75 / 0.01))
 
 
@@ -125,7 +125,7 @@ def test_what_is_far_from_all_changes_no_score(seed: int, strays: int) -> None:
     )
     there = Things(rows, random.uniform(0, 1, (20, 220)))
     told = score(centroids, there)
-    there.about = lambda *_: (np.arange(220), rows)  # type: ignore[method-assign]
+    there.near = lambda *_: (np.arange(220), rows)  # type: ignore[method-assign]
     assert score(centroids, there) == told
 
 
@@ -133,12 +133,12 @@ def test_of_candidates_what_is_none_does_not_look_alike() -> None:
     rows = np.array([[7, 3], [3, 9]])
     places = grid(10)[rows]
     believed = np.array([[0.9, 0.2], [0.0, 0.7]])
-    known = AmongCandidates(Candidates(grid(2), rows, places, believed))
+    known = CandidateSegments(Candidates(grid(2), rows, places, believed))
     # Row 3 is a candidate of the first query; that of the second is not believed in.
-    found, centroids = known.about(grid(10)[[3, 7]], 1.0)
+    found, centroids = known.near(grid(10)[[3, 7]], 1.0)
     assert found.tolist() == [3, 7]
     np.testing.assert_array_equal(centroids, grid(10)[[3, 7]])
-    asked = known.likely(np.array([0, 0, 0, 1, 1, 1]), np.array([3, 7, 9, 3, 7, 9]))
+    asked = known.match_probabilities(np.array([0, 0, 0, 1, 1, 1]), np.array([3, 7, 9, 3, 7, 9]))
     assert asked.tolist() == [0.2, 0.9, 0.0, 0.0, 0.0, 0.7]
 
 
@@ -149,8 +149,8 @@ def test_the_place_where_all_looks_alike_is_found_though_few_candidates_lie_ther
     copy = Pose.of_yaw(np.pi, np.array([300.0, 0.0, 0.0])).apply(things[:12])
     rows = np.concatenate([things, copy])
     chosen = np.where(np.arange(20) < 12, 20 + np.arange(20), np.arange(20))[:, None]
-    likely = np.full((20, 1), 0.8)
-    candidates = Candidates(things, chosen, rows[chosen], likely)
+    match_probabilities = np.full((20, 1), 0.8)
+    candidates = Candidates(things, chosen, rows[chosen], match_probabilities)
     misled = localize(candidates)
     assert misled.best is not None
     assert misled.best.pose.translation[0] == pytest.approx(300.0, abs=0.1)

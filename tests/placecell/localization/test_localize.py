@@ -190,9 +190,9 @@ def houses(landmarks: int) -> Candidates:
     # A landmark is like itself alone.
     known = np.column_stack([50 + np.arange(landmarks), np.tile(np.arange(9), (landmarks, 1))])
     chosen = np.concatenate([alike, known])
-    likely = np.full(chosen.shape, 0.8)
-    likely[20:, 1:] = 0.001
-    return Candidates(seen, chosen, rows[chosen], likely)
+    match_probabilities = np.full(chosen.shape, 0.8)
+    match_probabilities[20:, 1:] = 0.001
+    return Candidates(seen, chosen, rows[chosen], match_probabilities)
 
 
 def test_in_a_street_of_identical_houses_nobody_knows_which() -> None:

@@ -55,14 +55,14 @@ class MadeMap:
     def with_(self, other: "MadeMap") -> "MadeMap":
         view = MapView(
             np.concatenate([self.view.centroids, other.view.centroids]),
-            np.concatenate([self.view.stands, other.view.stands]),
+            np.concatenate([self.view.viewpoints, other.view.viewpoints]),
         )
         looks = np.concatenate([self.looks, other.looks])
         return MadeMap(view, looks, np.concatenate([self.things, other.things]))
 
 
 class ByDistance:
-    """`Looks` by the distance of made-up descriptors; counts the pairs that it was asked for."""
+    """`DescriptorSearch` by distance of made-up descriptors; counts the pairs it compared."""
 
     def __init__(self, a: MadeMap, b: MadeMap, k: int = 10) -> None:
         self._a, self._b, self._k = a.looks, b.looks, min(k, len(a.looks))
@@ -73,7 +73,7 @@ class ByDistance:
         distances, found = self._tree.query(self._b[rows], np.arange(1, self._k + 1))
         return found.astype(np.int64), chance(distances)
 
-    def likely(self, a: Int64, b: Int64) -> Float64:
+    def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         self.pairs += len(a)
         return chance(np.linalg.norm(self._a[a] - self._b[b], axis=1))
 
@@ -115,14 +115,15 @@ def drive(
         blur: of the descriptors.
         missed: share of the things that are not seen, each time.
     """
-    stands = np.arange(begin, end + 1e-9, 5.0)[:, None] * (1.0, 0.0, 0.0)
-    near = np.linalg.norm(seen.places[:, None] - stands, axis=2) < 25.0
+    viewpoints = np.arange(begin, end + 1e-9, 5.0)[:, None] * (1.0, 0.0, 0.0)
+    near = np.linalg.norm(seen.places[:, None] - viewpoints, axis=2) < 25.0
     things, moments = np.nonzero(near & (random.uniform(size=near.shape) >= missed))
     order = np.argsort(moments, kind="stable")
     things, moments = things[order], moments[order]
     return MadeMap(
         MapView(
-            seen.places[things] + random.normal(scale=noise, size=(len(things), 3)), stands[moments]
+            seen.places[things] + random.normal(scale=noise, size=(len(things), 3)),
+            viewpoints[moments],
         ),
         seen.looks[things] + random.normal(scale=blur, size=(len(things), DIMENSION)),
         things,

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from placecell.localization import LocalizationParameters, Pose
 from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
-from placecell.map_alignment.align import guess
+from placecell.map_alignment.align import submap_poses
 from placecell.map_alignment.submaps import cut
 from tests.placecell.map_alignment.map_builders import (
     DIMENSION,
@@ -71,7 +71,7 @@ def test_maps_of_kilometers_are_aligned() -> None:
 def test_guesses_are_poses_of_submaps(seed: int) -> None:
     made, parameters = pair(seed), AlignmentParameters()
     submaps = cut(made.b.view, parameters)
-    guesses = guess(submaps, made.a.view, made.b.view, made.looks, parameters)
+    guesses = submap_poses(submaps, made.a.view, made.b.view, made.looks, parameters)
     right = 0
     for each in guesses:
         np.testing.assert_array_equal(each.middle, submaps[each.submap].middle)
@@ -140,9 +140,9 @@ def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
 
 def strange(view: MapView, count: int, random: np.random.Generator) -> MadeMap:
     """Segments about a map's that look like nothing else."""
-    stands = view.stands[random.integers(0, len(view), count)]
+    viewpoints = view.viewpoints[random.integers(0, len(view), count)]
     return MadeMap(
-        MapView(stands + random.uniform(-20, 20, (count, 3)) * (1, 1, 0.1), stands),
+        MapView(viewpoints + random.uniform(-20, 20, (count, 3)) * (1, 1, 0.1), viewpoints),
         random.normal(scale=3.0, size=(count, DIMENSION)) + 20.0 * random.choice([-1, 1]),
         np.full(count, -1),
     )
@@ -187,13 +187,13 @@ def test_a_tilted_map_is_aligned_with_six_degrees(seed: int) -> None:
 def test_looks_are_asked_in_rows_of_the_maps() -> None:
     made = pair(3)
 
-    class Checked(ByDistance):
+    class LoopCheck(ByDistance):
         """Rows are of the maps."""
 
-        def likely(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        def match_probabilities(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
             assert (a < len(made.a.view)).all()
             assert (b < len(made.b.view)).all()
-            return super().likely(a, b)
+            return super().match_probabilities(a, b)
 
-    found = align(made.a.view, made.b.view, Checked(made.a, made.b))
+    found = align(made.a.view, made.b.view, LoopCheck(made.a, made.b))
     assert_right(found, made.truth)

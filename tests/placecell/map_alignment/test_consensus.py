@@ -5,7 +5,7 @@ import pytest
 
 from placecell.localization import LocalizationParameters, Pose
 from placecell.map_alignment import AlignmentParameters
-from placecell.map_alignment.consensus import Guess, agreement, common_pose, consensus
+from placecell.map_alignment.consensus import SubmapPose, agreement, common_pose, consensus
 
 PARAMETERS = AlignmentParameters()
 
@@ -13,11 +13,11 @@ PARAMETERS = AlignmentParameters()
 def guess(
     submap: int, x: float, shift: tuple[float, float] = (0.0, 0.0), yaw: float = 0.0,
     score: float = 1.0,
-) -> Guess:  # fmt: skip
+) -> SubmapPose:  # fmt: skip
     """Of a submap at x, that is put a shift from there, turned about its middle, degrees."""
     middle = np.array([x, 0.0, 0.0])
     turn = Pose.of_yaw(np.radians(yaw), np.zeros(3))
-    return Guess(
+    return SubmapPose(
         submap, middle, Pose(turn.rotation, middle + (*shift, 0.0) - turn.apply(middle)), score
     )
 

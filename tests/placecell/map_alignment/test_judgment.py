@@ -7,8 +7,8 @@ import pytest
 
 from placecell.core.types import Float64
 from placecell.localization import Pose
-from placecell.map_alignment import AlignmentParameters, Overlap, align, lies_as_well
-from placecell.map_alignment.align import distinct, judge, turned
+from placecell.map_alignment import AlignmentParameters, Overlap, align, fits_as_well
+from placecell.map_alignment.align import distinct, judge, turned_around
 from tests.placecell.map_alignment.map_builders import ByDistance, pair
 
 PARAMETERS = AlignmentParameters()
@@ -111,9 +111,9 @@ def test_nothing_is_inconsistent() -> None:
 
 def test_a_map_turned_on_the_spot_stays_there() -> None:
     pose = Pose.of_yaw(0.4, np.array([500.0, 7.0, 3.0]))
-    stands = np.array([[10.0, 20.0, 1.0], [12.0, 24.0, 1.0]])
-    there = turned(pose, stands)
-    np.testing.assert_allclose(there.apply(stands), pose.apply(stands)[::-1], atol=1e-9)
+    viewpoints = np.array([[10.0, 20.0, 1.0], [12.0, 24.0, 1.0]])
+    there = turned_around(pose, viewpoints)
+    np.testing.assert_allclose(there.apply(viewpoints), pose.apply(viewpoints)[::-1], atol=1e-9)
     np.testing.assert_allclose(there.rotation, -pose.rotation * (1, 1, -1), atol=1e-12)
 
 
@@ -153,7 +153,7 @@ def test_maps_are_held_against_each_other_as_others_say_that_they_lie() -> None:
     near = Pose.of_yaw(0.01, np.array([1.0, -0.5, 0.0])).after(two.truth)
 
     def lies(pose: Pose, best: Overlap) -> bool:
-        return lies_as_well(a, b, pose, best, looks)
+        return fits_as_well(a, b, pose, best, looks)
 
     wrong = replace(right, pose=slid, score=1e6)
     # About where it is right, within what a loop may miss by, whatever the wrong one's score.

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from placecell.localization import Pose
-from placecell.map_alignment import Alignment, check_loops, poses_from
+from placecell.map_alignment import PairwiseAlignment, check_loops, poses_from
 from placecell.map_alignment.loops import loops_of
 from tests.placecell.map_alignment.map_builders import a_pose
 
@@ -24,13 +24,13 @@ def frames(count: int, seed: int = 0) -> list[Pose]:
 
 def alignment(
     truth: Sequence[Pose], one: int, other: int, weight: float = 50.0, error: Pose | None = None
-) -> Alignment:
+) -> PairwiseAlignment:
     pose = truth[one].inverse().after(truth[other])
     # What both have is at the origin of the one.
-    return Alignment(one, other, error.after(pose) if error else pose, np.zeros(3), weight)
+    return PairwiseAlignment(one, other, error.after(pose) if error else pose, np.zeros(3), weight)
 
 
-def ring(truth: Sequence[Pose], wrong: Iterable[int] = ()) -> list[Alignment]:
+def ring(truth: Sequence[Pose], wrong: Iterable[int] = ()) -> list[PairwiseAlignment]:
     ends = [(n, (n + 1) % len(truth)) for n in range(len(truth))]
     return [
         alignment(truth, *pair, error=WRONG if number in wrong else None)
@@ -125,7 +125,7 @@ class ByTruth:
     """Whether maps lie as well by another pose: if it is the true one. Some are not to be told."""
 
     def __init__(
-        self, truth: Sequence[Pose], edges: Sequence[Alignment], untold: Iterable[int] = ()
+        self, truth: Sequence[Pose], edges: Sequence[PairwiseAlignment], untold: Iterable[int] = ()
     ) -> None:
         self.truth, self.edges, self.untold = truth, edges, set(untold)
         self.asked: list[int] = []
@@ -274,7 +274,7 @@ def test_only_what_is_connected_is_laid() -> None:
 def test_an_alignment_is_told_from_either_side() -> None:
     truth = frames(3, seed=4)
     there = alignment(truth, 0, 1)
-    back = Alignment(1, 0, there.pose.inverse(), there.middle_in(1), there.weight)
+    back = PairwiseAlignment(1, 0, there.pose.inverse(), there.middle_in(1), there.weight)
     np.testing.assert_allclose(back.into(0).matrix, there.into(0).matrix, atol=1e-9)
     np.testing.assert_allclose(back.middle_in(0), there.middle_in(0), atol=1e-9)
     for first in (there, back):

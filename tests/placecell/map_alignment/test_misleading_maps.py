@@ -150,8 +150,8 @@ def test_what_lies_densely_agrees_by_chance_and_is_told() -> None:
 
 def test_on_a_line_the_direction_is_known_or_none_is_told() -> None:
     line = heap(400, (100.0, 0.0, 0.0))
-    stands = line.view.centroids + (0.0, 0.0, 1.5)
-    flat = MadeMap(MapView(line.view.centroids, stands), line.looks, line.things)
+    viewpoints = line.view.centroids + (0.0, 0.0, 1.5)
+    flat = MadeMap(MapView(line.view.centroids, viewpoints), line.looks, line.things)
     truth = Pose.of_yaw(2.0, np.array([50.0, 60.0, 7.0]))
     assert_right(aligned(flat, flat.moved(truth.inverse())), truth)
     # Upright it tells nothing of it.
@@ -201,21 +201,21 @@ def test_ten_thousand_segments_in_a_yard_are_aligned() -> None:
 
 def drifting(made: MadeMap, random: np.random.Generator) -> MadeMap:
     """As odometry has it: the heading wanders 0.05 degrees per root meter, and scale is 1% off."""
-    order = np.unique(made.view.stands[:, 0])
+    order = np.unique(made.view.viewpoints[:, 0])
     steps = np.diff(order, prepend=order[0])
     heading = np.cumsum(random.normal(size=len(order)) * np.radians(0.05) * np.sqrt(steps))
     scale = 1.0 + random.choice([-0.01, 0.01])
     way = np.cumsum(
         scale * steps[:, None] * np.stack([np.cos(heading), np.sin(heading)], axis=1), axis=0
     )
-    moment = np.searchsorted(order, made.view.stands[:, 0])
-    ahead = made.view.centroids - made.view.stands
+    moment = np.searchsorted(order, made.view.viewpoints[:, 0])
+    ahead = made.view.centroids - made.view.viewpoints
     cos, sin = np.cos(heading[moment]), np.sin(heading[moment])
-    centroids, stands = made.view.centroids.copy(), made.view.stands.copy()
-    stands[:, :2] = way[moment] + made.view.stands[0, :2]
-    centroids[:, 0] = stands[:, 0] + cos * ahead[:, 0] - sin * ahead[:, 1]
-    centroids[:, 1] = stands[:, 1] + sin * ahead[:, 0] + cos * ahead[:, 1]
-    return MadeMap(MapView(centroids, stands), made.looks, made.things)
+    centroids, viewpoints = made.view.centroids.copy(), made.view.viewpoints.copy()
+    viewpoints[:, :2] = way[moment] + made.view.viewpoints[0, :2]
+    centroids[:, 0] = viewpoints[:, 0] + cos * ahead[:, 0] - sin * ahead[:, 1]
+    centroids[:, 1] = viewpoints[:, 1] + sin * ahead[:, 0] + cos * ahead[:, 1]
+    return MadeMap(MapView(centroids, viewpoints), made.looks, made.things)
 
 
 def laid_by_truth(a: MadeMap, b: MadeMap, things: Int64) -> Pose:

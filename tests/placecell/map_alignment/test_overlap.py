@@ -11,9 +11,9 @@ from placecell.core.types import Float64, Int64
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters, MapView
 from placecell.map_alignment.overlap import (
-    near_stands,
+    near_viewpoints,
     overlap_of,
-    pairs_of_things,
+    pairs_of_landmarks,
     part,
     should_be_seen,
 )
@@ -31,12 +31,14 @@ class Table:
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
         raise NotImplementedError
 
-    def likely(self, a: Int64, b: Int64) -> Float64:
+    def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         return np.asarray(self._table[a, b])
 
 
-def view(centroids: Sequence[tuple[float, ...]], stands: Sequence[tuple[float, ...]]) -> MapView:
-    return MapView(np.array(centroids, float), np.array(stands, float))
+def view(
+    centroids: Sequence[tuple[float, ...]], viewpoints: Sequence[tuple[float, ...]]
+) -> MapView:
+    return MapView(np.array(centroids, float), np.array(viewpoints, float))
 
 
 def corner(spread: float = 5.0) -> list[tuple[float, ...]]:
@@ -47,8 +49,8 @@ def corner(spread: float = 5.0) -> list[tuple[float, ...]]:
 def test_stands_are_shared_if_the_other_robot_was_near() -> None:
     one = view([(0, 0, 0)] * 3, [(0, 0, 0), (29, 0, 0), (31, 0, 0)])
     other = view([(0, 0, 0)] * 2, [(0, 9, 0), (20, 0, 0)])
-    assert near_stands(one, other, PARAMETERS).tolist() == [True, True, False]
-    assert near_stands(one, other.take(np.arange(0)), PARAMETERS).tolist() == [False] * 3
+    assert near_viewpoints(one, other, PARAMETERS).tolist() == [True, True, False]
+    assert near_viewpoints(one, other.take(np.arange(0)), PARAMETERS).tolist() == [False] * 3
     # Of three places two; a place counts once, however much was seen from there.
     assert part(one.take(np.array([0, 0, 0, 1, 2])), other, PARAMETERS) == pytest.approx(2 / 3)
 
@@ -147,7 +149,7 @@ def test_things_are_paired_by_the_views_that_look_most_alike() -> None:
         np.array([0, 0, 1, 1, 1]),
         np.array([0.3, 0.7, 0.9, 0.4, 0.5]),
     )
-    found, rows = pairs_of_things(a, b, pairs, np.array([0, 0, 1]), np.array([0, 0]))
+    found, rows = pairs_of_landmarks(a, b, pairs, np.array([0, 0, 1]), np.array([0, 0]))
     assert found.rows.tolist() == [0, 2]
     assert found.places.tolist() == [0, 1]
     assert found.queries.tolist() == [0, 0]

@@ -13,9 +13,9 @@ from placecell.map_alignment.submaps import Submap, candidates_of, cut, spread
 PARAMETERS = AlignmentParameters()
 
 
-def along_x(stands: list[float]) -> MapView:
+def along_x(viewpoints: list[float]) -> MapView:
     """A segment 2 m to the left of each stand."""
-    places = np.array([[x, 0.0, 0.0] for x in stands]).reshape(-1, 3)
+    places = np.array([[x, 0.0, 0.0] for x in viewpoints]).reshape(-1, 3)
     return MapView(places + (0.0, 2.0, 0.0), places)
 
 
@@ -70,7 +70,7 @@ class Listing:
         found = np.stack([2 * rows, 2 * rows + 1], axis=1)
         return found, np.full(found.shape, 0.9)
 
-    def likely(self, a: Int64, b: Int64) -> Float64:
+    def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         raise NotImplementedError
 
 
@@ -98,7 +98,7 @@ def test_views_of_a_thing_ask_together() -> None:
 def test_of_many_things_some_ask() -> None:
     looks = Listing()
     other = MapView(np.zeros((200, 3)), np.zeros((200, 3)))
-    parameters = replace(PARAMETERS, things=10)
+    parameters = replace(PARAMETERS, landmarks=10)
     view = along_x([2.0 * x for x in range(100)])
     found = candidates_of(Submap(np.zeros(3), np.arange(100)), view, other, looks, parameters)
     assert len(found) == 10

@@ -17,30 +17,30 @@ def pairs(a: Float64, b: Float64, limit: float = 1.5) -> dict[int, int]:
 
 def test_groups_are_numbered_in_order_of_appearance() -> None:
     grouper = Grouper(1.5)
-    assert grouper.add_frame(at(0, 10, 20)).tolist() == [0, 1, 2]
-    assert grouper.add_frame(at(30, 20.1, 0.1)).tolist() == [3, 2, 0]
-    assert grouper.add_frame(at(10, 0.2)).tolist() == [4, 0]
+    assert grouper.add_capture(at(0, 10, 20)).tolist() == [0, 1, 2]
+    assert grouper.add_capture(at(30, 20.1, 0.1)).tolist() == [3, 2, 0]
+    assert grouper.add_capture(at(10, 0.2)).tolist() == [4, 0]
     assert grouper.count == 5
 
 
 def test_group_follows_a_drifting_centroid() -> None:
     grouper = Grouper(1.5)
-    numbers = [grouper.add_frame(at(1.4 * frame)).tolist() for frame in range(8)]
+    numbers = [grouper.add_capture(at(1.4 * frame)).tolist() for frame in range(8)]
     assert numbers == [[0]] * 8
 
 
 def test_group_ends_when_a_frame_lacks_it() -> None:
     grouper = Grouper(1.5)
-    grouper.add_frame(at(0, 10))
-    assert grouper.add_frame(at(10)).tolist() == [1]
-    assert grouper.add_frame(at(0, 10)).tolist() == [2, 1]
+    grouper.add_capture(at(0, 10))
+    assert grouper.add_capture(at(10)).tolist() == [1]
+    assert grouper.add_capture(at(0, 10)).tolist() == [2, 1]
 
 
 def test_empty_frame_ends_every_group() -> None:
     grouper = Grouper(1.5)
-    assert grouper.add_frame(at(0)).tolist() == [0]
-    assert grouper.add_frame(at()).tolist() == []
-    assert grouper.add_frame(at(0)).tolist() == [1]
+    assert grouper.add_capture(at(0)).tolist() == [0]
+    assert grouper.add_capture(at()).tolist() == []
+    assert grouper.add_capture(at(0)).tolist() == [1]
 
 
 def test_limit_is_inclusive() -> None:
@@ -61,8 +61,8 @@ def test_centroid_that_has_not_moved_is_paired() -> None:
 def test_one_to_one() -> None:
     # Two come from where one was: the nearer takes its group, the other begins one.
     grouper = Grouper(1.5)
-    grouper.add_frame(at(0))
-    assert grouper.add_frame(at(-0.6, 0.5)).tolist() == [1, 0]
+    grouper.add_capture(at(0))
+    assert grouper.add_capture(at(-0.6, 0.5)).tolist() == [1, 0]
 
 
 def test_nearest_pair_first_even_if_another_loses_its_only_mate() -> None:

@@ -9,10 +9,10 @@ import pytest
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float32, Float64
 from placecell.datasets import Drive, open_drive
-from placecell.descriptors.orientation import align
+from placecell.descriptors.orientation import orient
 from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.local_map import transform
-from placecell.segmentation.pipeline import packed_grids, record, segment_frames, segment_map
+from placecell.segmentation.pipeline import packed_grids, record, segment_captures, segment_map
 from placecell.segmentation.recording import Recording
 from tests.placecell.segment_builders import (
     MemoryDrive,
@@ -75,8 +75,8 @@ def recording(drive: Drive) -> Recording:
 
 @pytest.mark.slow
 def test_boxes_are_the_segments_of_every_frame(recording: Recording) -> None:
-    frames, counts = np.unique(recording.frames, return_counts=True)
-    assert frames.tolist() == list(range(14))
+    captures, counts = np.unique(recording.captures, return_counts=True)
+    assert captures.tolist() == list(range(14))
     assert counts.tolist() == [len(BOXES)] * 14
 
 
@@ -96,7 +96,7 @@ def test_groups_persist_over_the_frames(recording: Recording) -> None:
     centroids = recording.segments.centroids()
     for group in range(3):
         members = recording.groups == group
-        assert recording.frames[members].tolist() == list(range(14))
+        assert recording.captures[members].tolist() == list(range(14))
         assert np.ptp(centroids[members], axis=0).max() < 1.5
 
 
@@ -112,17 +112,17 @@ def test_group_ends_when_its_box_is_gone(tmp_path: Path) -> None:
     ]
     drive = open_drive(write_odometry(tmp_path / "yard", scans, [pose()] * 5))
     recording = record(drive, replace(EVERY_SCAN, accumulated_scans=1))
-    groups = [recording.groups[recording.frames == frame].tolist() for frame in range(5)]
+    groups = [recording.groups[recording.captures == frame].tolist() for frame in range(5)]
     assert groups == [[0, 1, 2], [0, 1, 2], [1, 2], [1, 2], [3, 1, 2]]
     # The box that came back is no duplicate of the one before: it is in another group.
-    distinct = [recording.distinct[recording.frames == frame].tolist() for frame in range(5)]
+    distinct = [recording.distinct[recording.captures == frame].tolist() for frame in range(5)]
     assert distinct == [[True] * 3, [False] * 3, [False] * 2, [False] * 2, [True, False, False]]
 
 
 def test_standing_still_gives_duplicates(recording: Recording) -> None:
     # Nothing new is seen; scans as old as 9 frames are not yet forgotten.
-    assert not recording.distinct[np.isin(recording.frames, list(STANDS))].any()
-    assert recording.distinct[recording.frames == 0].all()
+    assert not recording.distinct[np.isin(recording.captures, list(STANDS))].any()
+    assert recording.distinct[recording.captures == 0].all()
     assert recording.distinct.sum() > 3
 
 
@@ -137,7 +137,7 @@ def test_duplicates_against_slow_reference(recording: Recording) -> None:
 
 
 def test_sensors_are_where_the_drive_was(recording: Recording, drive: Drive) -> None:
-    assert recording.segments.sensors == pytest.approx(drive.poses[recording.frames, :3, 3])
+    assert recording.segments.sensors == pytest.approx(drive.poses[recording.captures, :3, 3])
 
 
 def test_recording_says_what_it_is_of(recording: Recording, drive: Drive) -> None:
@@ -166,8 +166,8 @@ def test_made_twice_it_is_the_same(recording: Recording, drive: Drive) -> None:
 
 @pytest.mark.slow
 def test_every_second_scan(drive: Drive) -> None:
-    frames = [frame for frame, _ in segment_frames(drive, replace(PROTOCOL_V1, frame_step=2))]
-    assert frames == [0, 2, 4, 6, 8, 10, 12]
+    captures = [frame for frame, _ in segment_captures(drive, replace(PROTOCOL_V1, frame_step=2))]
+    assert captures == [0, 2, 4, 6, 8, 10, 12]
 
 
 @pytest.mark.slow
@@ -176,7 +176,7 @@ def test_no_scan_outside_the_range_given_feeds_it() -> None:
     nonsense = (np.random.default_rng(0).normal(size=(5000, 3)) * [5, 5, 1]).astype(np.float32)
     ruined = [scan if 3 <= index < 8 else nonsense for index, scan in enumerate(scans)]
     pairs = [
-        list(segment_frames(MemoryDrive(some, poses), EVERY_SCAN, range(3, 8)))
+        list(segment_captures(MemoryDrive(some, poses), EVERY_SCAN, range(3, 8)))
         for some in (scans, ruined)
     ]
     assert [frame for frame, _ in pairs[0]] == [3, 4, 5, 6, 7]
@@ -192,7 +192,7 @@ def test_progress_is_told_of_every_frame(drive: Drive) -> None:
         told.append((total, what))
         return items
 
-    assert len(list(segment_frames(drive, EVERY_SCAN, range(2, 5), progress))) == 3
+    assert len(list(segment_captures(drive, EVERY_SCAN, range(2, 5), progress))) == 3
     assert told == [(3, "segments of street")]
 
 
@@ -201,7 +201,7 @@ def test_drive_through_nothing_has_no_segments(tmp_path: Path) -> None:
     scans: list[object] = [[[1, 0, 0]], plane(10) - np.array([0, 0, 1.7], np.float32), [[0, 70, 0]]]
     folder = write_odometry(tmp_path / "nothing", scans, [pose()] * 3)
     nothing = record(open_drive(folder), EVERY_SCAN)
-    assert len(nothing.segments) == len(nothing.frames) == len(nothing.groups) == 0
+    assert len(nothing.segments) == len(nothing.captures) == len(nothing.groups) == 0
     assert nothing.distinct.shape == (0,)
 
 
@@ -235,7 +235,7 @@ def test_golden_input_of_the_network() -> None:
     segment = one_segment(golden_segment(), sensor=(3.0, 4.0, 0.5))
 
     # No point is so near a voxel's border that rounding on another machine would move it.
-    aligned = align(segment).astype(np.float64)
+    aligned = orient(segment).astype(np.float64)
     middle = (aligned.min(axis=0) + aligned.max(axis=0)) / 2
     cells = (aligned - middle) / 0.2
     assert 0.2 * np.abs(cells - np.rint(cells)).min() > 1e-5

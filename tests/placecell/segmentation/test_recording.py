@@ -21,7 +21,7 @@ def recording() -> Recording:
         name="toy",
         parameters=Parameters(frame_step=2, th_H=40),
         segments=many_segments([3, 4, 5, 6, 7, 2]),
-        frames=np.array([0, 2, 2, 4, 4, 6]),
+        captures=np.array([0, 2, 2, 4, 4, 6]),
         groups=np.array([0, 0, 1, 0, 2, 2]),
         distinct=np.array([True, False, True, True, True, False]),
         scans=8,
@@ -61,7 +61,7 @@ def test_round_trip_is_identical(file: Path) -> None:
         one, other = getattr(before.segments, name), getattr(after.segments, name)
         assert np.array_equal(one, other)
         assert one.dtype == other.dtype
-    for name in ("frames", "groups", "distinct"):
+    for name in ("captures", "groups", "distinct"):
         one, other = getattr(before, name), getattr(after, name)
         assert np.array_equal(one, other)
         assert one.dtype == other.dtype
@@ -85,7 +85,7 @@ def test_recording_of_nothing(tmp_path: Path) -> None:
     nothing = replace(
         recording(),
         segments=many_segments([]),
-        frames=none,
+        captures=none,
         groups=none,
         distinct=np.zeros(0, dtype=bool),
     )
@@ -96,11 +96,11 @@ def test_recording_of_nothing(tmp_path: Path) -> None:
 
 
 def test_frames_are_told_whether_or_not_a_segment_was_seen() -> None:
-    assert [*recording().frame_scans] == [0, 2, 4, 6]
+    assert [*recording().capture_scans] == [0, 2, 4, 6]
     # What was seen of nothing, and a drive that was cut with another --every.
     every_third = replace(recording(), parameters=Parameters(frame_step=3))
-    assert [*every_third.frame_scans] == [0, 3, 6]
-    assert [*replace(recording(), part=range(3, 8)).frame_scans] == [3, 5, 7]
+    assert [*every_third.capture_scans] == [0, 3, 6]
+    assert [*replace(recording(), part=range(3, 8)).capture_scans] == [3, 5, 7]
 
 
 def test_a_part_of_a_drive_is_not_written_as_if_it_were_whole(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ def as_map(
 ) -> CompactMap:
     """A map as a robot sends it, in a frame of its own; a moment each stand, ten seconds apart."""
     pose = TRUTH[name].inverse()
-    stands, frame_index = np.unique(made.view.stands, axis=0, return_inverse=True)
+    viewpoints, frame_index = np.unique(made.view.viewpoints, axis=0, return_inverse=True)
     count = len(made.view)
     content = CompactMap(
         model_id=model_id,
@@ -48,9 +48,9 @@ def as_map(
         robots=(robot,),
         robot=np.zeros(count, np.uint16),
         frame_index=frame_index.ravel().astype(np.uint32),
-        frame_times=np.array([time + 10.0 * moment for moment in range(len(stands))]),
-        frame_positions=stands,
-        frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (len(stands), 1)),
+        frame_times=np.array([time + 10.0 * moment for moment in range(len(viewpoints))]),
+        frame_positions=viewpoints,
+        frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (len(viewpoints), 1)),
     )
     return canonical(moved(content, pose.rotation, pose.translation, f"{name}'s odometry"))
 

@@ -289,14 +289,14 @@ def test_too_many_at_once_are_told_to_come_again(
 
 def test_a_deadline_is_kept(start: Any, manifest: Manifest, monkeypatch: Any) -> None:
     asked: list[int] = []
-    real = alignment.MapLooks.nearest
+    real = alignment.StoredDescriptorSearch.nearest
 
     def slow(self: Any, rows: Any) -> Any:
         asked.append(len(rows))
         threading.Event().wait(0.2)
         return real(self, rows)
 
-    monkeypatch.setattr(alignment.MapLooks, "nearest", slow)
+    monkeypatch.setattr(alignment.StoredDescriptorSearch, "nearest", slow)
     with start() as service:
         put(service, "east", driven(manifest.model_id, "east", 0, 150))
         answer = service.post("/maps/east/align/east", headers={"Placecell-Timeout": "0.3"})

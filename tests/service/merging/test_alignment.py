@@ -9,7 +9,7 @@ import pytest
 from placecell.core.cancellation import Cancelled
 from placecell.core.types import Float64, Int8, Int64
 from service.merging import alignment
-from service.merging.alignment import MapLooks
+from service.merging.alignment import StoredDescriptorSearch
 
 
 class Index:
@@ -43,19 +43,19 @@ def looks(monkeypatch: pytest.MonkeyPatch) -> Any:
     maps: Any = SimpleNamespace(codes=codes)
     index: Any = Index()
     model: Any = None
-    return MapLooks(model, maps, maps, index, check), index, patience
+    return StoredDescriptorSearch(model, maps, maps, index, check), index, patience
 
 
 def test_A13_search_in_parts_finds_the_same(looks: Any) -> None:
     looks, index, _ = looks
     rows = np.array([3, 3, 59, 0, *range(20, 45)])
-    found, likely = looks.nearest(rows)
+    found, match_probabilities = looks.nearest(rows)
     assert found.ravel().tolist() == rows.tolist()
-    assert (likely == 1.0).all()
+    assert (match_probabilities == 1.0).all()
     assert index.searched == [10, 10, 8]
-    found, likely = looks.nearest(rows[:0])
+    found, match_probabilities = looks.nearest(rows[:0])
     assert found.shape == (0, 1)
-    assert likely.shape == (0, 1)
+    assert match_probabilities.shape == (0, 1)
 
 
 def test_A13_search_and_comparison_stop_between_parts(looks: Any) -> None:
@@ -66,5 +66,5 @@ def test_A13_search_and_comparison_stop_between_parts(looks: Any) -> None:
     assert index.searched == [10, 10]
     patience.left = 3
     with pytest.raises(Cancelled):
-        looks.likely(np.arange(60), np.arange(60))
+        looks.match_probabilities(np.arange(60), np.arange(60))
     assert patience.left == -1

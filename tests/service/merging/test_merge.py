@@ -152,8 +152,8 @@ def test_a_new_site_holds_all_in_the_first_map_s_frame(
         np.testing.assert_array_equal(
             site.frame_times[site.frame_index[rows]], each.frame_times[each.frame_index[theirs]]
         )
-        stands = relative("east", name).apply(each.frame_positions[each.frame_index[theirs]])
-        assert np.abs(site.frame_positions[site.frame_index[rows]] - stands).max() < 0.5
+        viewpoints = relative("east", name).apply(each.frame_positions[each.frame_index[theirs]])
+        assert np.abs(site.frame_positions[site.frame_index[rows]] - viewpoints).max() < 0.5
     (summary,) = [each for each in stocked.get("/maps").json()["maps"] if each["name"] == "site"]
     assert summary["sources"] == {name: len(each) for name, each in sorted(maps.items())}
     assert summary["robots"] == {f"{name} robot": len(each) for name, each in sorted(maps.items())}
@@ -654,7 +654,7 @@ def test_of_three_maps_the_wrong_alignment_is_told_by_how_the_maps_lie(
 def test_where_nothing_tells_which_alignment_is_wrong_none_is_merged_along(
     misled: None, stocked: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(merging, "lies_as_well", lambda *_: False)
+    monkeypatch.setattr(merging, "fits_as_well", lambda *_: False)
     names = ["east", "west", "north"]
     assert_problem(merge(stocked, "site", names), 409, "not-aligned", "nothing was changed")
     told = merge(stocked, "site", names, dry_run=True).json()
