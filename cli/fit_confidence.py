@@ -60,18 +60,16 @@ def fit_confidence(
 ) -> None:
     """Fit the probability that a pose is right, on simulated drives through towns.
 
-    Each model has its own constants. The command writes them into the model's folder, or for the
-    default model into the shared file. Each town is left out of the fit once, to measure how
-    reliable the probabilities are.
+    Each model has its own constants. The command writes them into the model's folder. Each town is
+    left out of the fit once, to measure how reliable the probabilities are.
     """
     from evaluation.poses.confidence import fit
     from evaluation.poses.queries import Pair
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
-    from placecell.localization.confidence import NAME, SHIPPED
+    from placecell.localization.confidence import NAME
 
     folder_of_model = model_folder(model or DEFAULT_MODEL)
-    is_default = folder_of_model == model_folder(DEFAULT_MODEL)
-    file = output or (SHIPPED if is_default else folder_of_model / NAME)
+    file = output or folder_of_model / NAME
     seeds = town or list(TOWNS)
     shares = [TOWNS.get(each, 0.5) if look_alikes is None else look_alikes for each in seeds]
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-towns-") as folder:

@@ -52,4 +52,5 @@ def _compile_all(models: Models, limits: Limits) -> None:
         with suppress(Problem):
             model.describer.prepare(scan, Timing())
     rows = np.arange(SEGMENTS)[:, None]
-    localize(Candidates(centers, rows, centers[:, None], np.ones((SEGMENTS, 1))))
+    candidates = Candidates(centers, rows, centers[:, None], np.ones((SEGMENTS, 1)))
+    localize(candidates, confidence=models.default.confidence)

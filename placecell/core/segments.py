@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -26,7 +27,7 @@ def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
     return sums / counts[:, None], order[first]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Segments:
     """Point clouds of segments, one after the other.
 
@@ -108,11 +109,18 @@ class Segments:
             raise ValueError(f"ends do not divide the {len(self.points)} points into segments")
 
     def centroids(self) -> Float64:
-        """Mean of each segment's points, float64 (segments, 3), meters."""
-        centroids = np.empty((len(self), 3))
+        """Return the mean of each segment's points, float64 (segments, 3), meters.
+
+        The means are computed once; do not change the array.
+        """
+        return self._means
+
+    @cached_property
+    def _means(self) -> Float64:
+        means = np.empty((len(self), 3))
         self.check_ends()
-        _centroids(np.ascontiguousarray(self.points), self.ends, centroids)
-        return centroids
+        _centroids(np.ascontiguousarray(self.points), self.ends, means)
+        return means
 
     def bounds(self) -> tuple[Float32, Float32]:
         """Lowest and highest corner of each segment's axis-aligned box, float32 (segments, 3)."""

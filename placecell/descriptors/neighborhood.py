@@ -56,7 +56,7 @@ def describe_neighborhood(
         order = np.argsort(captures, kind="stable")
         members = np.split(order, np.flatnonzero(np.diff(captures[order])) + 1)
     for together in members:
-        some = segments.take(together)
+        some = segments if frames is None else segments.take(together)
         voxels, owners = voxels_by_owner(some, parameters.voxel)
         counted = np.zeros((len(some), *parameters.shape), dtype=np.float32)
         count_voxels(voxels, owners, some.centroids(), parameters, counted)
@@ -91,13 +91,13 @@ def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
     Returns:
         points, float64 (n, 3); and of each the segment that it belongs to, int64 (n,).
     """
-    means = np.zeros((len(segments.points), 3))
-    owners = np.zeros(len(segments.points), dtype=np.int64)
+    segments.check_ends()
+    points = np.ascontiguousarray(segments.points)
+    means = np.zeros((len(points), 3))
+    owners = np.zeros(len(points), dtype=np.int64)
     sizes = np.zeros(1, dtype=np.int64)
     token = current()
-    _merge(
-        segments.points, segments.ends, np.float32(voxel), SEED, token.flag, means, owners, sizes
-    )
+    _merge(points, segments.ends, np.float32(voxel), SEED, token.flag, means, owners, sizes)
     token.check()
     return means[: sizes[0]], owners[: sizes[0]]
 

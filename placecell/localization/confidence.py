@@ -1,8 +1,9 @@
-"""How probably a pose is right: a logistic model of a few figures, fitted on drives.
+"""Confidence: the probability that a pose is right, a logistic model fitted on drives.
 
-`confidence.json` holds its constants, what they were fitted on, and how well they hold there;
-`placecell fit-confidence` makes it anew. What looks alike to one model does not to another, so each
-model's folder has its own; the one beside this file, of the default model, is for those without.
+`confidence.json` holds the constants of the logistic model, the drives that they were fitted on,
+and how reliable the probabilities are. `placecell fit-confidence` makes the file. Each model has
+its own file in its folder, since scores of two models differ; a model without one uses the default
+model's.
 """
 
 import json
@@ -14,11 +15,16 @@ from typing import Self
 import numpy as np
 
 from placecell.core.types import Float64
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from placecell.localization.hypothesis import Hypothesis
 
 NAME = "confidence.json"
 
-SHIPPED = Path(__file__).with_name(NAME)
+PACKAGED = Path(__file__).with_name(NAME)
+"""Copy of the default model's constants in an installed package, which has no models beside it."""
+
+SHIPPED = PACKAGED if PACKAGED.is_file() else MODELS_FOLDER / DEFAULT_MODEL / NAME
+"""Constants of the default model."""
 
 FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
 
@@ -102,5 +108,5 @@ class Confidence:
 
 @cache
 def shipped() -> Confidence:
-    """The one of the default model."""
+    """Return the constants of the default model."""
     return Confidence.load()
