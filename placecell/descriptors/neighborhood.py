@@ -56,7 +56,7 @@ def describe_neighborhood(
         order = np.argsort(captures, kind="stable")
         members = np.split(order, np.flatnonzero(np.diff(captures[order])) + 1)
     for together in members:
-        some = segments if frames is None else segments.take(together)
+        some = segments if captures is None else segments.take(together)
         voxels, owners = voxels_by_owner(some, parameters.voxel)
         counted = np.zeros((len(some), *parameters.shape), dtype=np.float32)
         count_voxels(voxels, owners, some.centroids(), parameters, counted)
