@@ -1,6 +1,6 @@
 """Localization of a robot in one map or in many maps."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -141,6 +141,9 @@ class LocalizationResult:
 
     def __len__(self) -> int:
         return len(self.maps)
+
+    def __iter__(self) -> Iterator[MapLocalization]:
+        return iter(self.maps)
 
     def __getitem__(self, index: int) -> MapLocalization:
         """Return the localization in one map; the first one is the most probable."""

@@ -1,6 +1,6 @@
 """Matching: the nearest map segments of each query segment."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -110,10 +110,11 @@ class MatchResult:
     def __len__(self) -> int:
         return len(self._descriptors[0])
 
+    def __iter__(self) -> Iterator[list[Candidate] | SegmentError]:
+        return (self[query] for query in range(len(self)))
+
     def __getitem__(self, query: int) -> list[Candidate] | SegmentError:
         """Return the candidates of one query by any model; its error if no model describes it."""
-        if not 0 <= query < len(self):
-            raise IndexError(query)
         by_model = [
             table[rows[query]]
             for table, rows, described in zip(

@@ -19,7 +19,7 @@ from service.api.state import State
 from service.core.auth import Holder
 from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
-from service.search.matching import MatchResult
+from service.search.matching import Candidate
 from service.search.query import Query
 
 router = APIRouter(tags=["recognition"])
@@ -66,7 +66,7 @@ def _search(
     # The same as a `MatchResponse`, without its checks: the values are our own.
     response = {
         "model_id": result.model_id,
-        "queries": Items(len(result), (_item(result, each) for each in range(len(result)))),
+        "queries": Items(len(result), map(_item, result)),
         "dropped_points": result.dropped_points,
         "searched": [stored.name for stored in result.selection.maps],
         "skipped": skipped_maps(result.selection),
@@ -76,7 +76,6 @@ def _search(
     return content
 
 
-def _item(result: MatchResult, query: int) -> dict[str, Any]:
-    """Return the candidates of one query, or its error."""
-    found = result[query]
+def _item(found: list[Candidate] | SegmentError) -> dict[str, Any]:
+    """Return the result of one query."""
     return segment_error(found) if isinstance(found, SegmentError) else {"candidates": found}

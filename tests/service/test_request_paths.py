@@ -1,0 +1,55 @@
+"""The way of a request through the files stays short: docs/explanation/architecture.md tells it."""
+
+from collections.abc import Callable
+from typing import Any
+
+import faiss
+import pytest
+from placecell_client import encode
+
+from placecell.descriptors.extractor import OnnxExtractor
+from placecell.descriptors.manifest import Manifest
+from tests.service.request_tracing import Trace, traced
+from tests.service.service_builders import cloud, map_of, random_codes, request_of
+
+MOST = 15
+"""Largest number of files that a request for recognition passes."""
+
+
+def ended_by(trace: Trace, function: Callable[..., Any]) -> Callable[..., Any]:
+    def stopping(*args: Any, **kwargs: Any) -> Any:
+        trace.stop()
+        return function(*args, **kwargs)
+
+    return stopping
+
+
+@pytest.mark.parametrize("path", ["match", "localize"])
+def test_search_passes_few_files_from_route_to_faiss(
+    start: Callable[..., Any], models_dir: Any, monkeypatch: pytest.MonkeyPatch, path: str
+) -> None:
+    manifest = Manifest.load(models_dir / "onnx")
+    with traced((f"service/api/routes/{path}.py", path)) as trace:
+        monkeypatch.setattr(faiss.IndexFlat, "search", ended_by(trace, faiss.IndexFlat.search))
+        with start(model="onnx") as service:
+            codes = random_codes(50, dimension=manifest.code_bytes)
+            yard = encode(map_of(codes, manifest.model_id))
+            assert service.put("/maps/yard", content=yard).status_code == 201
+            request = request_of([cloud(seed) for seed in range(8)])
+            assert service.post(f"/{path}", json=request).status_code == 200
+    assert trace.has_ended
+    assert "service/maps/index.py" in trace.passed
+    assert len(trace.passed) <= MOST, trace.passed
+
+
+def test_describe_passes_few_files_from_route_to_network(
+    start: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with traced(("service/api/routes/describe.py", "describe")) as trace:
+        monkeypatch.setattr(OnnxExtractor, "_run", ended_by(trace, OnnxExtractor._run))
+        with start(model="onnx") as service:
+            request = request_of([cloud(seed) for seed in range(8)])
+            assert service.post("/describe", json=request).status_code == 200
+    assert trace.has_ended
+    assert "placecell/descriptors/extractor.py" in trace.passed
+    assert len(trace.passed) <= MOST, trace.passed
