@@ -13,7 +13,7 @@ writes two drives along the same streets in opposite directions, in the KITTI od
 
 writes one. A large town has tens of kilometers of streets, of which only what is near is built:
 
-    city = City.build(seed=7, metres=20_000.0)
+    city = City.build(seed=7, meters=20_000.0)
     route = city.route(city.planner.every_street())
     several_robots(Path("out/city"), city, route, robots=2)
 

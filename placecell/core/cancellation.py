@@ -1,8 +1,8 @@
 """Cancellation: a token that stops work whose request is late or whose client disconnected.
 
-A token is set for a request and found by everything below it, in threads too:
+A token is set for a request. All code that the request runs finds it, also in other threads:
 
-    token = current()        # a token that nobody cancels, where there is no request
+    token = current()        # outside of a request: a token that nobody cancels
     token.check()            # in Python, between steps: raises `Cancelled`
     kernel(..., token.flag)  # in compiled loops: `if is_cancelled(flag): return`, then check()
 """
@@ -22,7 +22,7 @@ from llvmlite import ir
 from placecell.core.types import Int32
 
 TURN_SECONDS = 0.1
-"""Interval at which work that waits for a lock looks whether it is to stop."""
+"""Interval at which work that waits for a lock checks its token, seconds."""
 
 
 class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
@@ -33,9 +33,9 @@ class CancelToken:
     """Token that tells work to stop. Safe to share between threads.
 
     Attributes:
-        flag: int32 (1,), not 0 once the work shall stop; compiled loops read it.
-        deadline: time of `time.monotonic` after which the work shall stop, seconds; inf: none.
-            The flag does not follow it by itself: whoever makes the token cancels it in time.
+        flag: int32 (1,), not 0 once the work must stop. Compiled loops read it.
+        deadline: time of `time.monotonic` after which the work must stop, seconds; inf for none.
+            The flag does not change by itself at the deadline: the token's owner cancels it.
     """
 
     __slots__ = ("deadline", "flag")
@@ -50,21 +50,21 @@ class CancelToken:
 
     @property
     def is_cancelled(self) -> bool:
-        """Return whether the work is to stop."""
+        """Whether the work must stop."""
         if not self.flag[0] and time.monotonic() >= self.deadline:
             self.cancel()
         return bool(self.flag[0])
 
     @property
     def seconds_left(self) -> float:
-        """Return the seconds until the deadline, 0 or more; inf without a deadline."""
+        """Seconds until the deadline, 0 or more; inf without a deadline."""
         return max(self.deadline - time.monotonic(), 0.0)
 
     def check(self) -> None:
-        """Raise `Cancelled` if the work is to stop.
+        """Raise `Cancelled` if the work must stop.
 
         Raises:
-            Cancelled: it shall.
+            Cancelled: The token is cancelled, or its deadline has passed.
         """
         if self.is_cancelled:
             raise Cancelled
@@ -74,7 +74,7 @@ _token: ContextVar[CancelToken] = ContextVar("placecell_cancel_token")
 
 
 def current() -> CancelToken:
-    """Return the token of the work at hand; outside of requests, one that nobody cancels."""
+    """Return the token of the current work; outside of a request, a token that nobody cancels."""
     return _token.get(None) or CancelToken()
 
 
@@ -90,10 +90,10 @@ def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
 
 @contextmanager
 def holding(lock: Lock) -> Iterator[None]:
-    """Hold a lock for a block; the wait for it ends when the work is to stop.
+    """Hold a lock for a block. The wait for the lock ends when the work must stop.
 
     Raises:
-        Cancelled: the request became late, or its client left, before its turn.
+        Cancelled: The request became late, or its client disconnected, during the wait.
     """
     token = current()
     while not lock.acquire(timeout=TURN_SECONDS):

@@ -1,4 +1,4 @@
-"""Grid cells: find points that may be near each other, wherever the points are."""
+"""Grid cells: find points that may be near each other, at any coordinates."""
 
 import secrets
 
@@ -17,17 +17,18 @@ LAYER_BITS = 20
 def neighboring(points: Float64, radius: float) -> tuple[Int64, Int64]:
     """Assign points to cells such that points within the radius are in neighboring cells.
 
-    Time is that of sorting, wherever the points are.
+    The time is that of sorting, for any distribution of points.
 
     Args:
         points: float64 (n, 3), meters.
+        radius: distance, meters.
 
     Returns:
-        The cell of each point, int64 (n,); and of each cell itself and those around it,
-        int64 (cells, 27), -1 where there is none. Rarely a cell stands there that is far away: the
-        points must be compared.
+        The cell of each point, int64 (n,), and for each cell itself and the cells around it,
+        int64 (cells, 27), filled up with -1. Hash collisions may add a distant cell, so the caller
+        must compare the points.
     """
-    # A little larger than the radius, so that rounding puts nothing that is near two cells away.
+    # A little larger than the radius, so that rounding never puts a near point two cells away.
     cells = np.nan_to_num(np.floor(points / (radius * (1 + 1e-6))), nan=0.0)
     cells = cells.clip(-(2.0**40), 2.0**40).astype(np.int64)
     keys = np.empty(len(cells), dtype=np.uint64)
@@ -73,7 +74,7 @@ def _look_around(cells: Int64, distinct: UInt64, seed: UInt64, around: Int64) ->
                     cells[row, 2] + layer - 1,
                     seed,
                 )
-                # Of a column, the number follows the one before, where it is not the first again.
+                # In a column the numbers are consecutive, unless the layer wraps to the first.
                 if layer == 0 or key < before:
                     place = _place_of(distinct, key)
                 before = key

@@ -29,10 +29,10 @@ _telling = Lock()
 def compiled(function: Function) -> Function:
     """Compile a function at its first call and keep the machine code on disk.
 
-    Other threads run while it does. The cache is optional: where no folder can be written
-    (`NUMBA_CACHE_DIR`, beside the source, the user's cache), each process compiles anew; a file
-    that is cut, damaged or foreign is replaced; a full disk leaves the file unwritten. The cache
-    does not notice a change in another file, so compiled functions call none of another file.
+    Other threads run while it computes. The cache is optional. If no folder is writable
+    (`NUMBA_CACHE_DIR`, beside the source, the user's cache), each process compiles again. A
+    truncated, damaged or foreign file is replaced. On a full disk nothing is written. The cache
+    does not notice a change in another file: a compiled function calls only functions of its file.
     """
     dispatcher: Any = numba.njit(nogil=True)(function)
     try:
@@ -54,7 +54,7 @@ def compiled_part(function: Function) -> Function:
 
 
 class CheckedCacheFile(IndexDataCacheFile):
-    """Numba cache files with a checksum, because damaged machine code would end the process."""
+    """Numba cache files with a checksum: damaged machine code would crash the process."""
 
     def __init__(self, cache_path: str, filename_base: str, source_stamp: object) -> None:
         super().__init__(cache_path, filename_base, source_stamp)
@@ -100,7 +100,7 @@ class OptionalCache(FunctionCache):
         """Return the compiled code; None if it must be compiled."""
         try:
             return super().load_overload(sig, target_context)
-        # Whatever is wrong with the files, the code can be compiled.
+        # The code can be compiled whatever is wrong with the files.
         except Exception as error:
             tell_once("unreadable", f"{self._name} in {self._cache_path}: {error!r:.200}")
             return None
@@ -109,7 +109,7 @@ class OptionalCache(FunctionCache):
         """Store compiled code if possible."""
         try:
             super().save_overload(sig, data)
-        # A full disk, a folder that was made read-only, a folder in place of the file.
+        # For example: a full disk, a read-only folder, or a folder in place of the file.
         except Exception as error:
             tell_once("unwritable", f"{self._name} in {self._cache_path}: {error!r:.200}")
 

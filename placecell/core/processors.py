@@ -15,8 +15,8 @@ OPENMP = "OMP_NUM_THREADS"
 def available_cores(root: Path = Path("/")) -> int:
     """Return the number of cores that this process may keep busy, at least 1.
 
-    The least of the host's cores, the process's affinity and the CPU quotas of its control groups
-    (version 1 and 2, with those above them). A quota of a part of a core counts as a whole one.
+    It is the minimum of the host's cores, the process's affinity and the CPU quotas of its control
+    groups (versions 1 and 2, with their parents). Fractions of a core are rounded up.
 
     Args:
         root: folder that holds `proc` and `sys`.
@@ -37,8 +37,8 @@ def limit_threads(
 ) -> None:
     """Limit the threads of numeric libraries; call this before they are imported.
 
-    They look at the affinity themselves, so there is something to tell only where a quota is
-    lower. What the environment sets already stays; `OMP_NUM_THREADS` speaks for the others, too.
+    The libraries respect the affinity by themselves, so a limit is set only if a quota is lower.
+    Variables that are already set stay. `OMP_NUM_THREADS` counts for all libraries.
     """
     cores = available_cores(root)
     if OPENMP in environment or cores >= visible_cores():
@@ -59,7 +59,7 @@ def cpu_quotas(root: Path) -> Iterator[float]:
         _, _, rest = line.partition(":")
         controllers, _, path = rest.partition(":")
         for controller in controllers.split(","):
-            paths[controller] = path  # of version 2 the name is empty
+            paths[controller] = path  # version 2 has an empty name
     for version, mounted, mount in cgroup_mounts(mounts):
         controller = "" if version == 2 else "cpu"
         if controller not in paths:

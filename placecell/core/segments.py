@@ -1,4 +1,4 @@
-"""Segments: many point clouds in columns, the form that every step from here on takes."""
+"""Segments: the point clouds of many segments, stored in columns."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,14 +11,14 @@ from placecell.core.types import Float32, Float64, Int64
 
 
 def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
-    """Means of the points that share a key, ordered by key.
+    """Return the mean of the points that share a key, for each key in ascending order.
 
     Args:
         points: float32 (n, 3).
         keys: int64 (n,), none negative.
 
     Returns:
-        float64 (keys, 3); and of each the index of its first point, int64 (keys,).
+        Means, float64 (keys, 3), and the index of each key's first point, int64 (keys,).
     """
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order], prepend=-1))
@@ -29,12 +29,12 @@ def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
 
 @dataclass(frozen=True)
 class Segments:
-    """Point clouds of segments, one after the other.
+    """Point clouds of segments, concatenated.
 
     Attributes:
-        points: float32 (points, 3), meters, one common z-up frame.
-        ends: int64 (segments,): segment i holds points ends[i - 1] to ends[i].
-        sensors: float32 (segments, 3), meters, the same frame: where the sensor was at capture.
+        points: float32 (points, 3), meters, in one z-up frame.
+        ends: int64 (segments,): segment i holds points ends[i - 1] to ends[i] - 1.
+        sensors: float32 (segments, 3), meters, sensor position at capture in the same frame.
     """
 
     points: Float32
@@ -46,7 +46,7 @@ class Segments:
 
     @classmethod
     def of(cls, clouds: Sequence[Float32], sensors: Float32 | Float64) -> "Segments":
-        """From one cloud (n, 3) a segment, and the sensors' positions (segments, 3)."""
+        """Build segments from one cloud (n, 3) each and the sensor positions (segments, 3)."""
         counts = np.array([len(cloud) for cloud in clouds], dtype=np.int64)
         points = np.concatenate(clouds) if len(clouds) else np.zeros((0, 3))
         return cls(
@@ -57,7 +57,7 @@ class Segments:
 
     @classmethod
     def concatenate(cls, parts: "Sequence[Segments]") -> "Segments":
-        """One after the other."""
+        """Concatenate several sets of segments."""
         if not parts:
             return cls.of([], np.zeros((0, 3)))
         shifts = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
@@ -69,25 +69,29 @@ class Segments:
 
     @property
     def starts(self) -> Int64:
-        """int64 (segments,): where each segment's points begin."""
+        """Index of each segment's first point, int64 (segments,)."""
         return np.concatenate([np.zeros(1, dtype=np.int64), self.ends])[:-1]
 
     @property
     def counts(self) -> Int64:
-        """int64 (segments,): points a segment."""
+        """Number of points of each segment, int64 (segments,)."""
         return self.ends - self.starts
 
     @property
     def owners(self) -> Int64:
-        """int64 (points,): the segment that each point belongs to."""
+        """Index of the segment of each point, int64 (points,)."""
         return np.repeat(np.arange(len(self)), self.counts)
 
     def cloud(self, index: int) -> Float32:
-        """Points of one segment, float32 (n, 3)."""
+        """Return the points of one segment, float32 (n, 3)."""
         return self.points[self.ends[index - 1] if index else 0 : self.ends[index]]
 
     def take(self, indices: Int64 | Sequence[int]) -> "Segments":
-        """The segments at these indices, in this order."""
+        """Return the segments at these indices, in this order.
+
+        Raises:
+            TypeError: `indices` is a mask.
+        """
         chosen = np.asarray(indices)
         if chosen.dtype == bool:
             raise TypeError("take indices, not a mask: use numpy.flatnonzero")
@@ -99,10 +103,10 @@ class Segments:
         return Segments(self.points[rows], ends, self.sensors[chosen])
 
     def check_ends(self) -> None:
-        """Before compiled code reads: it would read beyond the points if it were told to.
+        """Check that `ends` divides the points, before compiled code reads them unchecked.
 
         Raises:
-            ValueError: a segment without points, or points of no segment.
+            ValueError: A segment has no points, or a point belongs to no segment.
         """
         total = self.ends[-1] if len(self) else 0
         if total != len(self.points) or (self.counts <= 0).any():
@@ -123,7 +127,7 @@ class Segments:
         return means
 
     def bounds(self) -> tuple[Float32, Float32]:
-        """Lowest and highest corner of each segment's axis-aligned box, float32 (segments, 3)."""
+        """Return the lowest and highest corners of each bounding box, float32 (segments, 3)."""
         if not len(self):
             return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.float32)
         return (

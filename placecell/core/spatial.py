@@ -1,4 +1,4 @@
-"""Points that lie near each other."""
+"""Spatial helpers: points that are near other points."""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -7,31 +7,31 @@ from placecell.core.types import Bool, Float64, Int64
 
 
 def evenly(rows: Int64, most: int) -> Int64:
-    """So many of the rows at most, evenly."""
+    """Return at most `most` of the rows, evenly spaced."""
     if len(rows) <= most:
         return rows
     return rows[np.linspace(0, len(rows) - 1, most).round().astype(np.int64)]
 
 
 WHOLE = 250.0
-"""Metres: a box about places that is no longer is taken whole; a robot sees no farther at once."""
+"""Longest box around places that is used whole, meters. One scan of a robot spans less."""
 
 CELL, CELLS = 10.0, 1_000
-"""Metres a side of the cells of a longer one, at least; and how many are along it, at most."""
+"""Smallest edge length of the cells of a longer box, meters, and their largest number along it."""
 
 
 def within(points: Float64, places: Float64, meters: float) -> Int64:
-    """Indices of the points about places: of all that are near one of them, and of some around.
+    """Return the indices of all points near a place, int64 (k,). Some farther points are included.
 
     Args:
         points: float64 (n, 3), meters.
         places: float64 (m, 3), meters; m > 0.
-        meters: along each axis, up to which a point is near.
+        meters: largest distance along each axis at which a point is near.
     """
     low, high = places.min(axis=0) - meters, places.max(axis=0) + meters
-    # One place far from the rest makes it a box of half the map.
+    # One place far from the others makes the box as large as half the map.
     is_wide = (high - low)[:2].max() > WHOLE
-    # Axis by axis: nearly all of a large map is gone after the first.
+    # One axis after the other: the first leaves few points of a large map.
     inside = np.flatnonzero((points[:, 0] >= low[0]) & (points[:, 0] <= high[0]))
     if is_wide:
         inside = inside[_beside(points[inside, :1], places[:, :1], meters)]
@@ -44,13 +44,15 @@ def within(points: Float64, places: Float64, meters: float) -> Int64:
 
 
 def _beside(points: Float64, places: Float64, meters: float) -> Bool:
-    """Which points (n, d) are in a cell that holds a place (m, d), or in one next to it, bool (n,).
+    """Return whether each point is in the cell of a place or in an adjacent cell, bool (n,).
 
     Args:
-        points: none farther than so many meters beyond the places, along each axis.
+        points: float64 (n, d), at most `meters` outside the places' bounding box.
+        places: float64 (m, d).
+        meters: largest distance along each axis at which a point is near.
     """
     low, high = places.min(axis=0) - meters, places.max(axis=0) + meters
-    # Of twice the meters at least, so that rounding puts nothing that is near two cells away.
+    # At least 2 * meters, so that rounding never puts a near point two cells away.
     cell = max(CELL, 2 * meters, (high - low).max() / CELLS)
     near = np.zeros((CELLS + 3,) * len(low), dtype=bool)
     of_places, of_points = (((each - low) / cell).astype(np.int64) for each in (places, points))
@@ -60,10 +62,19 @@ def _beside(points: Float64, places: Float64, meters: float) -> Bool:
 
 
 def near_pairs(a: Float64, b: Float64, gate: float, most: int) -> tuple[Int64, Int64]:
-    """Points of a (n, 3) and of b (m, 3) that are closer than the gate, indices, int64 (p,) each.
+    """Return the pairs of points of a and of b that are closer than the gate.
 
-    Where these are too many, of fewer and fewer of the points, evenly: segments may lie so densely
-    that each is near all others.
+    If there are more than `most` pairs, evenly spaced points are dropped until they fit: segments
+    may be so dense that each is near all others.
+
+    Args:
+        a: float64 (n, 3), meters.
+        b: float64 (m, 3), meters.
+        gate: distance, meters.
+        most: largest number of pairs.
+
+    Returns:
+        Indices into a and into b, int64 (p,) each.
     """
     share = 1.0
     while True:

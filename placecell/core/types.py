@@ -1,4 +1,4 @@
-"""Array types, by element: shapes stand in the docstrings."""
+"""Array types by element type. Docstrings give the shapes."""
 
 import numpy as np
 from numpy.typing import NDArray

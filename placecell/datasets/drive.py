@@ -171,7 +171,7 @@ class Drive(ABC):
         return hashlib.sha256(content).hexdigest()[:16]
 
     def path_length(self) -> float:
-        """Metres driven."""
+        """Meters driven."""
         return float(np.linalg.norm(np.diff(self.poses[:, :3, 3], axis=0), axis=1).sum())
 
 

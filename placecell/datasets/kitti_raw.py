@@ -19,7 +19,7 @@ from placecell.datasets.errors import DriveError
 from placecell.datasets.scan_options import current_scan_options
 
 EARTH_RADIUS = 6_378_137.0
-"""Metres, WGS 84's equatorial radius, as in KITTI's development kit."""
+"""Meters, WGS 84's equatorial radius, as in KITTI's development kit."""
 
 OXTS_COLUMNS = 30
 

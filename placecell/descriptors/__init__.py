@@ -1,1 +1,1 @@
-"""Descriptors: orientation, voxels, neighborhood, extractors and stored codes."""
+"""Descriptors: orientation, voxels, neighborhood, extractors and codes."""

@@ -1,8 +1,8 @@
-"""SegMatch's eigenvalue descriptor, the paper's baseline.
+"""Eigenvalue descriptor of SegMatch, the paper's baseline.
 
-Source: Weinmann et al. 2014, *Semantic 3D scene interpretation*, section 4. Earlier systems sorted
-the eigenvalues ascending under formulas that want them descending, and forgot the entropy's minus
-sign; here l1 >= l2 >= l3.
+Source: Weinmann et al. 2014, *Semantic 3D scene interpretation*, section 4. Eigenvalues are sorted
+in descending order, l1 >= l2 >= l3. (Earlier systems sorted them in ascending order and omitted the
+minus sign of the entropy.)
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ FEATURES = (
 
 
 def eigenvalues(segments: Segments) -> Float64:
-    """Variances along the principal axes, m^2, largest first: float64 (segments, 3)."""
+    """Return the variances along the principal axes, m^2, descending, float64 (segments, 3)."""
     if not len(segments):
         return np.zeros((0, 3))
     centered = segments.points - np.repeat(segments.centroids(), segments.counts, axis=0)
@@ -32,10 +32,10 @@ def eigenvalues(segments: Segments) -> Float64:
 
 
 def eigenvalue_features(values: Float64) -> Float64:
-    """The seven features of eigenvalues l1 >= l2 >= l3, float64 (n, 3) -> (n, 7).
+    """Return the seven features, float64 (n, 7), of eigenvalues l1 >= l2 >= l3, float64 (n, 3).
 
-    Omnivariance and eigenentropy use the eigenvalues normalized to sum one. All points on one
-    spot (l1 = 0) give zeros.
+    Omnivariance and eigenentropy use eigenvalues that are normalized to a sum of 1. A segment whose
+    points coincide (l1 = 0) has features 0.
     """
     largest = np.where(values[:, :1] > 0, values[:, :1], 1.0)
     total = np.where(values[:, :1] > 0, values.sum(axis=1, keepdims=True), 1.0)
@@ -49,5 +49,5 @@ def eigenvalue_features(values: Float64) -> Float64:
 
 
 def eigenvalue_descriptors(segments: Segments) -> Float32:
-    """The seven features of each segment, not yet standardized: float32 (segments, 7)."""
+    """Return the seven features of each segment, not standardized, float32 (segments, 7)."""
     return eigenvalue_features(eigenvalues(segments)).astype(np.float32)

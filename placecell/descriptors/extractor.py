@@ -1,4 +1,4 @@
-"""Extractors: from segments to descriptors, the same in training's evaluation and in serving."""
+"""Descriptor extractors, used by both evaluation and service."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -22,23 +22,23 @@ from placecell.descriptors.voxels import voxelize_oriented
 
 MODEL_FILE = "model.onnx"
 BATCH = 16
-"""Segments an inference; larger batches are slower on a CPU (their activations leave the cache)."""
+"""Segments per inference. Larger batches are slower on a CPU: their activations leave the cache."""
 
 
 Inputs = dict[str, NDArray[Any]]
-"""Of a model, by name; the rows of each are the segments."""
+"""Inputs of a model by name. The rows of each array are the segments."""
 
 Lap = Callable[[str], None]
-"""Told the name of each step as it ends."""
+"""Callback that receives the name of each step when the step ends."""
 
 
 def unwatched(step: str) -> None:
-    """Nobody wants to know how long the steps take."""
+    """Ignore the end of a step."""
     del step
 
 
 class Extractor(ABC):
-    """Describes segments: prepares its inputs, and infers descriptors from them."""
+    """Extractor of descriptors: prepares a model's inputs and infers descriptors from them."""
 
     manifest: Manifest
 
@@ -46,24 +46,32 @@ class Extractor(ABC):
     def prepare(
         self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
-        """The model's inputs. The arguments are those of `describe`."""
+        """Return the model's inputs.
+
+        Args:
+            segments: see `describe`.
+            neighborhood: see `describe`.
+            lap: receives the name of each step when it ends.
+        """
 
     @abstractmethod
     def infer(self, inputs: Inputs) -> Float32:
-        """Descriptors, float32 (rows, dimension); of a row the same whatever the others are."""
+        """Return descriptors, float32 (rows, dimension). Rows do not influence each other."""
 
     def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
-        """Descriptors, float32 (segments, dimension).
+        """Return descriptors, float32 (segments, dimension).
 
         Args:
-            neighborhood: of each segment (`describe_neighborhood`); None: the segments were seen
-                together, and surround one another. Of no matter to a model that does not look.
+            segments: segments in one z-up frame.
+            neighborhood: neighborhood of each segment (`describe_neighborhood`). None: all segments
+                belong to one capture and form each other's neighborhood. Models without
+                neighborhood ignore it.
         """
         return self.infer(self.prepare(segments, neighborhood))
 
 
 class EigenvalueExtractor(Extractor):
-    """The baseline: seven features, standardized on the training statistics."""
+    """Extractor of the baseline: seven eigenvalue features, standardized by training statistics."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest
@@ -73,27 +81,27 @@ class EigenvalueExtractor(Extractor):
     def prepare(
         self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
-        """The features, float32 (segments, 7)."""
-        del neighborhood, lap  # of no matter to these features
+        """Return the features, float32 (segments, 7)."""
+        del neighborhood, lap  # not used by these features
         return {"features": eigenvalue_descriptors(segments)}
 
     def infer(self, inputs: Inputs) -> Float32:
-        """Descriptors, float32 (rows, 7)."""
+        """Return descriptors, float32 (rows, 7)."""
         return np.asarray((inputs["features"] - self._mean) / self._deviation, dtype=np.float32)
 
 
 class OnnxExtractor(Extractor):
-    """A learned extractor: align, voxelize, and run the exported network.
+    """Learned extractor: orients and voxelizes segments, then runs the exported network.
 
-    The batches of a call are spread over the cores. Each core has a session of one thread: threads
-    within an inference wait for one another at every layer, and inferences within a session for
-    its memory.
+    The batches of a call are distributed over the cores. Each core has a session with one thread:
+    threads of one inference wait for each other at every layer, and inferences of one session wait
+    for its memory.
     """
 
     def __init__(self, folder: Path, manifest: Manifest, threads: int = 0) -> None:
         if MODEL_FILE not in manifest.files:
-            # Neither the model's id nor the check of its files would cover the network.
-            raise ModelError(f"{folder / FILE}: does not give the SHA-256 of {MODEL_FILE}")
+            # Neither the model's id nor the check of the files would cover the network.
+            raise ModelError(f"{folder / FILE}: the SHA-256 of {MODEL_FILE} is missing")
         self.manifest = manifest
         threads = threads or available_cores()
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="describe")
@@ -101,7 +109,7 @@ class OnnxExtractor(Extractor):
         try:
             for _ in range(threads):
                 self._idle.put(one_thread_session(folder / MODEL_FILE))
-            # What compiles at its first use does so now, and not while a robot waits.
+            # Compile now, not while a robot waits.
             self.describe(Segments.of([np.zeros((1, 3), np.float32)], np.zeros((1, 3))))
         # onnxruntime's exceptions share no narrower base class than this.
         except Exception as error:
@@ -110,7 +118,7 @@ class OnnxExtractor(Extractor):
     def prepare(
         self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
-        """Occupancy grids, extents and, of a model that looks around, surroundings."""
+        """Return occupancy grids, extents and, if the model uses it, the neighborhood."""
         inputs: Inputs = {}
         parameters = self.manifest.neighborhood
         if parameters is not None:
@@ -129,7 +137,7 @@ class OnnxExtractor(Extractor):
         return inputs
 
     def infer(self, inputs: Inputs) -> Float32:
-        """Descriptors, float32 (rows, dimension); the same whatever the number of threads."""
+        """Return descriptors, float32 (rows, dimension), for any number of threads the same."""
 
         def some(first: int, end: int) -> Float32:
             return self._run({name: rows[first:end] for name, rows in inputs.items()})
@@ -137,7 +145,7 @@ class OnnxExtractor(Extractor):
         return self._in_batches(some, len(inputs["extents"]))
 
     def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
-        """Descriptors, float32 (segments, dimension), a batch at a time: grids are large."""
+        """Return descriptors, float32 (segments, dimension), batch by batch: grids are large."""
         parameters = self.manifest.neighborhood
         if parameters is not None and neighborhood is None:
             neighborhood = describe_neighborhood(segments, None, parameters)
@@ -150,11 +158,11 @@ class OnnxExtractor(Extractor):
         return self._in_batches(some, len(segments))
 
     def _in_batches(self, some: Callable[[int, int], Float32], count: int) -> Float32:
-        """What some rows become, from the first to the end, for all rows."""
-        # Of one size, so that no core waits for another's last batch.
+        """Apply `some` to batches of rows and concatenate the descriptors."""
+        # Batches of one size, so that no core waits for another's last batch.
         bounds = np.linspace(0, count, -(-count // BATCH) + 1).astype(int).tolist()
         batches = bounds[:-1], bounds[1:]
-        # A single batch is not worth the way to another thread.
+        # A single batch runs in this thread.
         parts = self._pool.map(some, *batches) if len(bounds) > 2 else map(some, *batches)
         return np.concatenate([np.zeros((0, self.manifest.dimension), np.float32), *parts])
 
@@ -168,7 +176,7 @@ class OnnxExtractor(Extractor):
 
 
 def one_thread_session(file: Path) -> onnxruntime.InferenceSession:
-    """A network whose inferences are computed by the thread that asks."""
+    """Return a session that computes each inference in the calling thread."""
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.log_severity_level = 3
@@ -176,22 +184,22 @@ def one_thread_session(file: Path) -> onnxruntime.InferenceSession:
 
 
 def load_extractor(folder: Path, threads: int = 0) -> Extractor:
-    """Load the model of a folder.
+    """Load a model.
 
     Args:
-        folder: with `manifest.json` and what it names.
-        threads: cores to use; 0: all that there are.
+        folder: model folder, with `manifest.json` and the files that it names.
+        threads: number of cores to use; 0 for all available cores.
 
     Raises:
-        ModelError: the folder holds no usable model.
+        ModelError: The folder holds no usable model.
     """
     manifest = Manifest.load(folder)
     if manifest.method == "eigenvalue":
         lengths = [len(manifest.standardization.get(name, ())) for name in ("mean", "deviation")]
         if lengths != [len(FEATURES)] * 2:
             raise ModelError(
-                f"{folder / FILE}: its 'standardization' needs 'mean' and 'deviation', "
-                f"{len(FEATURES)} numbers each"
+                f"{folder / FILE}: 'standardisation' must have 'mean' and 'deviation' with "
+                f"{len(FEATURES)} numbers each. Use an unchanged manifest"
             )
         return EigenvalueExtractor(manifest)
     return OnnxExtractor(folder, manifest, threads)

@@ -1,7 +1,8 @@
-"""A model's manifest: what it is, what it needs, what made it.
+"""Model manifest: identity, preprocessing, files, training and figures of a model.
 
-`models/NAME/manifest.json` beside `model.onnx`. The id is a hash of all that decides a descriptor's
-value; descriptors, maps and responses carry it, and those of different ids are never compared.
+The manifest is `models/NAME/manifest.json`, beside `model.onnx`. The model's id is a hash of
+everything that determines the values of descriptors. Descriptors, maps and responses carry the id;
+descriptors of different ids are never compared.
 """
 
 import hashlib
@@ -17,38 +18,38 @@ from placecell.descriptors.quantizer import Quantizer
 FILE = "manifest.json"
 
 PAIR_FILE = "pair.onnx"
-"""The pair classifier judges descriptors, but does not decide them: no part of the id."""
+"""File of the pair classifier. It does not influence descriptors, so it is not part of the id."""
 
 FULL_FILE = "model-fp32.onnx"
-"""Of a model that is served in 8-bit integers: what these were made from. No part of the id."""
+"""File of the float32 network of a model that is served with 8-bit integers. Not part of the id."""
 
 
 JSON_KEYS = {"quantizer": "quantiser", "standardization": "standardisation"}
-"""Keys of `manifest.json` that differ from the attribute's name; published models have them."""
+"""Keys of `manifest.json` that differ from the attribute's name, kept for published models."""
 
 
 class ModelError(ValueError):
-    """A model folder that cannot be used; the message says which file and why."""
+    """Model folder that cannot be used. The message names the file and the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What `manifest.json` holds.
+    """Content of `manifest.json`.
 
     Attributes:
-        name: as the folder in `models/`.
-        method: how it was trained (`group`, ...), or `eigenvalue`.
-        network: the network's name; empty for `eigenvalue`.
-        dimension: of the descriptor.
-        quantizer: to the stored form.
-        preprocessing: the constants from points to the network's input.
-        files: SHA-256 of each of the model's files, by name.
+        name: name of the folder in `models/`.
+        method: training method (`group`, ...), or `eigenvalue`.
+        network: name of the network; empty for `eigenvalue`.
+        dimension: number of values of a descriptor.
+        quantizer: encoder of descriptors into codes.
+        preprocessing: constants from points to the network's input.
+        files: SHA-256 of each file of the model, by name.
         standardization: mean and standard deviation of the eigenvalue features in training.
-        pair_threshold: distance of stored descriptors below which a pair is called a match.
-        pair: the pair classifier: its `kind`, the `threshold` of its probability, and how the
-            kinds compared on validation; empty if there is none. Not part of the id.
-        training: drives, scans and their hashes, seed, time, licenses: not part of the id.
-        figures: measured; not part of the id.
+        pair_threshold: distance of decoded descriptors below which a pair is a match.
+        pair: the pair classifier's `kind`, the `threshold` of its probability and the comparison of
+            the kinds on validation; empty without a classifier. Not part of the id.
+        training: drives, scans and their hashes, seed, time and licenses. Not part of the id.
+        figures: measured results. Not part of the id.
     """
 
     name: str
@@ -66,7 +67,7 @@ class Manifest:
 
     @property
     def model_id(self) -> str:
-        """The name and a hash of all that decides a descriptor's value."""
+        """Name and hash of everything that determines a descriptor's values."""
         decisive = {
             "method": self.method,
             "dimension": self.dimension,
@@ -81,7 +82,7 @@ class Manifest:
         return f"{self.name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
     def with_files(self, folder: Path, names: list[str]) -> "Manifest":
-        """The same with the hashes of these files of the folder."""
+        """Return a copy with the hashes of these files of the folder."""
         return replace(self, files={name: file_hash(folder / name) for name in names})
 
     def save(self, folder: Path) -> None:
@@ -97,7 +98,7 @@ class Manifest:
         """Read `manifest.json` and check every file of the model against its hash.
 
         Raises:
-            ModelError: missing, malformed, altered, or made for other preprocessing.
+            ModelError: A file is missing, malformed or altered, or the preprocessing differs.
         """
         file = folder / FILE
         try:
@@ -115,20 +116,29 @@ class Manifest:
         for name, stated in manifest.files.items():
             path = folder / name
             if Path(name).name != name or not path.is_file():
-                raise ModelError(f"{path}: missing, but named in {file}")
+                raise ModelError(f"{path}: missing, but named in {file}. Get the model again")
             if file_hash(path) != stated:
-                raise ModelError(f"{path}: its SHA-256 is not the one in {file}; get both anew")
+                raise ModelError(
+                    f"{path}: its SHA-256 differs from the one in {file}. Get both again"
+                )
         if manifest.model_id != stated_id:
-            raise ModelError(f"{file}: states the id {stated_id}, but is {manifest.model_id}")
+            raise ModelError(
+                f"{file}: states the id {stated_id}, but its content has the id "
+                f"{manifest.model_id}. Get the model again"
+            )
         if manifest.preprocessing.get("version") != PREPROCESSING_VERSION:
             raise ModelError(
-                f"{file}: made for preprocessing version {manifest.preprocessing.get('version')}; "
-                f"this program has version {PREPROCESSING_VERSION}: train the model again"
+                f"{file}: made for preprocessing version {manifest.preprocessing.get('version')}, "
+                f"expected {PREPROCESSING_VERSION}. Train the model again"
             )
         return manifest
 
     def has_seen(self, scan_hashes: Iterable[str]) -> bool:
-        """Whether the model was trained on any of these scans, wherever they lay."""
+        """Return whether the model was trained on any of these scans, in whichever folder.
+
+        Args:
+            scan_hashes: hashes of scans (`Drive.scan_hash`).
+        """
         trained: set[str] = set()
         for source in self.training.get("sources", []):
             trained.update(source["scan_hashes"])
@@ -136,12 +146,12 @@ class Manifest:
 
     @property
     def code_bytes(self) -> int:
-        """Bytes of a stored descriptor."""
+        """Number of bytes of a code."""
         return self.quantizer.code_bytes(self.dimension)
 
     @property
     def neighborhood(self) -> NeighborhoodParameters | None:
-        """How the surroundings are described; None if the model looks at each segment alone."""
+        """Parameters of the neighborhood; None if the model uses each segment alone."""
         constants = self.preprocessing.get("surroundings")
         if constants is None:
             return None
@@ -154,7 +164,7 @@ class Manifest:
 
     @property
     def parameters(self) -> Parameters:
-        """Protocol v1 with this model's grid."""
+        """Parameters of protocol v1 with this model's grid."""
         return Parameters(
             grid=tuple(self.preprocessing["grid"]), grid_voxel=self.preprocessing["grid_voxel"]
         )
@@ -163,18 +173,18 @@ class Manifest:
 def preprocessing_of(
     parameters: Parameters, neighborhood: NeighborhoodParameters | None = None
 ) -> dict[str, Any]:
-    """The constants from a segment's points to the network's input, for a manifest."""
+    """Return the constants from a segment's points to the network's input, for a manifest."""
     constants: dict[str, Any] = {
         "version": PREPROCESSING_VERSION,
         "grid": list(parameters.grid),
         "grid_voxel": parameters.grid_voxel,
     }
     if neighborhood is not None:
-        # As JSON has it, so that the id is the same before and after it was written.
+        # Through JSON, so that the id is the same before writing and after reading.
         constants["surroundings"] = json.loads(json.dumps(asdict(neighborhood)))
     return constants
 
 
 def file_hash(file: Path) -> str:
-    """SHA-256 of a file, in hex."""
+    """Return the SHA-256 of a file, in hex."""
     return hashlib.sha256(file.read_bytes()).hexdigest()

@@ -1,8 +1,8 @@
-"""What stands around a segment: the strongest evidence of where it is (beyond the paper).
+"""Neighborhood of a segment: a histogram of the other segments around it (beyond the paper).
 
-A segment by itself is often like a hundred others; what stands around it is not. The other
-segments of the same scan are counted in rings about its centroid, by height above it. Directions
-are averaged out, so that robots need not agree on where north is, nor come from the same side.
+One segment often resembles a hundred others; its neighborhood does not. The other segments of the
+same capture are counted in rings around its centroid and in layers of height. Directions are
+averaged, so robots need neither a common north nor the same direction of travel.
 """
 
 import secrets
@@ -20,16 +20,16 @@ SECTORS = 16
 TAN_22_5 = np.tan(np.pi / 8)
 
 CELLS = 1 << 13
-"""Voxels along an edge of a segment's box, at most."""
+"""Largest number of voxels along an edge of a segment's bounding box."""
 
 SEED: UInt64 = np.array([secrets.randbits(64), secrets.randbits(64) | 1], dtype=np.uint64)
 """Seed of the voxel hash tables, new in each process: nobody can choose points that collide."""
 
 STRIP = 5.0
-"""Edge of the cells in which near voxels are looked up, meters."""
+"""Edge length of the cells in which near voxels are found, meters."""
 
 STRIPS = 1 << 20
-"""Largest number of cells from the middle to either side; farther voxels share the last cell."""
+"""Largest number of cells from the origin to either side. Farther voxels share the last cell."""
 
 BLOCK = 1024
 """Voxels counted together, so that intermediate values stay in the nearest cache."""
@@ -40,15 +40,16 @@ def describe_neighborhood(
     captures: Int64 | None = None,
     parameters: NeighborhoodParameters = NEIGHBORHOOD_V1,
 ) -> Float32:
-    """Histograms of what stands around each segment.
+    """Return the neighborhood histogram of each segment.
 
     Args:
-        segments: in a common z-up frame.
-        captures: int64 (segments,), which were seen together; None: all of them.
+        segments: segments in one z-up frame.
+        captures: int64 (segments,), capture of each segment; None: all belong to one capture.
+        parameters: voxel size, rings and layers.
 
     Returns:
-        float32 (segments, rings x heights): log(1 + voxels) in each ring and layer, averaged over
-        the directions; all zero for a segment that stands alone.
+        float32 (segments, rings x layers): log(1 + voxels) in each ring and layer, averaged over
+        the directions. A segment without neighbors has zeros.
     """
     found = np.zeros((len(segments), *parameters.shape), dtype=np.float32)
     members = [np.arange(len(segments))]
@@ -68,7 +69,7 @@ def describe_neighborhood(
 def slot_of(key: int, seed: UInt64, slots: int) -> np.int64:
     """Return a key's slot in a hash table whose size is a power of two, at most 2**31.
 
-    The finalizer of MurmurHash3 (Appleby) behind a secret affine step.
+    It is the finalizer of MurmurHash3 (Appleby) after a secret affine step.
     """
     mixed = (np.uint64(key) + seed[0]) * seed[1]
     mixed = (mixed ^ (mixed >> np.uint64(33))) * np.uint64(0xFF51AFD7ED558CCD)
@@ -77,19 +78,20 @@ def slot_of(key: int, seed: UInt64, slots: int) -> np.int64:
 
 
 def voxels_by_owner(segments: Segments, voxel: float) -> tuple[Float64, Int64]:
-    """Return one point for each voxel that a segment fills: the mean of its points there.
+    """Return the mean point of each voxel that a segment occupies.
 
-    The voxels of a segment begin at its lowest corner: neither the frame's origin nor the other
-    segments make a difference.
+    A segment's voxels begin at its lowest corner, so the result depends neither on the frame's
+    origin nor on the other segments.
 
     Args:
-        voxel: edge, meters.
-
-    Raises:
-        Cancelled: nobody waits for it any longer.
+        segments: segments in one frame.
+        voxel: edge length, meters.
 
     Returns:
-        points, float64 (n, 3); and of each the segment that it belongs to, int64 (n,).
+        Points, float64 (n, 3), and the index of each point's segment, int64 (n,).
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     segments.check_ends()
     points = np.ascontiguousarray(segments.points)
@@ -113,11 +115,11 @@ def _merge(
     owners: Int64,
     sizes: Int64,
 ) -> None:
-    """Fill `means` and `owners`; return how many there are.
+    """Fill `means` and `owners`, and `sizes` with their number.
 
-    Voxels are told apart by a hash table of each segment (linear probing; Knuth, The Art of
-    Computer Programming, 6.4): sorting all points takes twice the time. The hash is seeded; voxels
-    are numbered in the order of their first points, so the seed makes no difference.
+    Each segment has a hash table of voxels (linear probing; Knuth, *The Art of Computer
+    Programming*, 6.4). Sorting all points takes twice the time. Voxels are numbered in the order of
+    their first points, so the seed of the hash does not change the result.
     """
     longest, start = 1, 0
     for end in ends:
@@ -148,8 +150,8 @@ def _merge(
                 (points[point, 1] - low_y) / voxel,
                 (points[point, 2] - low_z) / voxel,
             ):
-                # No segment is thousands of meters long; what lies beyond shares the last cell.
-                # As it stands, so that a coordinate that is no number is in the first.
+                # No segment is thousands of meters long; points beyond share the last cell.
+                # Written so that a NaN coordinate is in the first cell.
                 key = key * CELLS + (min(int(min(cell, CELLS)), CELLS - 1) if cell > 0 else 0)
             slot = slot_of(key, seed, slots)
             while table[slot] >= 0 and keys[slot] != key:
@@ -178,19 +180,21 @@ def count_voxels(
     """Fill `found`, (segments, rings, layers), from the voxels near each segment.
 
     Args:
-        voxels: float64 (n, 3), those of a segment one after the other.
-        owners: int64 (n,), ascending: the segment that each belongs to.
-        centroids: float64 (segments, 3).
+        voxels: float64 (n, 3), meters, ordered by segment.
+        owners: int64 (n,), ascending, segment of each voxel.
+        centroids: float64 (segments, 3), meters.
+        parameters: rings and layers.
+        found: float32 (segments, rings, layers), filled by this function.
 
     Raises:
-        Cancelled: nobody waits for it any longer.
+        Cancelled: The request is late, or its client disconnected.
     """
     rings = parameters.ring_of_meter()
     reach = len(rings)
-    # A last ring, which nobody reads, takes what is out of reach.
+    # A last ring, which is not read, takes the voxels out of reach.
     rings = np.append(rings, len(parameters.rings))
     bounds = np.searchsorted(owners, np.arange(len(centroids) + 1))
-    # A coordinate that is no number is out of reach.
+    # A NaN coordinate is out of reach.
     usable = np.flatnonzero(np.isfinite(voxels[:, :2]).all(axis=1))
     keys = _cell_of(voxels[usable, 1]) * (4 * STRIPS) + _cell_of(voxels[usable, 0])
     order = np.argsort(keys, kind="stable")
@@ -208,7 +212,7 @@ def count_voxels(
 
 
 def _cell_of(coordinates: Float64) -> Int64:
-    """Return the number of the cell along an axis, from 0 on; NaN is in cell 0."""
+    """Return the number of the cell along an axis, 0 or more. NaN is in cell 0."""
     cells = np.nan_to_num(np.floor(coordinates / STRIP), nan=-np.inf)
     return cells.clip(-STRIPS, STRIPS).astype(np.int64) + STRIPS
 
@@ -232,10 +236,10 @@ def _count(
     flag: Int32,
     found: Float32,
 ) -> None:
-    """Fill `found`; voxels come in the order of cells and again in the order of owners.
+    """Fill `found`. Voxels are given in the order of cells and in the order of owners.
 
-    A segment's own voxels are counted with the others and taken out again: counts are whole
-    numbers, so nothing is left of them.
+    A segment's own voxels are first counted with the others and then subtracted. Counts are
+    integers, so the subtraction is exact.
     """
     row = 4 * STRIPS
     counts = np.zeros((found.shape[1] + 1, found.shape[2], SECTORS), dtype=np.int64)
@@ -293,18 +297,18 @@ def _place(
     layers: Int64,
     sectors: Int64,
 ) -> None:
-    """Fill meters from a centroid (reach: too far), layer and sector of a block of voxels.
+    """Fill distance in whole meters (reach: too far), layer and sector of a block of voxels.
 
-    Each loop does one thing without a branch, so that several voxels go through at once.
+    Each loop has one operation and no branch, so that the compiler vectorizes it.
     """
     squared_reach = float(reach * reach)
     for place in range(len(xs)):
         dx = abs(xs[place] - x)
         dy = abs(ys[place] - y)
         squared = dx * dx + dy * dy
-        # As it stands, so that a coordinate that is no number is out of reach.
+        # Written so that a NaN coordinate is out of reach.
         is_near = squared < squared_reach
-        # The root of what is just short of the reach may round up to it.
+        # The root of a value just below the reach may round up to it.
         meter = min(int(np.sqrt(squared if is_near else 0.0)), reach - 1)
         meters[place] = meter if is_near else reach
     for place in range(len(xs)):

@@ -1,7 +1,7 @@
-"""Alignment to the robot (paper III-A).
+"""Orientation of a segment toward the sensor (paper III-A).
 
-A segment is turned about z so that the robot's position at capture lies on its positive x axis:
-the side of the surface that the robot saw always points the same way.
+A segment is turned about z so that the sensor position at capture lies on its positive x axis. So
+the visible side of the surface always points in the same direction.
 """
 
 import numpy as np
@@ -12,19 +12,19 @@ from placecell.core.types import Float32, Float64, Int64
 
 
 def sensor_bearings(segments: Segments) -> Float64:
-    """Bearing of the sensor from each segment's centroid: radians about z, float64 (segments,).
+    """Return the bearing of the sensor from each centroid, radians about z, float64 (segments,).
 
-    A sensor straight above or below the centroid (within a micrometer) has bearing 0.
+    The bearing is 0 if the sensor is exactly above or below the centroid (within a micrometer).
     """
     return _bearings(segments.sensors, segments.centroids())
 
 
 def orient(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
-    """Points about their segment's centroid, the robot on the positive x axis.
+    """Return points relative to their segment's centroid, with the sensor on the positive x axis.
 
     Args:
-        segments: in a common z-up frame.
-        yaw: turned further by so many radians (segments,): augmentation by rotated copies.
+        segments: segments in one z-up frame.
+        yaw: additional rotation about z, radians, float64 (segments,): augmentation by rotation.
 
     Returns:
         float32 (points, 3), meters.
@@ -55,7 +55,7 @@ def _turn(
     sines: Float64,
     oriented: Float32,
 ) -> None:
-    """Each point minus its segment's centroid, turned about z; float64 until it is stored."""
+    """Fill `oriented` with each point minus its centroid, turned about z in float64."""
     start = 0
     for segment in range(len(ends)):
         x, y, z = centroids[segment, 0], centroids[segment, 1], centroids[segment, 2]

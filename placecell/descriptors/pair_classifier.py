@@ -1,7 +1,7 @@
-"""The pair classifier: how likely two stored descriptors are of the same group.
+"""Pair classifier: match probability of two stored descriptors.
 
-Exported beside the extractor as `pair.onnx`: decoded descriptors `a` and `b`, float32 (n, d) each,
-to `probability`, float32 (n,). It does not depend on the order of the pair.
+It is exported beside the extractor as `pair.onnx`. Inputs are the decoded descriptors `a` and `b`,
+float32 (n, d) each; the output is `probability`, float32 (n,). The order of a pair is irrelevant.
 """
 
 from pathlib import Path
@@ -14,11 +14,11 @@ from placecell.descriptors.extractor import one_thread_session
 from placecell.descriptors.manifest import PAIR_FILE, Manifest, ModelError
 
 PAIRS = 1 << 13
-"""Pairs decoded and classified at once: as floats, a pair of 128 dimensions takes kilobytes."""
+"""Pairs per inference: decoded, a pair of 128 dimensions takes kilobytes."""
 
 
 class PairClassifier:
-    """Gives the probability of a match from descriptors as they are stored."""
+    """Classifier that returns the match probability of pairs of codes."""
 
     def __init__(self, folder: Path, manifest: Manifest) -> None:
         self._quantizer = manifest.quantizer
@@ -29,10 +29,14 @@ class PairClassifier:
             raise ModelError(f"{folder / PAIR_FILE}: cannot be loaded ({error})") from error
 
     def probabilities(self, a: Int8, b: Int8) -> Float64:
-        """Return the match probabilities, float64 (n,), of codes int8 (n, code bytes) each.
+        """Return the match probability of each pair, float64 (n,).
+
+        Args:
+            a: codes, int8 (n, code bytes).
+            b: codes, int8 (n, code bytes).
 
         Raises:
-            Cancelled: the work is to stop.
+            Cancelled: The request is late, or its client disconnected.
         """
         probabilities = np.empty(len(a))
         for begin in range(0, len(a), PAIRS):
@@ -44,9 +48,9 @@ class PairClassifier:
 
 
 def load_pair_classifier(folder: Path, manifest: Manifest) -> PairClassifier | None:
-    """The classifier of a model's folder; None if it has none.
+    """Load the classifier of a model folder; return None if the model has none.
 
     Raises:
-        ModelError: it cannot be loaded.
+        ModelError: The classifier cannot be loaded.
     """
     return PairClassifier(folder, manifest) if PAIR_FILE in manifest.files else None

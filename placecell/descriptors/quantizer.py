@@ -1,4 +1,4 @@
-"""Descriptors as they are stored: a dimension a byte, or several that share one."""
+"""Quantizer: encodes descriptors into codes, one dimension per byte or several per byte."""
 
 from dataclasses import dataclass
 
@@ -7,22 +7,26 @@ import numpy as np
 from placecell.core.types import Float32, Int8, Int64
 
 LEVELS = {1: 255, 2: 15, 3: 6, 4: 4}
-"""Of a dimension, by how many dimensions share a byte: their product fits into one."""
+"""Number of levels of a dimension by the number of dimensions that share a byte."""
 
 REACH = {1: 0.9995, 2: 0.99, 3: 0.94, 4: 0.85}
-"""Share of the values seen in training that lie within reach: few levels are best spent near 0."""
+"""Share of the training values within the range of the levels, by dimensions per byte.
+
+With few levels, a smaller range with finer steps near 0 is better.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Quantizer:
-    """Uniform levels, the same for every dimension, so that distances between levels are distances.
+    """Uniform quantizer with the same levels in all dimensions.
 
-    Levels are whole numbers about 0: -127, -126, ..., 127 of a byte each; -7, -6, ..., 7 of two in
-    a byte; -5, -3, ..., 5 of three; and -3, -1, 1, 3 of four.
+    Distances between levels are therefore proportional to distances between descriptors. Levels are
+    integers around 0: -127, -126, ..., 127 with one dimension per byte; -7, -6, ..., 7 with two;
+    -5, -3, ..., 5 with three; and -3, -1, 1, 3 with four.
 
     Attributes:
-        step: what a level of 1 is worth, in the descriptor's unit.
-        per_byte: how many dimensions share a byte, 1 to 4.
+        step: descriptor value of level 1.
+        per_byte: number of dimensions that share a byte, 1 to 4.
     """
 
     step: float
@@ -30,45 +34,53 @@ class Quantizer:
 
     def __post_init__(self) -> None:
         if self.per_byte not in LEVELS:
-            raise ValueError(f"{self.per_byte} dimensions in a byte; it holds 1 to 4")
+            raise ValueError(
+                f"Invalid number of dimensions per byte {self.per_byte}: expected 1 to 4"
+            )
 
     @classmethod
     def fit(
         cls, descriptors: Float32, per_byte: int = 1, quantile: float | None = None
     ) -> "Quantizer":
-        """Steps that reach all but a few of the values seen in training; the rest saturate.
+        """Choose the step so that all but a few training values are in range; the others saturate.
 
         Args:
-            quantile: of the values' lengths, how many are within reach.
+            descriptors: training descriptors, float32 (n, d).
+            per_byte: number of dimensions that share a byte.
+            quantile: share of the absolute values in range; None for the default of `REACH`.
         """
         reach = float(np.quantile(np.abs(descriptors), quantile or REACH[per_byte]))
         return cls(max(reach, 1e-6) / cls(1.0, per_byte).highest, per_byte)
 
     @property
     def spacing(self) -> int:
-        """Between levels: an even number of them lies about 0 at odd whole numbers."""
+        """Difference between neighboring levels: 1, or 2 if the number of levels is even."""
         return 1 + (LEVELS[self.per_byte] + 1) % 2
 
     @property
     def highest(self) -> int:
-        """The highest level."""
+        """Highest level."""
         return (LEVELS[self.per_byte] - 1) * self.spacing // 2
 
     @property
     def _places(self) -> Int64:
-        """What a level counts in its byte, as digits of a number."""
+        """Weight of each dimension's digit in the byte's value, int64 (per_byte,)."""
         return LEVELS[self.per_byte] ** np.arange(self.per_byte)
 
     def code_bytes(self, dimension: int) -> int:
-        """Bytes of a stored descriptor."""
+        """Return the number of bytes of a code.
+
+        Args:
+            dimension: number of values of the descriptor.
+        """
         return dimension // self.per_byte
 
     def as_dict(self) -> dict[str, float]:
-        """For a manifest; of a byte each only the step is told, as before there were others."""
+        """Return the values for a manifest. With one dimension per byte it has the step only."""
         return {"step": self.step} | ({} if self.per_byte == 1 else {"per_byte": self.per_byte})
 
     def encode(self, descriptors: Float32) -> Int8:
-        """float32 (n, d) -> int8 (n, code bytes)."""
+        """Encode descriptors, float32 (n, d), into codes, int8 (n, code bytes)."""
         count = LEVELS[self.per_byte]
         cells = np.floor(descriptors / (self.step * self.spacing) + count / 2)
         digits = cells.clip(0, count - 1).astype(np.int64)
@@ -79,7 +91,7 @@ class Quantizer:
         return np.asarray((numbers - count**self.per_byte // 2).astype(np.int8))
 
     def levels(self, codes: Int8) -> Int8:
-        """int8 (n, code bytes) -> int8 (n, d)."""
+        """Return the levels, int8 (n, d), of codes, int8 (n, code bytes)."""
         count = LEVELS[self.per_byte]
         every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None].astype(np.int64)
         digits = (every + count**self.per_byte // 2) // self._places % count
@@ -89,9 +101,9 @@ class Quantizer:
         )
 
     def rounded(self, descriptors: Float32) -> Float32:
-        """Descriptors as levels, as the service compares them, float32 (n, d)."""
+        """Round descriptors to levels, float32 (n, d), as the service compares them."""
         return self.levels(self.encode(descriptors)).astype(np.float32)
 
     def decode(self, codes: Int8) -> Float32:
-        """int8 (n, code bytes) -> float32 (n, d)."""
+        """Decode codes, int8 (n, code bytes), into descriptors, float32 (n, d)."""
         return self.levels(codes).astype(np.float32) * np.float32(self.step)

@@ -1,4 +1,4 @@
-"""Where the shipped models lie, and which one is used unless told otherwise."""
+"""Folders of the shipped models, and the default model."""
 
 from pathlib import Path
 
@@ -8,7 +8,12 @@ BASELINE = "eigenvalue"
 
 
 def model_folder(name_or_path: str, models: Path = MODELS_FOLDER) -> Path:
-    """The folder of a model given by its name in `models/` or by its path."""
+    """Return the folder of a model.
+
+    Args:
+        name_or_path: name of a folder in `models`, or a path.
+        models: folder of the shipped models.
+    """
     named = models / name_or_path
     return (
         named if Path(name_or_path).name == name_or_path and named.is_dir() else Path(name_or_path)
@@ -16,5 +21,5 @@ def model_folder(name_or_path: str, models: Path = MODELS_FOLDER) -> Path:
 
 
 def shipped_models(models: Path = MODELS_FOLDER) -> list[str]:
-    """Names of the folders in `models/` that hold a model."""
+    """Return the names of the folders in `models` that hold a model."""
     return sorted(file.parent.name for file in models.glob("*/manifest.json"))

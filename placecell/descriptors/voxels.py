@@ -1,7 +1,7 @@
-"""Voxelisation: the network's input (paper III-A).
+"""Voxelization: occupancy grids, the network's input (paper III-A).
 
-A fixed grid of fixed voxels, centered on the segment; points outside are dropped. (The paper also
-says 'scaled to fit'; scaling each segment would lose its size, and 95% fit as they are.)
+The grid has a fixed size and is centered on the segment. Points outside are dropped. (The paper
+also says "scaled to fit". Scaling would lose a segment's size, and 95% of the segments fit.)
 """
 
 import numpy as np
@@ -16,15 +16,17 @@ from placecell.descriptors.orientation import orient
 def voxelize(
     segments: Segments, parameters: Parameters, yaw: Float64 | float = 0.0
 ) -> tuple[UInt8, Float32]:
-    """Occupancy grids and extents of aligned segments.
+    """Return occupancy grids and extents of oriented segments.
 
     Args:
-        segments: in a common z-up frame.
-        yaw: turned by so many radians after alignment (augmentation).
+        segments: segments in one z-up frame.
+        parameters: size of grid and voxels.
+        yaw: additional rotation about z after orientation, radians (augmentation).
 
     Returns:
-        occupancy, uint8 (segments, *grid), 1 where a voxel holds a point; and extents, float32
-        (segments, 3): edges in meters of each aligned segment's box, before points are dropped.
+        Occupancy, uint8 (segments, *grid), 1 where a voxel holds a point; and extents, float32
+        (segments, 3), edge lengths in meters of each oriented segment's bounding box, before points
+        are dropped.
     """
     return voxelize_oriented(orient(segments, yaw), segments.ends, parameters)
 
@@ -32,7 +34,13 @@ def voxelize(
 def voxelize_oriented(
     oriented: Float32, ends: Int64, parameters: Parameters
 ) -> tuple[UInt8, Float32]:
-    """The same of segments that are aligned already: points, float32 (n, 3), and their ends."""
+    """Return occupancy grids and extents (see `voxelize`) of segments that are oriented already.
+
+    Args:
+        oriented: float32 (n, 3), points of all segments (see `orient`).
+        ends: int64 (segments,), end of each segment's points.
+        parameters: size of grid and voxels.
+    """
     occupancy = np.zeros((len(ends), *parameters.grid), dtype=np.uint8)
     extents = np.empty((len(ends), 3), dtype=np.float32)
     _fill(oriented, ends, np.float32(parameters.grid_voxel), occupancy, extents)
@@ -43,10 +51,10 @@ def voxelize_oriented(
 def _fill(
     oriented: Float32, ends: Int64, voxel: np.float32, occupancy: UInt8, extents: Float32
 ) -> None:
-    """Mark the voxels that hold a point.
+    """Fill `occupancy` and `extents`.
 
-    Models are trained on these roundings: box and distance from its middle in float32, the shift to
-    the grid's corner in float64.
+    Models are trained with this rounding: the box and the distance from its center in float32, the
+    shift to the grid's corner in float64.
     """
     columns, rows, layers = occupancy.shape[1:]
     half_x, half_y, half_z = columns / 2, rows / 2, layers / 2
@@ -71,7 +79,7 @@ def _fill(
             x = np.floor((oriented[point, 0] - middle_x) / voxel + half_x)
             y = np.floor((oriented[point, 1] - middle_y) / voxel + half_y)
             z = np.floor((oriented[point, 2] - middle_z) / voxel + half_z)
-            # Compared as floats: a coordinate that is no number is outside.
+            # Compared as floats, so that a NaN coordinate is outside.
             if 0 <= x < columns and 0 <= y < rows and 0 <= z < layers:
                 occupancy[segment, int(x), int(y), int(z)] = 1
         start = ends[segment]

@@ -41,7 +41,7 @@ def refine(
 
 
 def residuals(pose: Pose, found: Correspondences) -> Float64:
-    """Metres from where the pose takes each query to its place, float64 (m,)."""
+    """Meters from where the pose takes each query to its place, float64 (m,)."""
     return np.asarray(np.linalg.norm(pose.apply(found.source) - found.target, axis=1))
 
 

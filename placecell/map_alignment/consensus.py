@@ -16,7 +16,7 @@ from placecell.localization.registration import register
 from placecell.map_alignment.parameters import AlignmentParameters
 
 LEVER = np.concatenate([np.zeros((1, 3)), 10.0 * np.eye(3)])
-"""Metres: a pose is as good as where it puts these points about a submap's middle."""
+"""Meters: a pose is as good as where it puts these points about a submap's middle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

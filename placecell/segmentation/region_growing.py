@@ -19,7 +19,7 @@ def grow_regions(points: Float32, radius: float) -> Int64:
     if not len(points):
         return np.zeros(0, dtype=np.int64)
     cells = np.floor(points / radius).astype(np.int64)
-    # One empty layer around, so that a neighbour's key never wraps into another column.
+    # One empty layer around, so that a neighbor's key never wraps into another column.
     cells -= cells.min(axis=0) - 1
     size = cells.max(axis=0) + 2
     keys = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]

@@ -113,7 +113,7 @@ def seen_from(place: Float64, scenes: Scenes, cars: Oncoming, time: float) -> Su
 
 
 def scan_distances(scans: int, spacing: float) -> Float64:
-    """Metres along the lane at which scans are taken: (scans,).
+    """Meters along the lane at which scans are taken: (scans,).
 
     A sweep reaches half a spacing to both sides of its scan's pose.
     """

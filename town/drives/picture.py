@@ -37,7 +37,7 @@ def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> N
             axes.plot(
                 *believed[:, :2, 3].T, ":", color=f"C{number}", label=f"odometry of {drive.name}"
             )
-    axes.set(aspect="equal", xlabel="metres")
+    axes.set(aspect="equal", xlabel="meters")
     axes.set_title(title(city, route), fontsize="medium")
     figure.legend(loc="outside lower center", ncols=3, fontsize="small")
     file.parent.mkdir(parents=True, exist_ok=True)

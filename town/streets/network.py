@@ -14,7 +14,7 @@ from town.streets.plan import Crossing, StreetPlan
 from town.streets.terrain import Terrain
 
 LONGEST = 200_000.0
-"""Metres of streets. Rays are cast in float32, which is half a millimeter coarse that far out."""
+"""Meters of streets. Rays are cast in float32, which is half a millimeter coarse that far out."""
 
 SPARE = 1.25
 """A plan has this many times the meters that are kept."""
@@ -152,7 +152,7 @@ def center_lines(plan: StreetPlan, terrain: Terrain, streets: Int64) -> Iterator
 
 
 def arc_length(line: Float64) -> float:
-    """Metres along a line (n, 2)."""
+    """Meters along a line (n, 2)."""
     return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
 
 

@@ -109,7 +109,7 @@ class Route:
         return np.asarray(self.center + self.lane_offset * right)
 
     def length(self) -> float:
-        """Metres along the lane."""
+        """Meters along the lane."""
         return float(self._driven[1][-1])
 
     @cached_property
@@ -146,7 +146,7 @@ class Route:
 
 
 def arc_lengths(line: Float64) -> Float64:
-    """Metres from a line's start to each of its points (n, 2): (n,)."""
+    """Meters from a line's start to each of its points (n, 2): (n,)."""
     steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
     return np.concatenate([[0.0], np.cumsum(steps)])
 

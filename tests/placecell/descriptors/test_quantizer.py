@@ -102,7 +102,7 @@ def test_four_dimensions_share_a_byte() -> None:
 
 
 def test_a_byte_does_not_hold_five() -> None:
-    with pytest.raises(ValueError, match="5 dimensions in a byte"):
+    with pytest.raises(ValueError, match="dimensions per byte 5"):
         Quantizer(step=1.0, per_byte=5)
 
 
