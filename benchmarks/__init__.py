@@ -1,1 +1,1 @@
-"""What measures from outside: the demo with its robots and its score, benchmarks."""
+"""Benchmarks: load, durability, storage, localization, attacks, and other systems."""

@@ -1,11 +1,12 @@
-"""Coverage-guided fuzzing of what reads bytes from outside (Atheris, libFuzzer).
+"""Coverage-guided fuzzing of all readers of foreign bytes (Atheris, libFuzzer).
 
     python -m benchmarks.fuzz msgpack -atheris_runs=1000000 [CORPUS]
     python -m benchmarks.fuzz map -atheris_runs=1000000 [CORPUS]
     python -m benchmarks.fuzz delta -atheris_runs=1000000 [CORPUS]
 
-An input that ends in anything but a clear refusal, or that takes more memory than the limit, stops
-it and is written to a file; such findings are kept as tests.
+A reader must accept an input or refuse it with its own error. Fuzzing stops at an input that does
+neither, or that exceeds the memory limit, and writes that input to a file. Keep each finding as a
+test.
 """
 
 import sys
@@ -41,25 +42,25 @@ with atheris.instrument_imports(
     from service.core.problems import Problem, invalid
     from service.core.settings import Limits
 
-MEGABYTES = 1024
-"""Of memory that an input may take, everything that is imported included."""
+MEMORY_LIMIT_MB = 1024
+"""Memory limit of the process, imported modules included, MB."""
 
 LIMITS = Limits()
 
 
 def read_msgpack(data: bytes) -> None:
-    """A body, as `/describe`, `/match` or `/localize` would take it."""
+    """Read a request body as `/describe`, `/match` or `/localize` do."""
     schema = (PackedDescribeRequest, PackedMatchRequest, PackedLocalizeRequest)[len(data) % 3]
     try:
         schema.model_validate(msgpack_codec.unpack(data, LIMITS))
     except Problem:
         pass
     except ValidationError as error:
-        invalid(error)  # must be tellable
+        invalid(error)  # each validation error must have a problem response
 
 
 def read_map(data: bytes) -> None:
-    """A map file; one that is read must write itself again."""
+    """Read a map file; an accepted file must survive encoding and decoding."""
     try:
         content = decode(data)
     except MapFileError:
@@ -68,7 +69,7 @@ def read_map(data: bytes) -> None:
 
 
 def read_delta(data: bytes) -> None:
-    """A delta file; one that is read must write itself again, and apply the same twice as once."""
+    """Read a delta file; an accepted delta must survive encoding, and apply twice as once."""
     try:
         delta = decode_delta(data)
     except MapFileError:
@@ -79,7 +80,7 @@ def read_delta(data: bytes) -> None:
 
 
 def seeds() -> dict[str, list[bytes]]:
-    """Good inputs to begin with."""
+    """Return valid inputs of each reader."""
     points = np.arange(30, dtype="<f4").tobytes()
     segment = {"points": points, "sensor": [0.0, 1.0, 2]}
     bodies = [
@@ -117,15 +118,15 @@ def seeds() -> dict[str, list[bytes]]:
 
 
 def main() -> None:
-    """Fuzz one of the readers; further arguments are libFuzzer's."""
-    # No fuzzer guesses a SHA-256: without it, what stands behind it is reached too.
+    """Fuzz one reader; pass all other arguments to libFuzzer."""
+    # A fuzzer cannot guess a SHA-256. Without the check it reaches the code behind the check.
     container._checksum = lambda *_: "unsealed"
     reader = {"msgpack": read_msgpack, "map": read_map, "delta": read_delta}[sys.argv[1]]
     corpus = Path("out/fuzz") / sys.argv[1]
     corpus.mkdir(parents=True, exist_ok=True)
     for number, seed in enumerate(seeds()[sys.argv[1]]):
         (corpus / f"seed-{number}").write_bytes(seed)
-    options = [f"-rss_limit_mb={MEGABYTES}", "-max_len=4096", "-timeout=10"]
+    options = [f"-rss_limit_mb={MEMORY_LIMIT_MB}", "-max_len=4096", "-timeout=10"]
     atheris.Setup([sys.argv[0], *options, *sys.argv[2:], str(corpus)], reader)
     atheris.Fuzz()
 

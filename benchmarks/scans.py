@@ -1,4 +1,4 @@
-"""Segments that benches describe and send, scan by scan."""
+"""Scans of segments that benchmarks describe and send."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,14 +13,19 @@ from placecell.segmentation.recording import Recording
 
 
 def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segments]:
-    """Scans with so many segments in all, each again and again where there are too few.
+    """Draw scans at random until they hold `segments` segments; repeat scans if there are too few.
+
+    Args:
+        scans: the segments of each scan.
+        segments: smallest number of segments to draw.
+        seed: random seed of the order.
 
     Raises:
-        ValueError: there are no segments.
+        ValueError: the scans have no segments.
     """
     filled = [scan for scan in scans if len(scan)]
     if not filled:
-        raise ValueError("there is no segment to describe; take a longer drive")
+        raise ValueError("The scans have no segments to describe. Use a longer drive.")
     random, drawn = np.random.default_rng(seed), list[Segments]()
     while sum(map(len, drawn)) < segments:
         drawn += [filled[index] for index in random.permutation(len(filled))]
@@ -29,7 +34,7 @@ def draw_scans(scans: Sequence[Segments], segments: int, seed: int) -> list[Segm
 
 
 def scans_in(recording: Recording) -> list[Segments]:
-    """The segments of each scan that is a frame, as a robot would send them."""
+    """Return the segments of each capture, as a robot sends them."""
     return [
         recording.segments.take(np.flatnonzero(recording.captures == scan))
         for scan in np.unique(recording.captures)
@@ -39,7 +44,7 @@ def scans_in(recording: Recording) -> list[Segments]:
 def town_recording(
     folder: Path, seed: int, progress: Progress = silent, scans: int = 20
 ) -> Recording:
-    """Of a short drive through the synthetic town; the drive is left in the folder."""
+    """Record a short drive through the synthetic town; keep the drive in the folder."""
     from town import two_robots
 
     path, _ = two_robots(folder, seed=seed, scans=scans, overwrite=True, progress=progress)

@@ -1,4 +1,4 @@
-"""What streets cost: the processor time to simulate scans of a large town, and to segment them."""
+"""Processor time to simulate the scans of a large town and to segment them."""
 
 import resource
 import sys
@@ -20,20 +20,22 @@ def measure_town(
     seed: int = 7,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Drive a part of a town's streets and cut the scans into segments.
+    """Simulate a drive through part of a town, and segment its scans.
 
     Args:
-        folder: gets the drive.
-        meters: of streets in the town.
-        scans: that are driven and measured.
-        spacing: metres between them.
+        folder: folder of the drive.
+        meters: total street length of the town, meters.
+        scans: number of simulated scans.
+        spacing: distance between scans, meters.
+        seed: random seed of the town.
+        progress: wraps the loops.
 
     Returns:
-        figures, in seconds of processor time; `whole_*` are what these rates come to
-        for the round through all of the town's streets.
+        The report; times are seconds of processor time. Keys that begin with `whole_` extrapolate
+        the rates to a drive through all streets of the town.
 
     Raises:
-        ValueError: no such town, or too many scans for it.
+        ValueError: the town cannot be built, or the drive is too short for the scans.
     """
     started = time.process_time()
     city = City.build(seed, meters)
@@ -45,7 +47,7 @@ def measure_town(
     )  # fmt: skip
     simulated = time.process_time()
     drive = open_drive(folder)
-    # The first frame compiles.
+    # The first frame includes compilation, so it is not measured.
     frames = segment_captures(drive, PROTOCOL_V1.for_drive(scans, 2), progress=progress)
     next(frames)
     begun = time.process_time()
@@ -76,6 +78,6 @@ def measure_town(
 
 
 def peak_memory_mb() -> float:
-    """Of this process, megabytes."""
+    """Return the peak memory of this process, MB."""
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / 1e6 if sys.platform == "darwin" else peak / 1e3

@@ -1,1 +1,1 @@
-"""Load benchmarks: speed and saturation of the service and of inference."""
+"""Load benchmarks: throughput and latency of the service and of inference."""

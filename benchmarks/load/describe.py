@@ -1,7 +1,7 @@
-"""How fast segments become descriptors: every shipped network beside the paper's, in one run.
+"""Speed of inference: all shipped networks and the paper's network, measured in one run.
 
-Rates are of this machine at this hour, so all are measured in turn, again and again, and the
-median is given: what slows the machine down slows each of them. Compare within a run, not across.
+The networks are measured in turn several times, and the report states the medians. Other load on
+the machine then slows all networks alike. Compare rates within a run only.
 """
 
 from collections.abc import Sequence
@@ -29,20 +29,20 @@ from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.pipeline import Progress, silent
 
 PAIRS = 1_250
-"""Queries and candidates of a usual request to `/match`: 50 segments, 25 nearest."""
+"""Pairs of query and candidate in a usual `/match` request: 50 segments, 25 candidates each."""
 
 
 @dataclass(frozen=True, slots=True)
 class DescribePlan:
-    """What is measured, and how long.
+    """Extent of the measurement.
 
     Attributes:
-        batches: segments an inference.
-        threads: how many compute at once, each its own batch, as in the service.
-        repeats: measurements of each, of which the median is given.
-        seconds: of each measurement, at least.
-        segments: how many are taken from the drive.
-        latencies: segments described one by one for the percentiles.
+        batches: batch sizes, in segments.
+        threads: numbers of threads; each thread computes its own batch, as in the service.
+        repeats: measurements per figure; the report states their median.
+        seconds: least duration of a measurement.
+        segments: number of segments drawn from the drive.
+        latencies: number of segments described one by one for the latency percentiles.
     """
 
     batches: tuple[int, ...] = (1, 8, 64)
@@ -63,14 +63,19 @@ def measure_inference(
     default: str = DEFAULT_MODEL,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Measure all; the report as `placecell bench describe` writes it.
+    """Measure inference; return the report that `placecell bench describe` writes.
 
     Args:
-        scans: the segments of each; so many are drawn that they hold `plan.segments` at least.
-        folder: keeps the paper's network, so that it is exported once.
+        scans: the segments of each scan; scans are drawn until they hold `plan.segments` segments.
+        folder: keeps the exported network of the paper for later runs.
+        plan: extent of the measurement.
+        seed: random seed of the draw and of the paper's weights.
+        models: folder of the models.
+        default: name of the default model.
+        progress: wraps the loops.
 
     Raises:
-        ValueError: there are no segments.
+        ValueError: the scans have no segments.
     """
     scans = draw_scans(scans, plan.segments, seed)
     drawn = Segments.concatenate(scans)
@@ -88,7 +93,7 @@ def measure_inference(
     inputs: dict[str, np.ndarray[Any, Any]]
     inputs = {"occupancy": occupancy, "extents": extents, "surroundings": around}
     for network in networks:
-        # As the extractor runs it: each thread has its own session.
+        # Each thread has its own session, as in the extractor.
         sessions = [one_thread_session(network.file) for _ in range(max(plan.threads))]
         for batch in plan.batches:
             for threads in plan.threads:
@@ -149,7 +154,7 @@ def inference_work(
     inputs: dict[str, np.ndarray[Any, Any]],
     batch: int,
 ) -> Work:
-    """One batch through a network, another each time; the sessions take turns."""
+    """Return the work that runs a network on one batch after the other; sessions take turns."""
     wanted = {given.name for given in sessions[0].get_inputs()}
     inputs = {name: values for name, values in inputs.items() if name in wanted}
     count = len(inputs["occupancy"])
@@ -159,7 +164,7 @@ def inference_work(
     def work(number: int) -> int:
         part = slice(number % places * batch, (number % places + 1) * batch)
         given = {name: values[part] for name, values in inputs.items()}
-        # `rate` counts in steps of the threads, so that a thread stays with its session.
+        # `measure_rate` counts in steps of the number of threads, so each thread keeps its session.
         sessions[number % len(sessions)].run(["descriptor"], given)
         return batch
 
@@ -167,7 +172,7 @@ def inference_work(
 
 
 def preprocessing_work(segments: Segments, parameters: Parameters, batch: int = 64) -> Work:
-    """Alignment and voxelisation of a batch, another each time."""
+    """Return the work that orients and voxelizes one batch after the other."""
     parts = [
         segments.take(np.arange(first, min(first + batch, len(segments))))
         for first in range(0, len(segments), batch)
@@ -176,7 +181,7 @@ def preprocessing_work(segments: Segments, parameters: Parameters, batch: int = 
 
 
 def measure_latency(extractor: Extractor, segments: Segments, count: int) -> dict[str, float]:
-    """Milliseconds from the points of a single segment to its descriptor: p50 and p99."""
+    """Measure p50 and p99 from the points of one segment to its descriptor, milliseconds."""
     times = []
     for number in range(count):
         single = segments.take([number % len(segments)])
@@ -188,7 +193,7 @@ def measure_latency(extractor: Extractor, segments: Segments, count: int) -> dic
 
 
 def measure_pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str, Any]:
-    """What it costs to state a probability: the p50 of a call for 1,250 pairs, on one thread."""
+    """Measure the match probability of `PAIRS` pairs on one thread: p50 of a call."""
     manifest = Manifest.load(folder)
     classifier = PairClassifier(folder, manifest)
     random = np.random.default_rng(seed)
@@ -210,7 +215,7 @@ def measure_pair_latency(folder: Path, seed: int, repeats: int = 50) -> dict[str
 def rate_ratio(
     rows: Sequence[dict[str, Any]], default: str, batch: int, threads: int
 ) -> float | None:
-    """How many times the paper's rate the default model reaches; None if either is not there."""
+    """Return the default model's rate over the paper's rate; None if a row is missing."""
     found = {
         row["model"]: row["segments_per_second"]
         for row in rows
@@ -222,7 +227,7 @@ def rate_ratio(
 
 
 def draw_accuracy_speed(report: dict[str, Any], file: Path) -> None:
-    """Accuracy against speed of every network, at the largest batch on all threads, as a PNG."""
+    """Plot accuracy against speed of each network, at the largest batch and most threads."""
     most = (max(report["plan"]["batches"]), max(report["plan"]["threads"]))
     with figure(file, size=6) as (axes,):
         for row in report["rows"]:
@@ -231,15 +236,15 @@ def draw_accuracy_speed(report: dict[str, Any], file: Path) -> None:
             speed, name = row["segments_per_second"], f"{row['model']} {row['precision']}"
             if row["top1"] is None:
                 axes.axvline(speed, color="grey", linestyle=":")
-                axes.annotate(f"{name}: accuracy not known", (speed, 0.02), rotation=90, ha="right")
+                axes.annotate(f"{name}: accuracy unknown", (speed, 0.02), rotation=90, ha="right")
             else:
                 axes.plot(speed, row["top1"], "o", color="#1b9e77")
                 axes.annotate(name, (speed, row["top1"]), (5, 5), textcoords="offset points")
         axes.set(
             xscale="log",
             ylim=(0, 1),
-            xlabel=f"inference, segments a second (batch {most[0]}, {most[1]} threads)",
-            ylabel="top1 on the model's validation groups",
+            xlabel=f"inference, segments per second (batch {most[0]}, {most[1]} threads)",
+            ylabel="top-1 accuracy on the model's validation groups",
             title=report["machine"]["processor"],
         )
         axes.margins(x=0.3)

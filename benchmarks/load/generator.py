@@ -1,8 +1,8 @@
-"""Open-loop load generator, a process of its own: `python -m benchmarks.load.generator PLAN`.
+"""Open-loop load generator in its own process: `python -m benchmarks.load.generator PLAN`.
 
-Requests leave when they are due, whether or not the answers to earlier ones came; a latency counts
-from when the request was due. Bodies were encoded beforehand, and the protocol is spoken in a few
-lines, for the generator shares the machine with what it measures.
+Each request is sent at its due time, even if earlier requests are unanswered. Latency counts from
+the due time. The generator shares the machine with the service, so it does little work itself: all
+bodies are encoded before the start, and HTTP takes a few lines of code.
 """
 
 import asyncio
@@ -17,15 +17,16 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """What is sent.
+    """Load to send.
 
     Attributes:
-        host, port: of the service.
-        requests: whole requests, head and body; sent in turn.
-        rate: requests a second; 0: as many as `clients` can send, each after its last answer.
-        seconds: for so long.
-        clients: that send where there is no rate.
-        most: connections at once; who finds none free waits, and that counts.
+        host, port: address of the service.
+        requests: encoded requests, head and body; sent in turn.
+        rate: requests per second; 0: each of `clients` clients sends its next request after the
+            last answer.
+        seconds: duration.
+        max_connections: largest number of open connections; a request that waits for one counts the wait.
+        clients: number of clients if `rate` is 0.
     """
 
     host: str
@@ -33,20 +34,20 @@ class Load:
     requests: tuple[bytes, ...]
     rate: float
     seconds: float
-    most: int = 256
+    max_connections: int = 256
     clients: int = 16
 
 
 @dataclass(slots=True)
 class LoadResult:
-    """What became of the requests that were due, in the order of their answers.
+    """Answers to the requests, in the order of arrival.
 
     Attributes:
-        statuses: of HTTP; 0 where the connection failed.
-        milliseconds: from when each was due to its answer.
-        stages: of each step that the service tells, milliseconds of every good answer.
+        statuses: HTTP status of each request; 0 if the connection failed.
+        milliseconds: time from the due time to the answer, per request.
+        stages: milliseconds of each stage in `Server-Timing`, per successful request.
         elapsed: seconds until the last answer.
-        cpu: seconds of processor time that the generator itself took.
+        cpu: processor time of the generator itself, seconds.
     """
 
     statuses: list[int] = field(default_factory=list)
@@ -60,12 +61,12 @@ Connection = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 
 async def send_load(load: Load) -> LoadResult:
-    """Send all that is due."""
+    """Send the load and collect the answers."""
     outcome, free = LoadResult(), list[Connection]()
-    places = asyncio.Semaphore(load.most)
+    places = asyncio.Semaphore(load.max_connections)
     started, computed = time.perf_counter(), time.process_time()
 
-    async def one(number: int, due: float) -> None:
+    async def send_one(number: int, due: float) -> None:
         async with places:
             status, head = await _ask(load, load.requests[number % len(load.requests)], free)
         outcome.statuses.append(status)
@@ -75,31 +76,31 @@ async def send_load(load: Load) -> LoadResult:
                 stage, _, spent = part.partition(";dur=")
                 outcome.stages.setdefault(stage, []).append(float(spent))
 
-    async def again_and_again(first: int) -> None:
+    async def send_repeatedly(first: int) -> None:
         number = first
         while (due := time.perf_counter()) < started + load.seconds:
-            await one(number, due)
+            await send_one(number, due)
             number += load.clients
 
     async with asyncio.TaskGroup() as group:
         if not load.rate:
             for first in range(load.clients):
-                group.create_task(again_and_again(first))
+                group.create_task(send_repeatedly(first))
         for number in range(int(load.rate * load.seconds)):
             due = started + number / load.rate
             await asyncio.sleep(due - time.perf_counter())
-            group.create_task(one(number, due))
+            group.create_task(send_one(number, due))
     outcome.elapsed = time.perf_counter() - started
     outcome.cpu = time.process_time() - computed
     for _, writer in free:
         writer.close()
-    await asyncio.sleep(0)  # so that they are closed before the loop is
+    await asyncio.sleep(0)  # lets the connections close before the loop does
     return outcome
 
 
 async def _ask(load: Load, request: bytes, free: list[Connection]) -> tuple[int, dict[str, str]]:
-    """Status and headers of the answer; the body is read and dropped."""
-    # A server closes connections that were idle for long; as clients do, ask again on a new one.
+    """Send a request; return the status and headers of the answer, without its body."""
+    # A server closes idle connections. Like other clients, retry on a new connection.
     if free and (answer := await _ask_on(free.pop(), request, free))[0]:
         return answer
     try:
@@ -130,7 +131,7 @@ async def _ask_on(
 
 
 def encode_request(path: str, media_type: str, body: bytes) -> bytes:
-    """A whole request, head and body."""
+    """Return an encoded POST request, head and body."""
     head = (
         f"POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: {media_type}\r\n"
         f"Accept: {media_type}\r\nContent-Length: {len(body)}\r\n\r\n"
@@ -139,21 +140,32 @@ def encode_request(path: str, media_type: str, body: bytes) -> bytes:
 
 
 async def send_from_process(load: Load, folder: Path) -> LoadResult:
-    """The same from a process of its own."""
+    """Send the load from a process of its own, as `send_load` does.
+
+    Args:
+        load: load to send.
+        folder: folder for the plan file.
+
+    Raises:
+        RuntimeError: the process failed.
+    """
     file = folder / "load.pickle"
     file.write_bytes(pickle.dumps(load))
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-m", "benchmarks.load.generator", str(file)),
+        sys.executable,
+        "-m",
+        "benchmarks.load.generator",
+        str(file),
         stdout=asyncio.subprocess.PIPE,
     )
-    said, _ = await process.communicate()
+    output, _ = await process.communicate()
     if process.returncode:
-        raise RuntimeError(f"the load generator ended with status {process.returncode}")
-    content: dict[str, Any] = json.loads(said)
+        raise RuntimeError(f"The load generator failed with exit status {process.returncode}.")
+    content: dict[str, Any] = json.loads(output)
     return LoadResult(**content)
 
 
 if __name__ == "__main__":
-    # Written by `sent_by_process` a moment ago, for this process alone.
+    # `send_from_process` wrote this file for this process only.
     plan = pickle.loads(Path(sys.argv[1]).read_bytes())
     json.dump(asdict(asyncio.run(send_load(plan))), sys.stdout)

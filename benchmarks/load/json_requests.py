@@ -1,4 +1,4 @@
-"""Throughput of the JSON request reader, and how long other threads wait for it."""
+"""Throughput of the JSON request reader, and the time that it blocks other threads."""
 
 import json
 import os
@@ -17,17 +17,17 @@ from service.api.schemas.recognition import DescribeRequest
 from service.core.settings import Limits
 from service.inference.scan import Scan
 
-BASELINE = "pydantic's parser, an object for each number (until this version)"
+BASELINE = "pydantic's parser, which makes an object of each number (earlier versions)"
 
 Read = Callable[[bytes], Scan]
 
 
 def measure_json_requests(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]:
-    """Measure the present reader and the former one in the same run.
+    """Measure the reader and pydantic's parser in one run.
 
     Args:
-        seconds: of each of them.
-        seed: of the points.
+        seconds: duration of each measurement.
+        seed: random seed of the points.
     """
     small, large = body_of(50, 800, seed), body_of(250, 1_000, seed)
     readers: dict[str, Read] = {"baseline": _plain, "compiled": _compiled}
@@ -52,14 +52,14 @@ def measure_json_requests(seconds: float = 3.0, seed: int = 0) -> dict[str, Any]
 
 
 def body_of(segments: int, points: int, seed: int) -> bytes:
-    """Return a /describe request whose float32 points are written with all digits."""
+    """Return a /describe request with all digits of its float32 points."""
     drawn = np.random.default_rng(seed).normal(0, 30, (segments, points, 3)).astype(np.float32)
     content = [{"points": each.tolist(), "sensor": [0.0, 0.0, 1.8]} for each in drawn]
     return json.dumps({"segments": content}).encode()
 
 
 def measure_saturation(read: Read, body: bytes, seconds: float) -> float:
-    """Return the requests per second that all cores read together."""
+    """Return the requests per second that all cores together read."""
     threads = os.cpu_count() or 1
     read(body)
     began = time.perf_counter()

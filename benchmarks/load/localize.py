@@ -1,8 +1,8 @@
-"""How quick `/localize` is on an idle service: the real server over loopback, maps of any size.
+"""Latency of `/localize` on an idle service: the real server over loopback, maps of any size.
 
-Descriptors are those of `map_content`: real segments, each view of a thing with the difference that
-two real ones have. Here the views of a thing also lie where it stands, within some decimetres, and
-what is asked about are the things along a stretch of the road, in a frame of the robot's own.
+The descriptors are sampled (`descriptor_sampler`). The views of an object also lie at its position,
+within some decimeters. A query holds the objects along a stretch of road, in the frame of the
+robot.
 """
 
 import asyncio
@@ -30,8 +30,8 @@ from service.child_process import address_of, running_service
 
 MAP = "road"
 
-SCATTER = 0.3
-"""Of a thing's centroid between its views, standard deviation along each axis, metres."""
+CENTROID_SCATTER_M = 0.3
+"""Standard deviation of an object's centroid between views, along each axis, meters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +39,15 @@ class LocalizePlan:
     """Sizes and rates of the measurement.
 
     Attributes:
-        sizes: segments of the map.
-        queries: segments of a request.
-        k: candidates a segment.
-        rate: requests a second: each finds the service idle; a quarter of it where no map is named.
-        seconds: of each map.
-        requests: different ones, sent in turn.
-        maps: that are searched together, by requests that name none; 0: this is not measured.
-        map_segments: of each of those maps.
+        sizes: map sizes, in segments.
+        queries: segments per request.
+        k: candidates per segment.
+        rate: requests per second, so few that each finds the service idle; a quarter of it for
+            requests that name no map.
+        seconds: duration per map size.
+        requests: number of different requests, sent in turn.
+        maps: number of maps that requests without `maps` search; 0: not measured.
+        map_segments: segments of each of those maps.
     """
 
     sizes: tuple[int, ...] = (10_000,)
@@ -60,21 +61,21 @@ class LocalizePlan:
 
 
 def measure_localize(
-    views: DescriptorSampler, plan: LocalizePlan, seed: int = 0, *, progress: Progress = silent
+    sampler: DescriptorSampler, plan: LocalizePlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
-    """Measure all; the report as `placecell bench localize` writes it."""
+    """Measure `/localize`; return the report that `placecell bench localize` writes."""
     rows: list[dict[str, Any]] = []
     together: dict[str, Any] | None = None
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
             size, data = plan.sizes[number], Path(folder) / str(number)
-            rows.append(_row(views, size, plan, data, seed))
+            rows.append(_row(sampler, size, plan, data, seed))
         if plan.maps:
-            together = _together(views, plan, Path(folder) / "together", seed)
+            together = _together(sampler, plan, Path(folder) / "together", seed)
     return {
         "rows": rows,
         "together": together,
-        "model_id": views.manifest.model_id,
+        "model_id": sampler.manifest.model_id,
         "machine": machine(),
         "seed": seed,
         "plan": asdict(plan),
@@ -82,10 +83,10 @@ def measure_localize(
 
 
 def _row(
-    views: DescriptorSampler, size: int, plan: LocalizePlan, data: Path, seed: int
+    sampler: DescriptorSampler, size: int, plan: LocalizePlan, data: Path, seed: int
 ) -> dict[str, Any]:
     frame = random_frame(seed)
-    road, asked = road_with_queries(views, size, plan, frame, seed)
+    road, asked = road_with_queries(sampler, size, plan, frame, seed)
     with running_service(data) as address, Client(address, timeout=120) as client:
         client.put_map(MAP, encode(road))
         right = sum(_is_right(client, each, plan.k, frame) for each in asked)
@@ -93,7 +94,7 @@ def _row(
         load = Load(*address_of(address), sent, plan.rate, plan.seconds)
         outcome = asyncio.run(send_from_process(load, data))
     if set(outcome.statuses) != {200}:
-        raise RuntimeError(f"/localize was answered {set(outcome.statuses)}")
+        raise RuntimeError(f"/localize returned statuses {set(outcome.statuses)}; expected 200.")
     return {
         "segments": size,
         "requests": len(outcome.statuses),
@@ -104,29 +105,31 @@ def _row(
 
 
 def _together(
-    views: DescriptorSampler, plan: LocalizePlan, data: Path, seed: int
+    sampler: DescriptorSampler, plan: LocalizePlan, data: Path, seed: int
 ) -> dict[str, Any]:
-    """Measure requests without `maps` among many maps."""
+    """Measure requests without `maps`, which search all maps."""
     frame = random_frame(seed)
-    # One road, cut into maps, no two of which hold the same things; each robot is within one.
-    views_a_map = plan.map_segments // VIEWS * VIEWS
-    size, things = plan.maps * views_a_map, views_a_map // VIEWS
-    road, asked = road_with_queries(views, size, plan, frame, seed, things)
+    # The road is cut into maps that share no object. Each query lies within one map.
+    map_size = plan.map_segments // VIEWS * VIEWS
+    size, objects = plan.maps * map_size, map_size // VIEWS
+    road, asked = road_with_queries(sampler, size, plan, frame, seed, objects)
     with running_service(data) as address, Client(address, timeout=120) as client:
         for number in range(plan.maps):
-            part = take(road, np.arange(number * views_a_map, (number + 1) * views_a_map))
+            part = take(road, np.arange(number * map_size, (number + 1) * map_size))
             client.put_map(f"road-{number:05}", encode(part))
-        told = [client.localize(each, k=plan.k).best for each in asked]
-        right = sum(_is_right_pose(each, one, frame) for each, one in zip(asked, told, strict=True))
+        answers = [client.localize(each, k=plan.k).best for each in asked]
+        right = sum(
+            _is_right_pose(each, one, frame) for each, one in zip(asked, answers, strict=True)
+        )
         bodies = (_body(each, plan.k, named=False) for each in asked)
         sent = tuple(encode_request("/localize", MSGPACK, body) for body in bodies)
         load = Load(*address_of(address), sent, plan.rate / 4, plan.seconds)
         outcome = asyncio.run(send_from_process(load, data))
     if set(outcome.statuses) != {200}:
-        raise RuntimeError(f"/localize was answered {set(outcome.statuses)}")
+        raise RuntimeError(f"/localize returned statuses {set(outcome.statuses)}; expected 200.")
     return {
         "maps": plan.maps,
-        "segments": plan.maps * views_a_map,
+        "segments": plan.maps * map_size,
         "requests": len(outcome.statuses),
         "localised_right": round(right / len(asked), 4),
         "milliseconds": percentiles(np.array(outcome.milliseconds)),
@@ -135,34 +138,38 @@ def _together(
 
 
 def road_with_queries(
-    views: DescriptorSampler,
+    sampler: DescriptorSampler,
     size: int,
     plan: LocalizePlan,
     frame: Pose,
     seed: int,
     step: int | None = None,
 ) -> tuple[CompactMap, Sequence[Description]]:
-    """Return a map of `count` segments and what a robot sees of it.
+    """Return a map of `size` segments, and queries along its road.
 
     Args:
-        frame: from the map's to the robot's own.
-        step: things from one stretch that is asked about to the next; as many as are asked about
-            unless given.
+        sampler: samples the descriptors.
+        size: segments of the map.
+        plan: sizes of the measurement.
+        frame: transform from the frame of the map to that of the robot.
+        seed: random seed.
+        step: objects from the begin of a query to the begin of the next; None: as many as a query
+            has segments.
     """
     random = np.random.default_rng(seed)
-    content = views.sample_map(size, size // VIEWS, seed)
-    road = road_map(content.codes, views.manifest, "ann", seed=seed)
-    things = road.centroids[::VIEWS]
-    scatter = random.normal(scale=SCATTER, size=(size, 3))
-    road = replace(road, centroids=things[content.objects] + scatter)
-    # Each thing is asked about once: in their order, as they stand along the road.
+    content = sampler.sample_map(size, size // VIEWS, seed)
+    road = road_map(content.codes, sampler.manifest, "ann", seed=seed)
+    objects = road.centroids[::VIEWS]
+    scatter = random.normal(scale=CENTROID_SCATTER_M, size=(size, 3))
+    road = replace(road, centroids=objects[content.objects] + scatter)
+    # The queries hold each object once, in the order of the road.
     asked = content.query_codes[np.argsort(content.query_objects)]
     step = step or plan.queries
     stretches = len(asked) // step
     descriptions = []
     for stretch in random.permutation(stretches)[: plan.requests]:
         rows = stretch * step + np.arange(plan.queries)
-        seen = things[rows] + random.normal(scale=SCATTER, size=(plan.queries, 3))
+        seen = objects[rows] + random.normal(scale=CENTROID_SCATTER_M, size=(plan.queries, 3))
         nothing = np.zeros((plan.queries, 0), np.float32)
         descriptions.append(
             Description(content.model_id, asked[rows], nothing, frame.apply(seen), {})
@@ -179,8 +186,8 @@ def _is_right_pose(asked: Description, found: Localization | None, frame: Pose) 
     if found is None or found.pose is None:
         return False
     middle = asked.centroids.mean(axis=0)
-    meters, angle = Pose.of_matrix(found.pose.matrix).difference(frame.inverse(), middle)
-    return meters <= 1.0 and bool(np.degrees(angle) <= 3.0)
+    distance, angle = Pose.of_matrix(found.pose.matrix).difference(frame.inverse(), middle)
+    return distance <= 1.0 and bool(np.degrees(angle) <= 3.0)
 
 
 def _body(asked: Description, k: int, *, named: bool = True) -> bytes:

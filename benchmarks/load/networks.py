@@ -1,4 +1,4 @@
-"""Networks whose speed is measured: those of the shipped models, and the paper's."""
+"""Networks to measure: those of the shipped models, and the network of the SegMap paper."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ PAPER = "paper"
 
 @dataclass(frozen=True, slots=True)
 class MeasuredNetwork:
-    """An ONNX file that is measured.
+    """An ONNX file to measure.
 
     Attributes:
-        model: its name.
+        model: name of the model.
         precision: `fp32` or `int8`.
-        file: where it lies.
-        served: whether the service would run this file, rather than another of the model's.
-        top1: of the model on its validation groups, as its manifest has it.
+        file: path of the ONNX file.
+        served: whether the service runs this file of the model.
+        top1: top-1 accuracy on the model's validation groups, from the manifest; None if unknown.
     """
 
     model: str
@@ -33,12 +33,12 @@ class MeasuredNetwork:
 
 
 def networks_of_model(folder: Path) -> Iterator[MeasuredNetwork]:
-    """The extractor's networks in a model's folder: `model.onnx` and others, such as in int8."""
+    """Yield the extractor's networks of a model: `model.onnx`, and variants such as int8."""
     manifest = Manifest.load(folder)
     for name in sorted(manifest.files):
         if name.startswith("model") and name.endswith(".onnx"):
             served = name == MODEL_FILE
-            # The manifest's figures are those of the file that is served.
+            # The manifest states the figures of the served file only.
             top1 = manifest.figures.get("validation", {}).get("top1") if served else None
             yield MeasuredNetwork(
                 manifest.name, precision_of(folder / name), folder / name, served, top1
@@ -46,14 +46,23 @@ def networks_of_model(folder: Path) -> Iterator[MeasuredNetwork]:
 
 
 def precision_of(file: Path) -> str:
-    """`int8` for a network with quantised layers, told by its nodes' names, otherwise `fp32`."""
+    """Return `int8` if a network has quantized layers (by the names of its nodes), else `fp32`."""
     return "int8" if b"QuantizeLinear" in file.read_bytes() else "fp32"
 
 
 def paper_network(
     folder: Path, parameters: Parameters, dimension: int, seed: int
 ) -> list[MeasuredNetwork]:
-    """The paper's network with random weights: as fast as a trained one. Empty without torch."""
+    """Export the paper's network with random weights; return an empty list without torch.
+
+    Random weights are as fast as trained weights.
+
+    Args:
+        folder: keeps the exported file for later runs.
+        parameters: voxel grid of the network's input.
+        dimension: dimension of the descriptor.
+        seed: random seed of the weights.
+    """
     file = folder / f"paper-{dimension}.onnx"
     if not file.exists():
         try:

@@ -1,4 +1,4 @@
-"""How many segments a second: works that are measured in turn, again and again."""
+"""Rates in segments per second, measured in turn so that a busy machine slows all alike."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -11,11 +11,11 @@ from placecell.core.segments import Segments
 from placecell.segmentation.pipeline import Progress
 
 Work = Callable[[int], int]
-"""Do the piece of work of this number; returns how many segments it had."""
+"""Do the numbered piece of work and return its number of segments."""
 
 
 def work_of(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work:
-    """Do this with one part, another each time."""
+    """Return the work that calls `do` with the parts in turn."""
 
     def work(number: int) -> int:
         part = parts[number % len(parts)]
@@ -28,18 +28,18 @@ def work_of(parts: Sequence[Segments], do: Callable[[Segments], object]) -> Work
 def measure_rates(
     works: dict[Any, tuple[Work, int]], repeats: int, seconds: float, progress: Progress
 ) -> dict[Any, float]:
-    """Segments a second of each work, by so many threads: the median of the repeats.
+    """Return the rate of each work in segments per second: the median of the repeats.
 
     Args:
-        works: by any key, each with its threads.
-        repeats: of each.
-        seconds: of each measurement, at least.
-        progress: of the repeats.
+        works: each work and its number of threads, by a key.
+        repeats: measurements per work.
+        seconds: least duration of a measurement.
+        progress: wraps the loop of the repeats.
     """
     rates: dict[Any, list[float]] = {key: [] for key in works}
     with ThreadPoolExecutor(max(threads for _, threads in works.values())) as pool:
         for work, threads in works.values():
-            measure_rate(pool, work, threads, 0)  # the first runs allocate and compile
+            measure_rate(pool, work, threads, 0)  # the first run allocates and compiles
         for _ in progress(range(repeats), repeats, "measuring"):
             for key, (work, threads) in works.items():
                 rates[key].append(measure_rate(pool, work, threads, seconds))
@@ -47,7 +47,10 @@ def measure_rates(
 
 
 def measure_rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: float) -> float:
-    """Segments a second of threads that do the work for so long, and once at least."""
+    """Return the segments per second of `threads` threads that work for `seconds`.
+
+    Each thread works at least once.
+    """
 
     def one(first: int) -> float:
         start, done, number = perf_counter(), 0, first
@@ -56,7 +59,7 @@ def measure_rate(pool: ThreadPoolExecutor, work: Work, threads: int, seconds: fl
             number += threads
             elapsed = perf_counter() - start
             if elapsed >= seconds:
-                # Each by its own clock: none waits for the last batch of another.
+                # Each thread uses its own clock, so no thread waits for another's last batch.
                 return done / elapsed
 
     return sum(pool.map(one, range(threads)))

@@ -1,4 +1,4 @@
-"""How the service bears load: the real server over loopback, up to saturation and past it."""
+"""Latency and throughput of the real server over loopback, up to and beyond saturation."""
 
 import asyncio
 import re
@@ -28,16 +28,16 @@ from service.child_process import address_of, running_service
 
 @dataclass(frozen=True, slots=True)
 class LoadPlan:
-    """What is measured.
+    """Extent of the measurement.
 
     Attributes:
-        segments: of a request.
-        small: of a request, where batching is shown.
-        k: candidates a query.
-        map_segments: in the map that is searched.
-        levels: offered load, as shares of what the service bears.
-        seconds: of each level.
-        bodies: different requests, sent in turn.
+        segments: segments per request.
+        small: segments per request of the cases that show the effect of batching.
+        k: candidates per segment.
+        map_segments: segments of the searched map.
+        levels: offered load, as shares of the saturation rate.
+        seconds: duration of each level.
+        bodies: number of different requests, sent in turn.
     """
 
     segments: int = 50
@@ -52,10 +52,10 @@ class LoadPlan:
 def measure_load(
     scans: Sequence[Segments], plan: LoadPlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
-    """Measure all; the report as `placecell bench serve` writes it.
+    """Measure the service under load; return the report that `placecell bench serve` writes.
 
     Raises:
-        ValueError: there are no segments.
+        ValueError: the scans have no segments.
     """
     drawn = Segments.concatenate(draw_scans(scans, plan.segments * plan.bodies, seed))
     cases = [
@@ -96,7 +96,7 @@ def measure_load(
 
 
 def measure_library(scans: Sequence[Segments]) -> float:
-    """Segments a second of the default model without the service, points in, descriptors out."""
+    """Measure the default model without the service: segments per second, points to descriptors."""
     extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
     work = work_of([scan for scan in scans if len(scan)], extractor.describe)
     with ThreadPoolExecutor(1) as pool:
@@ -124,7 +124,7 @@ async def _case(
             count = after[1] - before[1]
             return outcome, (after[0] - before[0]) / count if count else 0.0
 
-        await load(0, 1.0)  # what compiles or allocates at its first use does so now
+        await load(0, 1.0)  # a warm-up: first uses compile and allocate
         full, _ = await load(0, plan.seconds)
         most = full.statuses.count(200) / full.elapsed
         rows = []
@@ -163,7 +163,7 @@ def _row(case: LoadCase, level: float, offered: float, outcome: LoadResult) -> d
 
 
 def percentiles(times: np.ndarray[Any, Any]) -> dict[str, float | None]:
-    """p50, p95, p99 and the maximum; None of nothing."""
+    """Return p50, p95, p99 and the maximum; None for each if there are no times."""
     if not len(times):
         return dict.fromkeys(("p50", "p95", "p99", "max"))
     found = np.percentile(times, [50, 95, 99, 100]).round(2).tolist()
@@ -171,7 +171,7 @@ def percentiles(times: np.ndarray[Any, Any]) -> dict[str, float | None]:
 
 
 def read_batch_counters(address: str) -> tuple[float, float]:
-    """Requests that went through the model so far, and in how many batches."""
+    """Return the number of requests that went through the model so far, and of their batches."""
     with urllib.request.urlopen(f"{address}/metrics", timeout=30) as answer:
         text = answer.read().decode()
     found = [
@@ -183,7 +183,7 @@ def read_batch_counters(address: str) -> tuple[float, float]:
 
 
 def draw_load(report: dict[str, Any], file: Path) -> None:
-    """Latency and what was answered against what was offered, each case a line, as a PNG."""
+    """Plot latency and answered load against offered load, one line per case."""
     with figure(file, 2, size=5) as (left, right):
         for name in dict.fromkeys(row["case"] for row in report["rows"]):
             rows = [row for row in report["rows"] if row["case"] == name]
@@ -194,12 +194,16 @@ def draw_load(report: dict[str, Any], file: Path) -> None:
             left.plot(offered, medians, "--", color=line.get_color())
             right.plot(offered, [row["achieved"] for row in rows], "o-", label=name)
         left.set(
-            xlabel="offered, segments a second",
-            ylabel="milliseconds, p99 (p50 dashed)",
+            xlabel="offered load, segments per second",
+            ylabel="latency, ms: p99 (p50 dashed)",
             yscale="log",
-            title="latency of /match",
+            title="Latency of /match",
         )
-        right.set(xlabel="offered, segments a second", ylabel="answered, segments a second")
+        right.set(
+            xlabel="offered load, segments per second",
+            ylabel="answered load, segments per second",
+            title="Throughput of /match",
+        )
         right.legend(fontsize=8)
         for axes in (left, right):
             axes.grid(alpha=0.3)

@@ -1,7 +1,8 @@
-"""A soak: hours of a service's life in minutes, among clients that behave and clients that do not.
+"""Soak test: minutes of steady load with faulty clients among the correct ones.
 
-At a steady share of what the service bears, some clients die in the midst of a request, some send
-slowly, some send garbage. Memory and file descriptors are watched, and every answer.
+Correct clients offer a fixed share of the saturation rate. Meanwhile some clients disconnect within
+a request, some send slowly, and some send garbage. The test watches memory, file descriptors and
+all answers.
 """
 
 import asyncio
@@ -30,19 +31,19 @@ Reader = asyncio.StreamReader
 Writer = asyncio.StreamWriter
 
 EXPECTED = {200, 429}
-"""Of those who behave."""
+"""Statuses that correct clients may get."""
 
 
 @dataclass(frozen=True, slots=True)
 class SoakPlan:
-    """What is done to the service.
+    """Load and faulty clients of a soak test.
 
     Attributes:
-        seconds: in all.
-        share: of what it bears, offered by clients that behave.
-        bad_clients: of each bad kind, all the time.
-        every: seconds between looks at its memory.
-        full: seconds at full load before, which tell how much it bears.
+        seconds: duration of the test.
+        share: load of the correct clients, as a share of the saturation rate.
+        bad_clients: number of concurrent clients of each faulty kind.
+        every: interval between two reads of the process metrics, seconds.
+        full: duration of the full load that first measures the saturation rate, seconds.
     """
 
     seconds: float = 600.0
@@ -53,7 +54,7 @@ class SoakPlan:
 
 
 def run_soak(scans: Sequence[Segments], plan: SoakPlan, seed: int = 0) -> dict[str, Any]:
-    """Run it; the report as `placecell bench soak` writes it."""
+    """Run the soak test; return the report that `placecell bench soak` writes."""
     shape = LoadPlan()
     drawn = Segments.concatenate(draw_scans(scans, shape.segments * shape.bodies, seed))
     sent = match_requests(
@@ -135,7 +136,7 @@ async def _run(
 
 
 async def abort_request(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
-    """Leaves in the midst of a request, or of the answer to it."""
+    """Disconnect within a request or before its answer."""
     del reader
     writer.write(request[: draw.randrange(1, len(request) + 1)])
     await writer.drain()
@@ -144,7 +145,7 @@ async def abort_request(reader: Reader, writer: Writer, request: bytes, draw: ra
 
 
 async def send_slowly(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
-    """Sends a request in ten pieces with pauses."""
+    """Send a request in ten parts with pauses."""
     step = -(-len(request) // 10)
     for start in range(0, len(request), step):
         writer.write(request[start : start + step])
@@ -154,12 +155,12 @@ async def send_slowly(reader: Reader, writer: Writer, request: bytes, draw: rand
 
 
 async def send_garbage(reader: Reader, writer: Writer, request: bytes, draw: random.Random) -> str:
-    """Sends garbage: no HTTP at all, or a request with some bytes of its body altered."""
+    """Send random bytes, or a request with some bytes of its body altered."""
     if draw.random() < 0.5:
         writer.write(draw.randbytes(draw.randrange(1, 5000)) + b"\r\n\r\n")
     else:
         altered = bytearray(request)
-        # The body's first bytes say what it holds.
+        # The first bytes of the body name its fields.
         start = request.index(b"\r\n\r\n") + 4
         altered[start + draw.randrange(20)] = draw.randrange(256)
         for _ in range(20):
@@ -182,7 +183,7 @@ BAD: dict[str, Bad] = {"dies": abort_request, "dawdles": send_slowly, "babbles":
 
 
 def read_process_metrics(address: str) -> dict[str, float]:
-    """The service's memory and open file descriptors, by its own account."""
+    """Return the service's resident memory and open file descriptors, from its metrics."""
     with urllib.request.urlopen(f"{address}/metrics", timeout=30) as answer:
         lines = answer.read().decode().splitlines()
     found = dict(line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
@@ -193,12 +194,12 @@ def read_process_metrics(address: str) -> dict[str, float]:
 
 
 def draw_memory(report: dict[str, Any], file: Path) -> None:
-    """Memory and file descriptors over time, as a PNG."""
+    """Plot memory and file descriptors over time."""
     seconds = [each["seconds"] for each in report["watched"]]
     with figure(file, 2) as (left, right):
         left.plot(seconds, [each["resident_mb"] for each in report["watched"]])
-        left.set(xlabel="seconds", ylabel="memory, MB", ylim=(0, None))
+        left.set(xlabel="time, seconds", ylabel="resident memory, MB", ylim=(0, None))
         right.plot(seconds, [each["descriptors"] for each in report["watched"]])
-        right.set(xlabel="seconds", ylabel="open file descriptors", ylim=(0, None))
+        right.set(xlabel="time, seconds", ylabel="open file descriptors", ylim=(0, None))
         for axes in (left, right):
             axes.grid(alpha=0.3)

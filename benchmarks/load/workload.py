@@ -1,4 +1,4 @@
-"""What a service under load is asked, of real segments, and the map that it has."""
+"""Requests of real segments for a service under load, and the map that it searches."""
 
 import json
 from dataclasses import dataclass
@@ -18,7 +18,13 @@ from service.api.body.body import MSGPACK
 
 @dataclass(frozen=True, slots=True)
 class LoadCase:
-    """A way to ask: encoding, segments a request, and whether requests share batches."""
+    """Kind of request.
+
+    Attributes:
+        media_type: encoding of the request.
+        segments: segments per request.
+        batching: whether the service batches across requests.
+    """
 
     media_type: str
     segments: int
@@ -26,13 +32,20 @@ class LoadCase:
 
     @property
     def name(self) -> str:
-        """For plots."""
+        """Return the name of the case in the report and the plot."""
         form = "msgpack" if self.media_type == MSGPACK else "JSON"
         return f"{form}, {self.segments} segments" + ("" if self.batching else ", no batching")
 
 
 def match_requests(case: LoadCase, drawn: Segments, count: int, k: int) -> tuple[bytes, ...]:
-    """So many whole requests to `/match`, each of other segments."""
+    """Return `count` encoded `/match` requests, each with other segments.
+
+    Args:
+        case: kind of request.
+        drawn: segments to send.
+        count: number of requests.
+        k: candidates per segment.
+    """
     bodies = []
     for number in range(count):
         rows = (number * case.segments + np.arange(case.segments)) % len(drawn)
@@ -52,7 +65,7 @@ def match_requests(case: LoadCase, drawn: Segments, count: int, k: int) -> tuple
 
 
 def store_map(address: str, drawn: Segments, count: int, seed: int) -> None:
-    """Store a map: real descriptors, each again and again with some levels changed."""
+    """Store a map of `count` segments: real descriptors, repeated with random changes."""
     with Client(address) as client:
         some = drawn.take(np.arange(min(200, len(drawn))))
         described = client.describe([some.cloud(row) for row in range(len(some))], some.sensors)
@@ -62,7 +75,7 @@ def store_map(address: str, drawn: Segments, count: int, seed: int) -> None:
 
 
 def perturbed(codes: Int8, count: int, seed: int) -> Int8:
-    """So many codes: those given, in turn, a tenth of their bytes drawn from others."""
+    """Return `count` codes: the given codes in turn, with a tenth of the bytes from other codes."""
     random = np.random.default_rng(seed)
     many = codes[np.arange(count) % len(codes)]
     strangers = codes[random.integers(len(codes), size=many.shape), np.arange(codes.shape[1])]

@@ -51,20 +51,22 @@ class MapsPlan:
 
 @contextmanager
 def writing_robots(
-    client: Client, views: DescriptorSampler, plan: MapsPlan, count: int, seed: int
+    client: Client, sampler: DescriptorSampler, plan: MapsPlan, count: int, seed: int
 ) -> Iterator[dict[str, Any]]:
     """Upsert and upload until the block ends; then the figures are filled in."""
     done, written = threading.Event(), dict[str, Any]()
     random = np.random.default_rng(seed)
-    fresh = views.sample_map(plan.upload, 1, seed + 1).codes
-    others = [encode(road_map(np.roll(fresh, shift, 0), views.manifest, "bob")) for shift in (0, 1)]
+    fresh = sampler.sample_map(plan.upload, 1, seed + 1).codes
+    others = [
+        encode(road_map(np.roll(fresh, shift, 0), sampler.manifest, "bob")) for shift in (0, 1)
+    ]
     fewer = plan.upserts // 10
 
     def upsert(number: int) -> None:
         # Half of them are there already, half are new.
         ids = np.unique(random.integers(count, size=fewer // 2))
         ids = np.append(ids, count + number * fewer + np.arange(fewer - len(ids)))
-        drawn = road_map(fresh[random.integers(len(fresh), size=fewer)], views.manifest, "ann")
+        drawn = road_map(fresh[random.integers(len(fresh), size=fewer)], sampler.manifest, "ann")
         changed = replace(drawn, ids=ids.astype(np.uint32))
         client.edit_map(MAP, Delta(changed, np.zeros(0, np.uint32)))
 
@@ -99,18 +101,18 @@ def writing_robots(
 
 @contextmanager
 def index_rebuilds(
-    client: Client, views: DescriptorSampler, data: Path, count: int, seed: int
+    client: Client, sampler: DescriptorSampler, data: Path, count: int, seed: int
 ) -> Iterator[set[int]]:
     """Replace so much of the map, again and again, that its index is made anew; when it was."""
     done, rebuilt = threading.Event(), set[int]()
     random = np.random.default_rng(seed)
     many = max(6_000, count // 16)
-    fresh = views.sample_map(many, 1, seed + 2).codes
+    fresh = sampler.sample_map(many, 1, seed + 2).codes
 
     def replace_many() -> None:
         while not done.wait(1.0):
             ids = np.unique(random.integers(count, size=many)).astype(np.uint32)
-            drawn = road_map(fresh[: len(ids)], views.manifest, "ann")
+            drawn = road_map(fresh[: len(ids)], sampler.manifest, "ann")
             client.edit_map(MAP, Delta(replace(drawn, ids=ids), np.zeros(0, np.uint32)))
             # The service keeps each map's base on disk whenever it has made a new one.
             rebuilt.update(file.stat().st_mtime_ns for file in (data / "cache").glob("*.cache"))

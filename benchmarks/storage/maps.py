@@ -33,20 +33,20 @@ from service.child_process import Service, address_of, running_service
 
 
 def measure_maps(
-    views: DescriptorSampler, plan: MapsPlan, seed: int = 0, *, progress: Progress = silent
+    sampler: DescriptorSampler, plan: MapsPlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
     """Measure all; the report as `placecell bench maps` writes it."""
-    ten_thousand = views.sample_map(10_000, 1, seed).codes
+    ten_thousand = sampler.sample_map(10_000, 1, seed).codes
     rows = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
-            content = views.sample_map(plan.sizes[number], plan.asked, seed)
-            rows.append(_row(views, content, plan, Path(folder) / str(number), seed))
+            content = sampler.sample_map(plan.sizes[number], plan.asked, seed)
+            rows.append(_row(sampler, content, plan, Path(folder) / str(number), seed))
     return {
         "rows": rows,
-        "file_bytes_per_segment": len(encode(road_map(ten_thousand, views.manifest, "ann")))
+        "file_bytes_per_segment": len(encode(road_map(ten_thousand, sampler.manifest, "ann")))
         / 10_000,
-        "model_id": views.manifest.model_id,
+        "model_id": sampler.manifest.model_id,
         "default": DEFAULT_MODEL,
         "machine": machine(),
         "seed": seed,
@@ -55,9 +55,9 @@ def measure_maps(
 
 
 def _row(
-    views: DescriptorSampler, content: SampledMap, plan: MapsPlan, data: Path, seed: int
+    sampler: DescriptorSampler, content: SampledMap, plan: MapsPlan, data: Path, seed: int
 ) -> dict[str, Any]:
-    file = encode(road_map(content.codes, views.manifest, "ann", seed=seed))
+    file = encode(road_map(content.codes, sampler.manifest, "ann", seed=seed))
     row: dict[str, Any] = {"segments": len(content.codes)}
     row["start_empty_s"] = round(_start(data, plan.starts), 3)
     with running_service(data) as address, Client(address, timeout=120) as client:
@@ -78,7 +78,7 @@ def _row(
     row["start_rebuild_s"] = round(_start(data, 1) - row["start_empty_s"], 3)
     with Service(data) as service:
         address = service.address()
-        row |= _written_to(address, views, content, plan, data, seed)
+        row |= _written_to(address, sampler, content, plan, data, seed)
         row["memory_mb_after_writes"] = round(
             read_process_metrics(address)["resident_mb"] - empty, 1
         )
@@ -88,7 +88,7 @@ def _row(
 
 def _written_to(
     address: str,
-    views: DescriptorSampler,
+    sampler: DescriptorSampler,
     content: SampledMap,
     plan: MapsPlan,
     data: Path,
@@ -97,11 +97,11 @@ def _written_to(
     """What is answered while robots write, and while the index is made anew."""
     row: dict[str, Any] = {}
     with Client(address, timeout=120) as client:
-        with writing_robots(client, views, plan, len(content.codes), seed) as written:
+        with writing_robots(client, sampler, plan, len(content.codes), seed) as written:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
         row |= written
-        with index_rebuilds(client, views, data, len(content.codes), seed) as rebuilt:
+        with index_rebuilds(client, sampler, data, len(content.codes), seed) as rebuilt:
             busy = asyncio.run(_asked(address, content, plan, data))
         row |= {f"rebuilding_match_50_{key}_ms": busy[key] for key in ("p50", "p99", "max")}
         row["rebuilds"] = len(rebuilt)

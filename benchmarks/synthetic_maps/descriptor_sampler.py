@@ -1,9 +1,10 @@
-"""Maps of any size from the descriptors of a recording: things seen several times, and asked for.
+"""Synthetic maps of any size, with descriptors sampled from a recording.
 
-A thing's descriptor is that of a real segment; of more things than there are, the mean of two real
-segments' times the root of two, which keeps their spread (descriptors lie about 0). Each view of a
-thing, in the map or asked for, adds the difference between two real segments of one group that were
-seen from 5 m apart or more, drawn at random: what really separates views of one thing.
+Each object of the map has the descriptor of a real segment. If the map needs more objects than the
+recording has segments, an object gets the mean of two real descriptors, times the square root of
+two to keep the spread (descriptors scatter about 0). Each view of an object, in the map and in a
+query, adds a difference between two real descriptors. The two segments belong to one group and
+were seen from at least 5 m apart, so the difference is that of two real views of one object.
 """
 
 from dataclasses import dataclass
@@ -16,22 +17,22 @@ from placecell.descriptors.manifest import Manifest
 from placecell.segmentation.recording import Recording
 
 VIEWS = 4
-"""Of each thing in the map."""
+"""Views of each object in the map."""
 
-APART = 5.0
-"""Metres between the places that two views are from: nearer ones are too easy to find."""
+MIN_VIEWPOINT_DISTANCE_M = 5.0
+"""Smallest distance between the viewpoints of two views; closer views are too easy to match."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampledMap:
-    """Segments of a map, and queries.
+    """Descriptors of a map and of queries.
 
     Attributes:
-        model_id: of the model that made the descriptors.
-        codes: int8 (n, code bytes), of the map.
-        things: int64 (n,), what each is a view of.
-        asked: int8 (q, code bytes), further views.
-        asked_things: int64 (q,).
+        model_id: id of the model that made the descriptors.
+        codes: int8 (n, code bytes), descriptors of the map.
+        objects: int64 (n,), object that each segment of the map is a view of.
+        query_codes: int8 (q, code bytes), descriptors of the queries: further views.
+        query_objects: int64 (q,), object that each query is a view of.
     """
 
     model_id: str
@@ -43,71 +44,87 @@ class SampledMap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DescriptorSampler:
-    """What real segments look like, and how views of one thing differ.
+    """Sampler of descriptors: real descriptors, and real differences between views.
 
     Attributes:
-        manifest: of the model.
-        found: float32 (n, d), descriptors of real segments, one a group.
-        apart: float32 (m, d), differences between two of one group.
+        manifest: manifest of the model.
+        descriptors: float32 (n, d), descriptors of real segments, one per group.
+        differences: float32 (m, d), differences between two descriptors of one group.
     """
 
     manifest: Manifest
-    found: Float32
-    apart: Float32
+    descriptors: Float32
+    differences: Float32
 
     @classmethod
     def from_recording(
         cls, extractor: Extractor, recording: Recording, seed: int
     ) -> "DescriptorSampler":
-        """From a recording.
+        """Describe a recording and collect the differences between views.
+
+        Args:
+            extractor: describes the segments.
+            recording: the segments of a drive.
+            seed: random seed of the pairs of views.
 
         Raises:
-            ValueError: no group was seen from places far enough apart.
+            ValueError: no group was seen from two viewpoints far enough apart.
         """
         around = extractor.manifest.neighborhood
         chosen = np.flatnonzero(recording.distinct)
         seen = None if around is None else recording.neighborhood(around)[chosen]
         found = extractor.describe(recording.segments.take(chosen), seen)
         groups = recording.groups[chosen]
-        # In random order within their groups: each with the next of its group.
+        # Segments are in random order within their group; each is paired with the next.
         shuffled = np.random.default_rng(seed).permutation(len(groups))
         order = shuffled[np.argsort(groups[shuffled], kind="stable")]
         sensors = recording.segments.sensors[chosen][order]
         same = groups[order[1:]] == groups[order[:-1]]
-        same &= np.linalg.norm(np.diff(sensors, axis=0), axis=1) >= APART
+        same &= np.linalg.norm(np.diff(sensors, axis=0), axis=1) >= MIN_VIEWPOINT_DISTANCE_M
         if not same.any():
-            raise ValueError(f"{recording.name}: no group was seen from {APART:g} m apart")
+            raise ValueError(
+                f"{recording.name}: no group was seen from two viewpoints at least "
+                f"{MIN_VIEWPOINT_DISTANCE_M:g} m apart. Use a longer drive."
+            )
         _, first = np.unique(groups[order], return_index=True)
-        apart = found[order[1:][same]] - found[order[:-1][same]]
-        return cls(extractor.manifest, found[order[first]], apart)
+        differences = found[order[1:][same]] - found[order[:-1][same]]
+        return cls(extractor.manifest, found[order[first]], differences)
 
     def sample_map(self, count: int, queries: int, seed: int) -> SampledMap:
-        """A map of so many segments, and queries for things in it."""
+        """Sample a map of `count` segments, and queries for objects of the map."""
         random = np.random.default_rng(seed)
-        things = np.arange(count) // VIEWS
-        asked = random.choice(things[-1] + 1, queries, replace=queries > things[-1] + 1)
-        base = self.sample_objects(int(things[-1]) + 1, random)
+        objects = np.arange(count) // VIEWS
+        number = int(objects[-1]) + 1
+        queried = random.choice(number, queries, replace=queries > number)
+        base = self.sample_objects(number, random)
         return SampledMap(
             self.manifest.model_id,
             np.concatenate(
                 [
                     self.sample_views(base, some, random)
-                    for some in np.array_split(things, 1 + count // 50_000)
+                    for some in np.array_split(objects, 1 + count // 50_000)
                 ]
             ),
-            things,
-            self.sample_views(base, asked, random),
-            asked,
+            objects,
+            self.sample_views(base, queried, random),
+            queried,
         )
 
     def sample_objects(self, count: int, random: np.random.Generator) -> Float32:
-        """Draw descriptors of `count` things, float32 (count, d)."""
-        real = self.found[random.permutation(len(self.found))[:count]]
-        pairs = random.integers(len(self.found), size=(count - len(real), 2))
-        mixed = (self.found[pairs[:, 0]] + self.found[pairs[:, 1]]) * np.float32(np.sqrt(0.5))
+        """Sample the descriptors of `count` objects, float32 (count, d)."""
+        known = self.descriptors
+        real = known[random.permutation(len(known))[:count]]
+        pairs = random.integers(len(known), size=(count - len(real), 2))
+        mixed = (known[pairs[:, 0]] + known[pairs[:, 1]]) * np.float32(np.sqrt(0.5))
         return np.concatenate([real, mixed])
 
-    def sample_views(self, base: Float32, things: Int64, random: np.random.Generator) -> Int8:
-        """Draw a view of each of these things, int8 (n, code bytes)."""
-        apart = self.apart[random.integers(len(self.apart), size=len(things))]
-        return self.manifest.quantizer.encode(base[things] + apart)
+    def sample_views(self, base: Float32, objects: Int64, random: np.random.Generator) -> Int8:
+        """Sample one view of each of these objects, int8 (n, code bytes).
+
+        Args:
+            base: float32 (number of objects, d), the descriptor of each object.
+            objects: int64 (n,), objects to view.
+            random: random generator.
+        """
+        rows = random.integers(len(self.differences), size=len(objects))
+        return self.manifest.quantizer.encode(base[objects] + self.differences[rows])

@@ -1,4 +1,4 @@
-"""Segments made up for the maps of a bench: nothing is recognised in them."""
+"""Maps of random segments, for benchmarks that recognize nothing in them."""
 
 from dataclasses import dataclass
 
@@ -8,19 +8,19 @@ from placecell_client.maps.edit import empty
 
 from placecell.core.types import UInt32
 
-FRAME_SEGMENTS = 30
+SEGMENTS_PER_CAPTURE = 30
 EPOCH = 1.7e9
-"""Unix seconds of the first frame."""
+"""Earliest time of a capture, Unix seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class MapTemplate:
-    """What segments of one map have in common.
+    """Model and coordinate frame of random maps.
 
     Attributes:
-        model_id: of the model whose descriptors they pretend to have.
-        preprocessing: version of the steps before that model.
-        code_bytes: of a descriptor.
+        model_id: id of the model that the descriptors appear to come from.
+        preprocessing: version of the preprocessing of that model.
+        code_bytes: bytes of a descriptor code.
         frame: name of the coordinate frame.
     """
 
@@ -31,19 +31,25 @@ class MapTemplate:
 
     @classmethod
     def from_info(cls, info: Info) -> "MapTemplate":
-        """Of the model that a service has loaded."""
+        """Return the template for the default model of a service."""
         model = info.model
         return cls(info.model_id, model["preprocessing"]["version"], model["code_bytes"])
 
     def empty_map(self) -> CompactMap:
-        """A map without segments."""
+        """Return a map without segments."""
         return empty(self.model_id, self.preprocessing, self.frame, self.code_bytes)
 
     def random_map(self, robot: str, ids: UInt32, random: np.random.Generator) -> CompactMap:
-        """A robot's segments of these ids; their frames' times lie within 1,000 s of `EPOCH`."""
-        count, frames = len(ids), -(-len(ids) // FRAME_SEGMENTS)
-        frame_index = (np.arange(count) // FRAME_SEGMENTS).astype(np.uint32)
-        positions = random.uniform(-500, 500, (frames, 3))
+        """Return random segments of a robot; capture times lie up to 1,000 s after `EPOCH`.
+
+        Args:
+            robot: name of the robot.
+            ids: ids of the segments.
+            random: random generator.
+        """
+        count, captures = len(ids), -(-len(ids) // SEGMENTS_PER_CAPTURE)
+        frame_index = (np.arange(count) // SEGMENTS_PER_CAPTURE).astype(np.uint32)
+        positions = random.uniform(-500, 500, (captures, 3))
         return CompactMap(
             model_id=self.model_id,
             preprocessing=self.preprocessing,
@@ -54,7 +60,7 @@ class MapTemplate:
             robots=(robot,),
             robot=np.zeros(count, np.uint16),
             frame_index=frame_index,
-            frame_times=EPOCH + random.uniform(0, 1_000, frames),
+            frame_times=EPOCH + random.uniform(0, 1_000, captures),
             frame_positions=positions,
-            frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (frames, 1)),
+            frame_orientations=np.tile(np.array([0, 0, 0, 1], np.float32), (captures, 1)),
         )
