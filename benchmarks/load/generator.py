@@ -25,7 +25,8 @@ class Load:
         rate: requests per second; 0: each of `clients` clients sends its next request after the
             last answer.
         seconds: duration.
-        max_connections: largest number of open connections; a request that waits for one counts the wait.
+        max_connections: largest number of open connections. A request that waits for a free
+            connection counts the wait as latency.
         clients: number of clients if `rate` is 0.
     """
 

@@ -1,4 +1,4 @@
-"""How often two maps are laid on each other rightly: pairs of stretches of a town's two drives."""
+"""Accuracy of map alignment: pairs of maps of stretches of a town's two drives."""
 
 import json
 from collections.abc import Sequence
@@ -24,21 +24,21 @@ from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
 RIGHT = (0.5, 1.0)
-"""Metres and degrees, in the middle of what both maps have."""
+"""Tolerance of a right alignment, meters and degrees, in the middle of the overlap."""
 
 ENOUGH = 0.2
-"""Of an overlap, for a pair that is to be found."""
+"""Overlap from which a pair of maps counts as alignable, a share of the map."""
 
 
 @dataclass(frozen=True, slots=True)
 class Drives:
-    """Two robots' maps, of all that they drove.
+    """Maps of two robots' whole drives.
 
     Attributes:
-        maps: in the frames of the drives' worlds.
-        scans: of each map's frames, the scan.
-        first: scans that a frame needs before its own.
-        protocol: of the segments.
+        maps: the maps, in the frames of their drives.
+        scans: scan number of each capture, per map.
+        first: number of earlier scans that a capture accumulates.
+        protocol: version of the segmentation protocol.
     """
 
     maps: tuple[CompactMap, CompactMap]
@@ -54,7 +54,7 @@ class Drives:
         engine: Engine,
         progress: Progress,
     ) -> "Drives":
-        """Cut both drives into segments, unless they are prepared, and describe them."""
+        """Segment both drives, unless recordings are given, and describe the segments."""
         maps, scans = [], []
         for folder, file in zip(folders, prepared, strict=True):
             drive = open_drive(folder)
@@ -66,11 +66,12 @@ class Drives:
         return cls((maps[0], maps[1]), (scans[0], scans[1]), first, recording.parameters.protocol)
 
     def stretch(self, which: int, ends: Sequence[int], frame: Float64) -> CompactMap:
-        """The map of a stretch of one drive, in a frame of its own.
+        """Return the map of a stretch of one drive, in a frame of its own.
 
         Args:
-            ends: its first and last scan; frames that need scans before it are left out.
-            frame: (4, 4), from the drive's world.
+            which: 0 or 1, the drive.
+            ends: first and last scan. Captures that accumulate earlier scans are left out.
+            frame: transform (4, 4) from the frame of the drive.
         """
         scan = self.scans[which][self.maps[which].frame_index]
         part = take(self.maps[which], (scan >= ends[0] + self.first) & (scan <= ends[1]))
@@ -84,19 +85,20 @@ def measure_alignment(
     prepared: Sequence[Path | None] = (None, None),
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Align all pairs of a town.
+    """Align all map pairs of a town; return the report that `placecell bench align` writes.
 
     Args:
-        folder: of `placecell town --pairs`.
-        model: its folder.
-        prepared: recordings of the two drives, where there are any.
+        folder: output folder of `placecell town --pairs`.
+        model: folder of the model.
+        prepared: recording of each drive; None: segment the drive.
+        progress: wraps the loops.
 
     Raises:
-        ValueError: the folder has no pairs, or a recording does not fit.
+        ValueError: the folder has no pairs, or a recording is of another drive.
     """
     file = folder / "pairs.json"
     if not file.is_file():
-        raise ValueError(f"{file}: is not there; 'placecell town --meters M --pairs N' makes it")
+        raise ValueError(f"{file} does not exist. Run 'placecell town --meters M --pairs N'.")
     drawn = json.loads(file.read_text())
     with Engine.temporary(model) as engine:
         folders = [folder / name for name in drawn["drives"]]
@@ -129,7 +131,7 @@ def measure_alignment(
 def row_of(
     kind: str, pair: dict[str, Any], found: MapAlignment, milliseconds: float
 ) -> dict[str, Any]:
-    """What became of a pair, against the truth."""
+    """Return the report row of a pair: its alignment, compared with the truth."""
     meters = degrees = None
     if found.best is not None and found.pose is not None:
         truth, middle = Pose.of_matrix(np.array(pair["b_to_a"])), found.best.source.mean(axis=0)
@@ -157,7 +159,7 @@ def row_of(
 
 
 def summarize(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Shares, with 95% bounds."""
+    """Return counts with 95% bounds, per kind of pair."""
     overlapping = [row for row in rows if row["kind"] == "overlapping"]
     groups = {
         "overlapping": overlapping,
@@ -189,17 +191,17 @@ def summarize(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
 
 def draw_alignment(report: dict[str, Any], file: Path) -> None:
-    """How much agrees, against how much the maps overlap, as a PNG."""
+    """Plot the agreement of each alignment against the overlap of the maps."""
     with figure(file, 1) as (axes,):
         for label, color, aligned, right in (
-            ("aligned rightly", "tab:green", True, True),
-            ("aligned wrongly", "tab:red", True, False),
+            ("right alignment", "tab:green", True, True),
+            ("wrong alignment", "tab:red", True, False),
             ("not aligned", "0.6", False, False),
         ):
             wanted = {"aligned": aligned, "right": right}
             rows = [row for row in report["rows"] if wanted.items() <= row.items()]
             overlap, agreement = ([row[name] for row in rows] for name in ("overlap", "agreement"))
             axes.scatter(overlap, agreement, color=color, s=12, label=f"{label}: {len(rows)}")
-        axes.set(xlabel="overlap of the maps", ylabel="agreement where they overlap")
+        axes.set(xlabel="overlap of the maps, share", ylabel="agreement within the overlap, share")
         axes.legend()
         axes.grid(alpha=0.3)

@@ -1,4 +1,4 @@
-"""Tables of localisation, from the JSON files of `evaluate-poses` and `bench peers`."""
+"""Localization tables, from the JSON files of `evaluate-poses` and `bench peers`."""
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
@@ -9,7 +9,10 @@ OWN = ("queries", "right", "wrong but sure", "not localised", "median error", "u
 
 
 def read_reports(folder: Path) -> dict[str, dict[str, Any]]:
-    """By system, its figures: `NAME.json` is a report of ours, `peers*.json` one of many rows."""
+    """Read the figures of each system in a folder.
+
+    A file `NAME.json` is a report of `evaluate-poses`; a file `peers*.json` holds a row per peer.
+    """
     found: dict[str, dict[str, Any]] = {}
     for file in sorted(folder.glob("*.json")):
         report = json.loads(file.read_text())
@@ -19,10 +22,10 @@ def read_reports(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def comparison_table(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Iterator[str]:
-    """Markdown: a row a system, a column a case; right and wrong but sure, percent.
+    """Yield a Markdown table: a row per system, a column per case; percent right / wrong but sure.
 
     Args:
-        cases: by name, the figures by system.
+        cases: figures of each system, by case and system.
     """
     yield from head(["", *cases])
     for name in dict.fromkeys(system for figures in cases.values() for system in figures):
@@ -31,15 +34,15 @@ def comparison_table(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Itera
 
 
 def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
-    """Markdown: a row a case, with 95% bounds; what one system reached.
+    """Yield a Markdown table of one system: a row per case, with 95% bounds.
 
     Args:
-        cases: by name, a report of `evaluate-poses`, or a row of `bench peers`.
+        cases: reports of `evaluate-poses`, or rows of `bench peers`, by case.
     """
     yield from head(["", *OWN])
     for name, report in cases.items():
         meters, degrees = report["median_position_error_m"], report["median_yaw_error_deg"]
-        # Peers have none: which of their poses are sure is for their own rule to say.
+        # Peers have no such figure, because their own rule decides which poses are sure.
         until = report.get("metres_until_localised", {"p95": None})
         yield line(
             [
@@ -55,7 +58,7 @@ def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
 
 
 def both(figures: Mapping[str, Any]) -> str:
-    """Right and wrong but sure; a model that was trained on scans of the drive has a star."""
+    """Return percent right / wrong but sure; `*` marks a model trained on scans of the drive."""
     right, wrong = (
         percent(figures[key], digits)
         for key, digits in (("localised_right", 1), ("wrong_but_sure", 2))
@@ -64,22 +67,22 @@ def both(figures: Mapping[str, Any]) -> str:
 
 
 def bounded(report: Mapping[str, Any], key: str) -> str:
-    """A share with its bounds, percent."""
+    """Return a share with its bounds, in percent."""
     low, high = report["bounds_95"][key]
     return f"{percent(report[key], 2)} ({100 * low:.2f} to {100 * high:.2f})"
 
 
 def percent(share: float | None, digits: int) -> str:
-    """A share; of no queries there is none."""
+    """Return a share in percent, or `-` if there were no queries."""
     return "-" if share is None else f"{100 * share:.{digits}f}"
 
 
 def head(names: Sequence[str]) -> Iterator[str]:
-    """A table's first two lines."""
+    """Yield the first two lines of a table."""
     yield line(names)
     yield line(["---"] * len(names))
 
 
 def line(cells: Sequence[str]) -> str:
-    """A line of a table."""
+    """Return a line of a table."""
     return f"| {' | '.join(cells)} |"

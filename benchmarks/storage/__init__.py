@@ -1,1 +1,1 @@
-"""Storage benchmarks: large maps, compression and stored views."""
+"""Storage benchmarks: large maps, descriptor compression and stored views."""

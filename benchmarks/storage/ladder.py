@@ -1,4 +1,4 @@
-"""How far descriptors can be compressed: bytes a segment against recognition, on a drive."""
+"""Descriptor compression: bytes per segment against recognition, on a drive."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,20 +21,23 @@ PRODUCT_BYTES = (8, 16, 32, 64)
 def measure_compression(
     extractor: Extractor, recording: Recording, scans: tuple[int, int]
 ) -> dict[str, Any]:
-    """Measure every way to store a model's descriptors.
+    """Measure recognition with each storage format of a model's descriptors.
 
     Args:
-        scans: whose groups are asked for; what has to be fitted is fitted to the drive's others.
+        extractor: describes the segments.
+        recording: the segments of a drive.
+        scans: first and last scan whose segments are the queries. Quantizers are fitted to the
+            segments of all other scans.
 
     Raises:
-        ValueError: there is nothing to ask for, or to fit to.
+        ValueError: the scans hold fewer than 100 segments, or the others fewer than 1,000.
     """
     tested = recording.within(*scans) & recording.distinct
     fitted = ~recording.within(*scans) & recording.distinct
     if tested.sum() < 100 or fitted.sum() < 1000:
         raise ValueError(
-            f"{recording.name}: {int(tested.sum())} segments in scans {scans[0]} to {scans[1]} and "
-            f"{int(fitted.sum())} in others; 100 and 1,000 are needed"
+            f"{recording.name}: scans {scans[0]} to {scans[1]} have {int(tested.sum())} segments, "
+            f"all others {int(fitted.sum())}. At least 100 and 1,000 are needed."
         )
     around = extractor.manifest.neighborhood
     seen = None if around is None else recording.neighborhood(around)
@@ -62,7 +65,7 @@ def measure_compression(
 def storage_formats(
     found: Float32, tested: Bool, fitted: Bool, shipped: Quantizer
 ) -> Iterator[tuple[str, float, Float32]]:
-    """Each way's name, its bytes a segment, and the tested descriptors as it gives them back."""
+    """Yield name, bytes per segment, and the decoded test descriptors of each storage format."""
     asked, known = found[tested], found[fitted]
     dimension = found.shape[1]
     yield "float32", 4.0 * dimension, asked
@@ -79,14 +82,14 @@ def storage_formats(
     for size in PRODUCT_BYTES:
         if dimension % size == 0:
             product = faiss.ProductQuantizer(dimension, size, 8)
-            product.cp.min_points_per_centroid = 1  # a drive has fewer than it warns about
+            product.cp.min_points_per_centroid = 1  # silences a warning: a drive has few segments
             product.train(np.ascontiguousarray(known))
             back = product.decode(product.compute_codes(asked))  # type: ignore[call-arg,func-returns-value]
             yield f"product, {size} parts", size, np.asarray(back)
 
 
 def draw_compression(report: dict[str, Any], file: Path) -> None:
-    """Recognition against bytes, as a PNG."""
+    """Plot recognition against bytes per descriptor."""
     with figure(file, 2, size=4) as axes:
         for axis, key in zip(axes, ("top1", "recall_at_25"), strict=True):
             for kind, marker in (("product", "s"), ("", "o")):
@@ -97,11 +100,11 @@ def draw_compression(report: dict[str, Any], file: Path) -> None:
                     [row["bytes"] for row in rows],
                     [row[key] for row in rows],
                     f"{marker}-",
-                    label="product quantisation" if kind else "every dimension by itself",
+                    label="product quantisation" if kind else "scalar quantization",
                 )
             for row in report["rows"]:
                 if row["shipped"]:
                     axis.plot(row["bytes"], row[key], "k*", markersize=14, label="as shipped")
-            axis.set(xscale="log", xlabel="bytes a descriptor", ylabel=key)
+            axis.set(xscale="log", xlabel="bytes per descriptor", ylabel=key)
             axis.grid(alpha=0.3)
         axes[0].legend(fontsize=8)

@@ -1,4 +1,4 @@
-"""Robots that write to a map while others ask it: what `bench maps` measures against."""
+"""Robots that write to a map while `bench maps` measures requests to it."""
 
 import threading
 import time
@@ -22,19 +22,19 @@ OTHER = "other"
 
 @dataclass(frozen=True, slots=True)
 class MapsPlan:
-    """What is measured.
+    """Extent of the measurement.
 
     Attributes:
-        sizes: segments of the map.
-        queries: of a request.
-        asked: queries whose answers are checked.
-        k: candidates a query.
-        rate: requests a second.
-        seconds: of each phase.
-        upserts: segments a second that are written meanwhile, in tenths of it.
-        upload: segments of the map that is uploaded meanwhile, every `upload_seconds`.
-        upload_seconds: between uploads.
-        starts: of the service, from its cache; the median counts.
+        sizes: map sizes, in segments.
+        queries: queries per request.
+        asked: number of queries whose candidates are compared with the exact ones.
+        k: candidates per query.
+        rate: requests per second.
+        seconds: duration of each phase.
+        upserts: segments that a robot replaces or adds per second, in ten edits per second.
+        upload: segments of another map that a robot uploads again and again.
+        upload_seconds: interval between uploads.
+        starts: starts of the service from its cache; the report states their median.
     """
 
     sizes: tuple[int, ...] = (10_000, 100_000, 1_000_000)
@@ -53,7 +53,11 @@ class MapsPlan:
 def writing_robots(
     client: Client, sampler: DescriptorSampler, plan: MapsPlan, count: int, seed: int
 ) -> Iterator[dict[str, Any]]:
-    """Upsert and upload until the block ends; then the figures are filled in."""
+    """Edit a map and upload another until the block ends.
+
+    Yields:
+        The rates and times of the writes, which are filled in after the block.
+    """
     done, written = threading.Event(), dict[str, Any]()
     random = np.random.default_rng(seed)
     fresh = sampler.sample_map(plan.upload, 1, seed + 1).codes
@@ -63,7 +67,7 @@ def writing_robots(
     fewer = plan.upserts // 10
 
     def upsert(number: int) -> None:
-        # Half of them are there already, half are new.
+        # Half of the ids exist already, half are new.
         ids = np.unique(random.integers(count, size=fewer // 2))
         ids = np.append(ids, count + number * fewer + np.arange(fewer - len(ids)))
         drawn = road_map(fresh[random.integers(len(fresh), size=fewer)], sampler.manifest, "ann")
@@ -80,7 +84,7 @@ def writing_robots(
             due = time.perf_counter()
             work(len(spent))
             spent.append(1e3 * (time.perf_counter() - due))
-            # Late ones are made up for: the rate is that of the plan, or what the service bears.
+            # Late writes follow at once: the rate is the planned one, or the service's limit.
             done.wait(max(0.0, started + len(spent) * seconds - time.perf_counter()))
         written[f"{name}s_a_second"] = round(len(spent) / (time.perf_counter() - started), 3)
         written[f"{name}_ms"] = percentiles(np.array(spent))
@@ -103,7 +107,11 @@ def writing_robots(
 def index_rebuilds(
     client: Client, sampler: DescriptorSampler, data: Path, count: int, seed: int
 ) -> Iterator[set[int]]:
-    """Replace so much of the map, again and again, that its index is made anew; when it was."""
+    """Replace large parts of the map until the block ends, so that the service rebuilds its index.
+
+    Yields:
+        A set with one modification time of the cache file per rebuild, filled meanwhile.
+    """
     done, rebuilt = threading.Event(), set[int]()
     random = np.random.default_rng(seed)
     many = max(6_000, count // 16)
@@ -114,7 +122,7 @@ def index_rebuilds(
             ids = np.unique(random.integers(count, size=many)).astype(np.uint32)
             drawn = road_map(fresh[: len(ids)], sampler.manifest, "ann")
             client.edit_map(MAP, Delta(replace(drawn, ids=ids), np.zeros(0, np.uint32)))
-            # The service keeps each map's base on disk whenever it has made a new one.
+            # The service writes the cache file of a map whenever it has rebuilt the index.
             rebuilt.update(file.stat().st_mtime_ns for file in (data / "cache").glob("*.cache"))
 
     with ThreadPoolExecutor(1) as pool:

@@ -1,7 +1,7 @@
-"""Maps at scale: what a segment costs on disk and in memory, and how quick a large map is.
+"""Large maps: bytes per segment on disk and in memory, latency, recall and start time.
 
-The real server over loopback; maps of `map_content`. Another process asks on schedule, this one
-writes meanwhile.
+The real server over loopback serves synthetic maps. The load generator runs in its own process;
+this process writes meanwhile.
 """
 
 import asyncio
@@ -35,7 +35,7 @@ from service.child_process import Service, address_of, running_service
 def measure_maps(
     sampler: DescriptorSampler, plan: MapsPlan, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
-    """Measure all; the report as `placecell bench maps` writes it."""
+    """Measure maps of each size; return the report that `placecell bench maps` writes."""
     ten_thousand = sampler.sample_map(10_000, 1, seed).codes
     rows = []
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
@@ -94,7 +94,7 @@ def _written_to(
     data: Path,
     seed: int,
 ) -> dict[str, Any]:
-    """What is answered while robots write, and while the index is made anew."""
+    """Measure `/match` while robots write, and while the service rebuilds the index."""
     row: dict[str, Any] = {}
     with Client(address, timeout=120) as client:
         with writing_robots(client, sampler, plan, len(content.codes), seed) as written:
@@ -109,7 +109,7 @@ def _written_to(
 
 
 def _recognized(client: Client, content: SampledMap) -> dict[str, float]:
-    """Shares of queries whose nearest segment, or one of 25, is a view of the same thing."""
+    """Return the shares of queries with a view of their object among the 1 or 25 nearest."""
     model = client.info().model
     exact = _by_comparing_all(content, Quantizer(model["step"], model["per_byte"]))
     found = []
@@ -131,7 +131,7 @@ def _recognized(client: Client, content: SampledMap) -> dict[str, float]:
 
 
 def _by_comparing_all(content: SampledMap, quantizer: Quantizer) -> Int64:
-    """Things that the 25 nearest are views of, (q, 25), each query compared with every segment."""
+    """Return the objects of the 25 nearest segments by exhaustive search, int64 (q, 25)."""
     nearest = faiss.ResultHeap(len(content.query_codes), 25)
     asked = quantizer.levels(content.query_codes).astype(np.float32)
     for start in range(0, len(content.codes), 100_000):
@@ -149,7 +149,7 @@ def _shares(things: Int64, content: SampledMap) -> float:
 async def _asked(
     address: str, content: SampledMap, plan: MapsPlan, folder: Path
 ) -> dict[str, float]:
-    """Milliseconds of `/match` from descriptors, asked on schedule by another process."""
+    """Measure `/match` from descriptors at the planned rate, milliseconds."""
     bodies = [
         msgpack.packb(
             {
@@ -167,12 +167,12 @@ async def _asked(
     )
     good = np.array(outcome.statuses) == 200
     if not good.all():
-        raise RuntimeError(f"/match was answered {set(outcome.statuses)}")
+        raise RuntimeError(f"/match returned statuses {set(outcome.statuses)}; expected 200.")
     return {key: spent or 0.0 for key, spent in percentiles(np.array(outcome.milliseconds)).items()}
 
 
 def _start(data: Path, times: int) -> float:
-    """Seconds until the service answers; the median."""
+    """Return the median time of a start of the service, seconds."""
     spent = []
     for _ in range(times):
         started = time.perf_counter()
@@ -182,12 +182,12 @@ def _start(data: Path, times: int) -> float:
 
 
 def _bytes(folder: Path) -> int:
-    """Of all files in a folder."""
+    """Return the bytes of all files in a folder."""
     return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
 
 
 def draw_maps(report: dict[str, Any], file: Path) -> None:
-    """What maps cost against their size, as a PNG."""
+    """Plot latency, memory and start time against map size."""
     rows = report["rows"]
     sizes = [row["segments"] for row in rows]
     with figure(file, 3) as (left, middle, right):
@@ -198,13 +198,13 @@ def draw_maps(report: dict[str, Any], file: Path) -> None:
             ("p50 idle", "idle_match_50_p50_ms", "s--"),
         ):
             left.plot(sizes, [row[key] for row in rows], style, label=name)
-        left.set(title="/match of 50 descriptors", ylabel="milliseconds")
-        for name, key in (("process", "process_mb"), ("store and index", "memory_mb")):
+        left.set(title="/match of 50 descriptors", ylabel="latency, ms")
+        for name, key in (("process", "process_mb"), ("map and index", "memory_mb")):
             middle.plot(sizes, [row[key] for row in rows], "o-", label=name)
-        middle.set(title="memory", ylabel="MB")
+        middle.set(title="Memory", ylabel="MB")
         for name, key in (("from the cache", "start_cache_s"), ("rebuilt", "start_rebuild_s")):
             right.plot(sizes, [row[key] for row in rows], "o-", label=name)
-        right.set(title="start, beyond that of an empty service", ylabel="seconds")
+        right.set(title="Start time, minus that of an empty service", ylabel="seconds")
         for axes in (left, middle, right):
             axes.set(xscale="log", xlabel="segments")
             axes.grid(alpha=0.3)

@@ -1,4 +1,4 @@
-"""What it is worth to keep several views of a thing: segments stored against recall, on a drive."""
+"""Value of several stored views per object: stored segments against recall, on a drive."""
 
 from typing import Any
 
@@ -14,27 +14,28 @@ from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
 from service.maps.deduplication import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
 
-KEPT = (1, 2, 3, 4, 6, 8, 12)
-"""Views of a thing, at most."""
+MAX_VIEWS = (1, 2, 3, 4, 6, 8, 12)
+"""Measured limits of the number of stored views per object."""
 
 
 def measure_views(
     extractor: Extractor, recording: Recording, scans: tuple[int, int], seed: int
 ) -> dict[str, Any]:
-    """Store a drive's segments with so many views of each thing, and look for all of them.
+    """Store a drive's segments with a limited number of views per object, and search for all.
 
-    Asked is for every segment with a mate (another of its group) that was seen from more than 10 m
-    away; whatever of its group was seen from within 10 m is taken out first, and itself. So the
-    queries are the same in each row, and what is not stored cannot be found.
+    The queries are all segments with a mate: a segment of the same group, seen from more than 10 m
+    away. The search of a query leaves out the query and all segments of its group that were seen
+    from within 10 m. The queries are therefore the same in each row, and a mate that is not stored
+    cannot be found.
 
     Args:
-        extractor: describes them.
-        recording: of the drive.
-        scans: first and last whose groups are taken.
-        seed: of the rows that keep as many segments at random.
+        extractor: describes the segments.
+        recording: the segments of the drive.
+        scans: first and last scan whose segments are used.
+        seed: random seed of the rows that keep as many segments at random.
 
     Raises:
-        ValueError: there is nothing to ask for.
+        ValueError: no segment has a mate.
     """
     around = extractor.manifest.neighborhood
     seen = None if around is None else recording.neighborhood(around)
@@ -49,12 +50,12 @@ def measure_views(
 
     asked = _Asked(manifest.quantizer.levels(codes).astype(np.float32), groups, segments.sensors)
     if not len(asked.queries):
-        raise ValueError(f"{recording.name}: no segment has a mate seen from more than 10 m away")
+        raise ValueError(f"{recording.name}: no segment has a mate seen from more than 10 m away.")
     random = np.random.default_rng(seed)
     measured: list[dict[str, Any]] = [
         {"views": None, "kept": "all"} | asked.with_stored(np.ones(len(rows), dtype=bool))
     ]
-    for most in KEPT:
+    for most in MAX_VIEWS:
         kept = sighting(content, nothing, same, views=most).changed.ids
         stored = np.isin(np.arange(len(rows)), kept)
         drawn = random.permutation(stored)
@@ -77,7 +78,7 @@ def measure_views(
 
 
 def _map_of(codes: Int8, segments: Segments, frames: Int64, model_id: str) -> CompactMap:
-    """Segments with their rows as ids and their scans as times."""
+    """Return a map of the segments; ids are row numbers, times are scan numbers."""
     times, first, frame_index = np.unique(frames, return_index=True, return_inverse=True)
     f = len(times)
     return CompactMap(
@@ -97,7 +98,7 @@ def _map_of(codes: Int8, segments: Segments, frames: Int64, model_id: str) -> Co
 
 
 class _Asked:
-    """Segments, and those among them that have a mate far off."""
+    """Segments of a drive, and the queries among them: segments that have a mate."""
 
     def __init__(self, levels: Float32, groups: Int64, sensors: Float32) -> None:
         self._levels = levels
@@ -107,7 +108,7 @@ class _Asked:
         self.queries = np.flatnonzero(has_mate)
 
     def _mates(self, row: int) -> Bool:
-        """Of its group, and seen from far off."""
+        """Return which segments are of the same group and were seen from more than 10 m away."""
         return np.asarray((self._groups == self._groups[row]) & ~self._is_close(row))
 
     def _is_close(self, row: int) -> Bool:
@@ -115,7 +116,7 @@ class _Asked:
         return np.asarray((offsets**2).sum(axis=1) <= CROSS_VIEW_METERS**2)
 
     def with_stored(self, stored: Bool) -> dict[str, float]:
-        """How many of the queries find a mate among these segments."""
+        """Return the shares of queries that find a mate if only these segments are stored."""
         top, recalled = 0, 0
         wanted = set(self.queries.tolist())
         for rows, distances in distance_rows(self._levels):

@@ -99,8 +99,8 @@ def test_the_command_tells_and_writes(tmp_path: Path) -> None:
 
 def test_views_of_a_thing_differ_as_those_of_one_group_do() -> None:
     views = DescriptorSampler.from_recording(EIGENVALUE, recorded_from_two_places(), seed=0)
-    assert len(views.found) == 16
-    assert 700 < len(views.apart) < 900  # half of the pairs
+    assert len(views.descriptors) == 16
+    assert 700 < len(views.differences) < 900  # half of the pairs
     content = views.sample_map(1000, 50, seed=1)
     assert np.bincount(content.objects).tolist() == [VIEWS] * 250
     assert len(np.unique(content.query_objects)) == 50
