@@ -1,74 +1,73 @@
-"""Look-alike floors: how often /localize confuses one floor with another, and how surely.
+"""Similar floors: how often /localize confuses one floor with another, and how surely.
 
-A floor is a set of things, each with a descriptor and a place. Another floor has the same things in
-the same places, but for a share that is replaced by others. Each map sees each thing anew: its
-descriptors differ as two views of one real segment do (`map_content`), its centroids by decimeters.
-The robot sees a part of one floor, in a frame of its own, and asks in all maps at once, by the code
-that answers `/localize`.
+A floor is a set of objects, each with a descriptor and a position. Another floor has the same
+objects at the same positions, except for a share that is replaced by other objects. Each map sees
+each object anew: its descriptors differ like two views of one real segment (`descriptor_sampler`),
+its centroids by some decimeters. The robot sees part of one floor, in its own frame, and localizes
+in all maps at once, with the engine that answers `/localize`.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap
-from placecell_client.maps.edit import take
 
 from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
 from benchmarks.synthetic_maps.road_map import road_map
 from evaluation.machine import machine
 from evaluation.poses.queries import random_frame
 from placecell.core.types import Float32, Float64, Int8, Int64
-from placecell.localization import LocalizationParameters, Pose
+from placecell.localization import Pose
 from placecell.segmentation.pipeline import Progress, silent
-from service.core.metrics import Metrics
+from service.core.auth import ANYONE
 from service.core.settings import Settings
 from service.core.timing import Timing
-from service.inference.model_registry import Model, Models
-from service.maps.index import LayeredIndex
-from service.maps.layers import MapLayers
-from service.maps.shared_index import SharedIndexes
-from service.maps.snapshot import MapSnapshot
-from service.maps.store import MapHead
-from service.search.localization import MapLocalization, ModelQuery, localize_among
+from service.engine import Engine
+from service.inference.describer import Descriptors
+from service.search.localization import LocalizationResult
+from service.search.query import Query, select_maps
 
-SIZE = np.array([90.0, 40.0, 4.0])
+FLOOR_SIZE_M = np.array([90.0, 40.0, 4.0])
 """Size of a floor along x, y, z, meters."""
 
-SCATTER = 0.3
-"""Scatter of a thing's centroid between views: standard deviation along each axis, meters."""
+CENTROID_SCATTER_M = 0.3
+"""Standard deviation of an object's centroid between views, along each axis, meters."""
 
 SURE = 0.9
+"""Probability from which a pose counts as sure."""
 
-NEAR = 3.0, 10.0
-"""Tolerance of a right pose, meters and degrees; how exact a pose is, other benches measure."""
+TOLERANCE = 3.0, 10.0
+"""Tolerance of a right pose, meters and degrees; other benchmarks measure the accuracy of poses."""
 
 K = 25
+"""Candidates per segment."""
 
 
 @dataclass(frozen=True, slots=True)
 class FloorCase:
-    """A kind of trial.
+    """Kind of trial.
 
     Attributes:
-        name: of the case.
-        floors: that look like the true one, all of one building.
-        things: on a floor.
-        seen: segments that the robot sees.
-        views: of each thing in a map; 1: the map was deduplicated.
-        unchanged: the robot sees only what all floors have.
-        differing: things that differ between two floors; None: the share of the trial.
-        larger: how many times larger the other floors' maps are, by things elsewhere in the
-            building; less than 1: how many times larger the true floor's is.
-        other_model: the other floors were mapped with another model.
-        others: maps of other buildings beside them.
+        name: name of the case.
+        floors: number of other floors of the building, all similar to the true floor.
+        objects: number of objects on a floor.
+        seen: number of segments that the robot sees.
+        views: views of each object in a map; 1: the map was deduplicated.
+        unchanged: whether the robot sees only objects that all floors have.
+        differing: number of objects that differ between two floors; None: drawn per trial.
+        larger: size of the other floors' maps over that of the true floor's map, due to objects
+            elsewhere in the building; below 1, the true floor's map is larger.
+        other_model: whether another model made the maps of the other floors.
+        others: number of maps of other buildings.
     """
 
     name: str
     floors: int = 1
-    things: int = 150
+    objects: int = 150
     seen: int = 50
     views: int = 3
     unchanged: bool = False
@@ -89,24 +88,25 @@ CASES = (
     FloorCase("large true map", larger=1 / 20),
     FloorCase("deduplicated maps", views=1),
     FloorCase("two models", other_model=True),
-    FloorCase("twenty floors", floors=19, things=80),
+    FloorCase("twenty floors", floors=19, objects=80),
     FloorCase("among other buildings", others=30),
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Result of one trial: one robot that asked once.
+    """Result of one trial: one localization of one robot.
 
     Attributes:
-        case: name of it.
-        share: of the other floors' things that were replaced.
-        differs: share of what the robot sees that the most similar other floor does not have.
-        right: localized in the right map, at the right place.
-        wrong_but_sure: localized elsewhere with a probability of 0.9 or more.
-        wrong: localized elsewhere.
-        ambiguous: not localized, for another place fits as well.
-        names_both: not localized, and both places are told: the true one and its rival.
+        case: name of the case.
+        share: share of the other floors' objects that were replaced.
+        differs: share of the seen objects that the most similar other floor does not have.
+        right: whether the pose is right: in the right map, within the tolerance.
+        wrong_but_sure: whether the pose is wrong, with a probability of at least 0.9.
+        wrong: whether the pose is wrong.
+        ambiguous: whether the robot is not localized because another place fits equally well.
+        names_both: whether the robot is not localized, and the answer names both the true map and
+            its rival.
     """
 
     case: str
@@ -120,32 +120,46 @@ class Trial:
 
 
 def measure_floors(
-    views: Sequence[DescriptorSampler],
-    models: Sequence[Model],
+    samplers: Sequence[DescriptorSampler],
+    folder: Path,
+    names: Sequence[str],
     trials: int,
     seed: int = 0,
     cases: Sequence[FloorCase] = CASES,
     *,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Run the trials, spread evenly over cases and shares of change; return the report.
+    """Run the trials, spread evenly over the cases; return the report of `placecell bench floors`.
 
     Args:
-        views: of each model, the first one's maps are asked.
-        models: the same models, loaded.
+        samplers: sampler of each model's descriptors.
+        folder: folder of the models.
+        names: names of the models; the first one makes the map of the true floor.
+        trials: number of trials.
+        seed: random seed of the first trial; the next trials count up.
+        cases: cases to run.
+        progress: wraps the loop.
+
+    Raises:
+        StartError: a model cannot be loaded.
     """
-    done = [
-        run_trial(views, models, cases[number % len(cases)], seed + number)
-        for number in progress(range(trials), trials, "trials")
-    ]
-    decided = [each for each in done if difference_decides(each)]
+    with TemporaryDirectory(prefix="placecell-floors-") as data:
+        settings = Settings(
+            data_dir=Path(data), models_dir=folder, model=names[0], also=tuple(names[1:])
+        )
+        with Engine.open(settings) as engine:
+            done = [
+                run_trial(engine, samplers, names, cases[number % len(cases)], seed + number)
+                for number in progress(range(trials), trials, "trials")
+            ]
+            ids = [engine.models.named(name).id for name in names]
     return {
         "trials": len(done),
         "wrong_but_sure": sum(each.wrong_but_sure for each in done),
         "wrong": sum(each.wrong for each in done),
         "right": sum(each.right for each in done),
         "ambiguous": sum(each.ambiguous for each in done),
-        "where_the_difference_decides": summarize(decided),
+        "where_the_difference_decides": summarize([one for one in done if difference_decides(one)]),
         "by_share": {
             f"{low:.1f} to {low + 0.1:.1f}": summarize(
                 [each for each in done if low <= each.share < low + 0.1 + 1e-9 * (low > 0.45)]
@@ -156,26 +170,26 @@ def measure_floors(
             case.name: summarize([each for each in done if each.case == case.name])
             for case in cases
         },
-        "models": [each.id for each in models],
+        "models": ids,
         "machine": machine(),
         "seed": seed,
     }
 
 
-DECIDES, LEAST = 0.3, 10
-"""Share of the robot's segments, and number of segments, that only the true floor must have for the
-difference to decide."""
+DECISIVE_SHARE, DECISIVE_SEGMENTS = 0.3, 10
+"""Share and number of the seen segments that only the true floor must have, so that the difference
+decides."""
 
 
 def difference_decides(trial: Trial) -> bool:
-    """Return whether the robot sees enough of the difference, and scores of one model show it."""
+    """Return whether the robot sees enough of the difference, in maps of one model."""
     seen = {case.name: case.seen for case in CASES}.get(trial.case, 0)
-    is_enough = trial.differs >= DECIDES and trial.differs * seen >= LEAST
+    is_enough = trial.differs >= DECISIVE_SHARE and trial.differs * seen >= DECISIVE_SEGMENTS
     return is_enough and trial.case != "two models"
 
 
 def summarize(trials: Sequence[Trial]) -> dict[str, Any]:
-    """Summarize the trials of each case."""
+    """Return the counts of some trials."""
     count = len(trials)
     return {
         "trials": count,
@@ -190,162 +204,156 @@ def summarize(trials: Sequence[Trial]) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Floor:
-    """Floor of a building: things by number, and their positions, float64 (n, 3)."""
+    """Floor of a building.
 
-    things: Int64
-    places: Float64
+    Attributes:
+        objects: int64 (n,), number of each object.
+        positions: float64 (n, 3), position of each object, meters.
+    """
+
+    objects: Int64
+    positions: Float64
 
 
 def run_trial(
-    views: Sequence[DescriptorSampler], models: Sequence[Model], case: FloorCase, seed: int
+    engine: Engine,
+    samplers: Sequence[DescriptorSampler],
+    names: Sequence[str],
+    case: FloorCase,
+    seed: int,
 ) -> Trial:
-    """Draw floors, map them, and localize a robot of the first floor."""
+    """Draw floors, store their maps, localize a robot of the first floor, and delete the maps."""
     random = np.random.default_rng(seed)
     share = float(random.uniform(0, 0.6)) if case.differing is None else 0.0
-    count = case.things
+    count = case.objects
     changed = round(share * count) if case.differing is None else case.differing
-    true = Floor(np.arange(count), random.uniform(0, 1, (count, 3)) * SIZE)
-    floors, fresh = [true], count
+    true = Floor(np.arange(count), random.uniform(0, 1, (count, 3)) * FLOOR_SIZE_M)
+    floors, unused = [true], count
     common = np.ones(count, dtype=bool)
     for _ in range(case.floors):
-        other = Floor(true.things.copy(), true.places.copy())
+        other = Floor(true.objects.copy(), true.positions.copy())
         replaced = random.choice(count, changed, replace=False)
-        other.things[replaced] = fresh + np.arange(changed)
-        other.places[replaced] = random.uniform(0, 1, (changed, 3)) * SIZE
+        other.objects[replaced] = unused + np.arange(changed)
+        other.positions[replaced] = random.uniform(0, 1, (changed, 3)) * FLOOR_SIZE_M
         common[replaced] = False
-        fresh += changed
+        unused += changed
         floors.append(other)
     for _ in range(case.others):
-        things = fresh + np.arange(count)
-        floors.append(Floor(things, random.uniform(0, 1, (count, 3)) * SIZE))
-        fresh += count
+        objects = unused + np.arange(count)
+        floors.append(Floor(objects, random.uniform(0, 1, (count, 3)) * FLOOR_SIZE_M))
+        unused += count
     extra = round(count * (max(case.larger, 1 / case.larger) - 1))
     floors = [
-        _extended(floor, extra, fresh + number * extra, random)
+        _extended(floor, extra, unused + number * extra, random)
         if (number > 0) == (case.larger > 1)
         else floor
         for number, floor in enumerate(floors)
     ]
-    fresh += extra * len(floors)
-    of_model = [0] + [int(case.other_model)] * (len(floors) - 1)
-    looks = [each.sample_objects(fresh, random) for each in views]
-    # Both orders of the names.
-    names = [f"floor-{number:02}" for number in random.permutation(len(floors))]
-    maps = [
-        _mapped(floor, views[model], looks[model], case.views, name, random)
-        for floor, model, name in zip(floors, of_model, names, strict=True)
-    ]
-    # What the robot sees: things around a place, of what all floors have or of all.
-    among = np.flatnonzero(common) if case.unchanged else np.arange(count)
-    middle = true.places[random.choice(among)]
-    away = np.linalg.norm((true.places[among] - middle)[:, :2], axis=1)
-    seen = np.sort(among[np.argsort(away)[: case.seen]])
+    unused += extra * len(floors)
+    model_of = [0] + [int(case.other_model)] * (len(floors) - 1)
+    descriptors = [each.sample_objects(unused, random) for each in samplers]
+    # The names are in random order, because they decide between maps that are otherwise equal.
+    map_names = [f"floor-{number:02}" for number in random.permutation(len(floors))]
+    for floor, number, name in zip(floors, model_of, map_names, strict=True):
+        content = _map_of(floor, samplers[number], descriptors[number], case.views, name, random)
+        engine.put_map(name, content)
+    # The robot sees the objects around a position: those that all floors have, or all.
+    visible = np.flatnonzero(common) if case.unchanged else np.arange(count)
+    middle = true.positions[random.choice(visible)]
+    distance = np.linalg.norm((true.positions[visible] - middle)[:, :2], axis=1)
+    seen = np.sort(visible[np.argsort(distance)[: case.seen]])
     differs = 1.0 - max(
-        float(np.isin(true.things[seen], floor.things).mean()) for floor in floors[1:]
+        float(np.isin(true.objects[seen], floor.objects).mean()) for floor in floors[1:]
     )
     frame = random_frame(seed)
-    here = frame.apply(true.places[seen] + random.normal(scale=SCATTER, size=(len(seen), 3)))
-    groups = []
-    for number, (each, model) in enumerate(zip(views, models, strict=True)):
-        own = tuple(
-            _stored(content, model, name)
-            for content, name, of in sorted(
-                zip(maps, names, of_model, strict=True), key=lambda one: one[1]
-            )
-            if of == number
+    scatter = random.normal(scale=CENTROID_SCATTER_M, size=(len(seen), 3))
+    centroids = frame.apply(true.positions[seen] + scatter)
+    codes = {
+        engine.models.named(names[number]).id: samplers[number].sample_views(
+            descriptors[number], true.objects[seen], random
         )
-        if own:
-            codes = each.sample_views(looks[number], true.things[seen], random)
-            groups.append(ModelQuery(model, own, codes, here, np.arange(len(codes))))
-    shared = _Shared()
-    answers = localize_among(
-        groups, K, LocalizationParameters(), Timing(), shared.parts, lambda _: None
-    )
-    return _outcome(answers, case, share, differs, names[0], frame.inverse(), here)
+        for number in sorted(set(model_of))
+    }
+    result = _localize(engine, codes, centroids)
+    for name in map_names:
+        engine.delete_map(name)
+    return _trial_of(result, case, share, differs, map_names[0], frame.inverse(), centroids)
 
 
-def _outcome(
-    answers: Sequence[MapLocalization],
+def _localize(engine: Engine, codes: dict[str, Int8], centroids: Float64) -> LocalizationResult:
+    """Localize in all maps, with the codes of each model."""
+    selection = select_maps(engine.maps, engine.models, None, None, ANYONE)
+    query = Query(engine.model.id, selection, K, None, ())
+    described = [
+        Descriptors(model.id, codes[model.id], None, centroids, {})
+        for model, _ in selection.searched
+    ]
+    return engine.poses(query, described, Timing())
+
+
+def _trial_of(
+    result: LocalizationResult,
     case: FloorCase,
     share: float,
     differs: float,
     name: str,
     truth: Pose,
-    here: Float64,
+    centroids: Float64,
 ) -> Trial:
-    """Return what the robot makes of the answer."""
-    best = answers[0]
-    pose, probability = best.judged.localization.pose, best.judged.localization.probability
-    is_told = pose is not None
-    right = is_told and best.stored.name == name and _near(pose, truth, here)
-    told = {each.stored.name for each in answers[:1]} | {
-        each.rival.name for each in answers[:1] if each.rival is not None
-    }
+    """Compare the result with the truth."""
+    best = result[0]
+    pose, probability = best.localization.pose, best.localization.probability
+    right = best.stored.name == name and _is_near(pose, truth, centroids)
+    named = {best.stored.name} | ({best.rival.name} if best.rival is not None else set())
     return Trial(
-        case.name,
-        share,
-        differs,
-        right,
-        is_told and not right and probability >= SURE,
-        is_told and not right,
-        not is_told and best.judged.localization.reason == "ambiguous",
-        not is_told and name in told and len(told) == 2,
+        case=case.name,
+        share=share,
+        differs=differs,
+        right=right,
+        wrong_but_sure=pose is not None and not right and probability >= SURE,
+        wrong=pose is not None and not right,
+        ambiguous=pose is None and best.localization.reason == "ambiguous",
+        names_both=pose is None and name in named and len(named) == 2,
     )
 
 
-def _near(pose: Pose | None, truth: Pose, here: Float64) -> bool:
-    assert pose is not None
-    meters, angle = pose.difference(truth, here.mean(axis=0))
-    return meters <= NEAR[0] and bool(np.degrees(angle) <= NEAR[1])
+def _is_near(pose: Pose | None, truth: Pose, centroids: Float64) -> bool:
+    if pose is None:
+        return False
+    distance, angle = pose.difference(truth, centroids.mean(axis=0))
+    return distance <= TOLERANCE[0] and bool(np.degrees(angle) <= TOLERANCE[1])
 
 
 def _extended(floor: Floor, count: int, first: int, random: np.random.Generator) -> Floor:
-    """Return a floor with further things beside it, as part of a larger map."""
-    reach = SIZE * (np.ceil(count / len(floor.things)), 1.0, 1.0)
-    places = random.uniform(0, 1, (count, 3)) * reach + (SIZE[0] + 20.0, 0.0, 0.0)
+    """Return a floor with further objects beside it, as part of a larger map."""
+    size = FLOOR_SIZE_M * (np.ceil(count / len(floor.objects)), 1.0, 1.0)
+    positions = random.uniform(0, 1, (count, 3)) * size + (FLOOR_SIZE_M[0] + 20.0, 0.0, 0.0)
     return Floor(
-        np.concatenate([floor.things, first + np.arange(count)]),
-        np.concatenate([floor.places, places]),
+        np.concatenate([floor.objects, first + np.arange(count)]),
+        np.concatenate([floor.positions, positions]),
     )
 
 
-def _mapped(
+def _map_of(
     floor: Floor,
-    views: DescriptorSampler,
-    looks: Float32,
-    times: int,
+    sampler: DescriptorSampler,
+    descriptors: Float32,
+    views: int,
     name: str,
     random: np.random.Generator,
 ) -> CompactMap:
-    """Return a map of a floor, with each thing seen `views` times."""
-    things = np.repeat(floor.things, times)
-    codes: Int8 = views.sample_views(looks, things, random)
-    content = road_map(codes, views.manifest, f"robot of {name}", int(random.integers(2**31)))
-    places = np.repeat(floor.places, times, axis=0)
-    places = places + random.normal(scale=SCATTER, size=places.shape)
-    return replace(content, centroids=places, frame=name)
-
-
-def _stored(content: CompactMap, model: Model, name: str) -> MapSnapshot:
-    layers = MapLayers.of(take(content, np.arange(len(content))))
-    head = MapHead(name, name, 1, "0" * 16, 1, len(content), 0, 0, "")
-    index = LayeredIndex.of(layers, model.manifest.quantizer)
-    return MapSnapshot(head, layers, 1, 1, index)
-
-
-class _Shared:
-    """Shared indexes of one trial."""
-
-    def __init__(self) -> None:
-        self.shared = SharedIndexes()
-
-    def parts(self, group: ModelQuery) -> Any:
-        quantizer = group.model.manifest.quantizer
-        return self.shared.parts(group.searched, group.searched, group.model.id, quantizer, ())
-
-
-def load_models(folder: Path, names: Sequence[str]) -> list[Model]:
-    """Load the models of a folder as the service loads them."""
-    settings = Settings(models_dir=folder, model=names[0], also=tuple(names[1:]))
-    models = Models(settings, Metrics())
-    return [models.named(name) for name in names]
+    """Return a map of a floor with `views` views of each object."""
+    codes = sampler.sample_views(descriptors, np.repeat(floor.objects, views), random)
+    seed = int(random.integers(2**31))
+    positions = np.repeat(floor.positions, views, axis=0)
+    positions = positions + random.normal(scale=CENTROID_SCATTER_M, size=positions.shape)
+    # The segments of a capture must lie near its sensor: captures follow each other along x.
+    order = np.argsort(positions[:, 0])
+    content = road_map(codes[order], sampler.manifest, f"robot of {name}", seed)
+    captures = np.split(positions[order], np.flatnonzero(np.diff(content.frame_index)) + 1)
+    return replace(
+        content,
+        centroids=positions[order],
+        frame_positions=np.array([each.mean(axis=0) for each in captures]),
+        frame=name,
+    )

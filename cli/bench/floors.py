@@ -26,7 +26,7 @@ def floors(
     0.3 m along each axis. Cases: eight segments; only segments that all floors have; up to twenty
     floors; five different segments; unequal sizes; deduplicated maps; two models; other buildings.
     """
-    from benchmarks.localization.floors import load_models, measure_floors
+    from benchmarks.localization.floors import measure_floors
     from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
     from placecell.descriptors.extractor import load_extractor
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
@@ -34,12 +34,11 @@ def floors(
     names = (DEFAULT_MODEL, OTHER_MODEL)
     with clear_errors():
         recording = recording_from(segments, output, seed, scans=60)
-        views = [
+        samplers = [
             DescriptorSampler.from_recording(load_extractor(MODELS_FOLDER / each), recording, seed)
             for each in names
         ]
-        models = load_models(MODELS_FOLDER, names)
-        report = measure_floors(views, models, trials, seed, progress=show) | {
+        report = measure_floors(samplers, MODELS_FOLDER, names, trials, seed, progress=show) | {
             "source": recording.name
         }
         write_json(report, json_file)

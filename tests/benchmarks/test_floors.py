@@ -1,17 +1,20 @@
-"""The bench of look-alike floors, in its short form (row B1)."""
+"""Benchmark of similar floors in its short form (row B1)."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.localization.floors import CASES, FloorCase, load_models, measure_floors, run_trial
+from benchmarks.localization.floors import CASES, FloorCase, measure_floors, run_trial
 from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
 from cli import app
+from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
-from service.inference.model_registry import Model
+from service.core.settings import Settings
+from service.engine import Engine
 from tests.benchmarks.test_ladder import recorded_from_two_places
 
 pytestmark = pytest.mark.slow
@@ -20,30 +23,34 @@ NAMES = (DEFAULT_MODEL, "group")
 
 
 @pytest.fixture(scope="module")
-def models() -> list[Model]:
-    return load_models(MODELS_FOLDER, NAMES)
-
-
-@pytest.fixture(scope="module")
-def views(models: list[Model]) -> list[DescriptorSampler]:
-    """Descriptors drawn at random, and views that differ by a third of their spread."""
+def samplers() -> list[DescriptorSampler]:
+    """Random descriptors, and views that differ by a third of their spread."""
     random = np.random.default_rng(0)
     drawn = []
-    for model in models:
-        manifest = model.manifest
+    for name in NAMES:
+        manifest = Manifest.load(MODELS_FOLDER / name)
         reach = manifest.quantizer.step * manifest.quantizer.highest
-        found = random.normal(scale=0.5 * reach, size=(600, manifest.dimension))
-        apart = random.normal(scale=0.15 * reach, size=(600, manifest.dimension))
+        descriptors = random.normal(scale=0.5 * reach, size=(600, manifest.dimension))
+        differences = random.normal(scale=0.15 * reach, size=(600, manifest.dimension))
         drawn.append(
-            DescriptorSampler(manifest, found.astype(np.float32), apart.astype(np.float32))
+            DescriptorSampler(
+                manifest, descriptors.astype(np.float32), differences.astype(np.float32)
+            )
         )
     return drawn
 
 
-def test_B1_never_sure_of_the_wrong_floor_and_right_where_the_difference_decides(
-    views: list[DescriptorSampler], models: list[Model]
+@pytest.fixture
+def engine(tmp_path: Path) -> Iterator[Engine]:
+    settings = Settings(data_dir=tmp_path, models_dir=MODELS_FOLDER, model=NAMES[0], also=NAMES[1:])
+    with Engine.open(settings) as opened:
+        yield opened
+
+
+def test_B1_pose_is_never_sure_on_the_wrong_floor_and_right_where_the_difference_decides(
+    samplers: list[DescriptorSampler],
 ) -> None:
-    report = measure_floors(views, models, 4 * len(CASES), seed=100)
+    report = measure_floors(samplers, MODELS_FOLDER, NAMES, 4 * len(CASES), seed=100)
     assert report["trials"] == 4 * len(CASES)
     assert report["wrong_but_sure"] == 0
     assert sum(row["trials"] for row in report["by_case"].values()) == report["trials"]
@@ -51,17 +58,21 @@ def test_B1_never_sure_of_the_wrong_floor_and_right_where_the_difference_decides
     decided = report["where_the_difference_decides"]
     assert decided["trials"] >= 5
     assert decided["right"] >= 0.95 * decided["trials"]
-    # Where all floors show the robot the same, none is told.
+    # If the robot sees only what all floors have, it is never localized.
     assert report["by_case"]["unchanged part only"]["right"] == 0
     assert report["by_case"]["unchanged part only"]["names_both"] == 4
 
 
-def test_a_trial_is_the_same_each_time(views: list[DescriptorSampler], models: list[Model]) -> None:
-    case = FloorCase("two floors", things=60, seen=20)
-    assert run_trial(views, models, case, 3) == run_trial(views, models, case, 3)
+def test_trial_with_the_same_seed_has_the_same_result(
+    samplers: list[DescriptorSampler], engine: Engine
+) -> None:
+    case = FloorCase("two floors", objects=60, seen=20)
+    first = run_trial(engine, samplers, NAMES, case, 3)
+    assert run_trial(engine, samplers, NAMES, case, 3) == first
+    assert not engine.maps.all()
 
 
-def test_the_command_writes_its_report(tmp_path: Path) -> None:
+def test_command_writes_a_report(tmp_path: Path) -> None:
     recorded_from_two_places().save(tmp_path / "boxes.safetensors")
     words = ["bench", "floors", "--segments", tmp_path / "boxes.safetensors", "--trials", 2,
              "--json", tmp_path / "floors.json"]  # fmt: skip
