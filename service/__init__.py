@@ -1,1 +1,1 @@
-"""The service: segments in over HTTP, descriptors and matches out, maps kept."""
+"""Service: place recognition and shared maps for robot teams, over HTTP or in one process."""

@@ -1,4 +1,4 @@
-"""The application."""
+"""HTTP application: routes, middleware and API description."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -40,24 +40,39 @@ EXPOSED_HEADERS = (
 )
 """Response headers that web pages of `cors_origins` may read."""
 
+ROUTES = (
+    describe,
+    match,
+    localize,
+    maps,
+    uploads,
+    segments,
+    versions,
+    align,
+    models,
+    health,
+)
+"""Modules of the routes, in the order of the API description."""
+
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
-Send the segments of a scan, get their descriptors, the segments of stored maps that look like them,
-or the robot's place in a map. Coordinates are metres in a z-up frame. `/describe`, `/match` and
-`/localize` speak JSON and, with the same meaning and arrays as blobs, `application/msgpack`. Every
-error is `application/problem+json` (RFC 9457).
+Send the segments of a scan. The answer holds their descriptors, the nearest segments of stored
+maps, or the robot's pose in a map. Coordinates are meters in a z-up frame.
 
-Routes with a lock need `Authorization: Bearer KEY` where the service has keys; all others, and this
-description, need none.
+`/describe`, `/match` and `/localize` accept JSON and `application/msgpack`. Both have the same
+fields; msgpack holds arrays as blobs. Every error is `application/problem+json` (RFC 9457).
+
+If the service has API keys, routes with a lock need `Authorization: Bearer KEY`. All other routes,
+and this description, need no key.
 """
 
 
 def create_app(settings: Settings, state: State | None = None) -> FastAPI:
-    """The application.
+    """Create the application.
 
     Args:
-        settings: limits, and what to open when the application starts.
-        state: already open, and closed by whoever opened it.
+        settings: settings of the service.
+        state: open state, which the caller closes; None: the application opens and closes its own.
     """
 
     @asynccontextmanager
@@ -75,12 +90,12 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         version=version(),
         description=DESCRIPTION,
         lifespan=lifespan,
-        redirect_slashes=False,  # they would lead to whatever host the request names
+        redirect_slashes=False,  # a redirect would lead to any host that the request names
         openapi_url="/openapi.json" if settings.docs else None,
         docs_url=None,
         redoc_url=None,
     )
-    # As an argument it is deprecated, for it is the server's; but any server will do.
+    # FastAPI deprecates the argument, as servers set the path; but not every server does.
     app.root_path = settings.root_path
     app.add_middleware(BodyLimit, limits=settings.limits)
     app.add_middleware(Head)
@@ -98,15 +113,13 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     openapi.install(app)
     if settings.docs:
         docs_pages.install(app)
-    for module in (
-        *(describe, match, localize, maps, uploads, segments, versions, align, models, health),
-    ):
+    for module in ROUTES:
         app.include_router(module.router)
     return app
 
 
 def version() -> str:
-    """Of the installed Placecell; a checkout that is not installed has none."""
+    """Return the version of the installed Placecell; `unknown` in a checkout without one."""
     try:
         return metadata.version("placecell")
     except metadata.PackageNotFoundError:

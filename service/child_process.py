@@ -1,4 +1,4 @@
-"""The real service as a process of its own, on a free port of the loopback interface."""
+"""Service in a child process, on a free port of the loopback interface."""
 
 import os
 import re
@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Self
 
 STOP_SECONDS = 20.0
-"""After which a service that was told to stop is killed."""
+"""Seconds after which a service that should stop is killed."""
 
 
 class Service:
-    """A process of `placecell serve`."""
+    """Child process that runs `placecell serve`."""
 
     def __init__(
         self,
@@ -24,13 +24,13 @@ class Service:
         environment: Mapping[str, str] | None = None,
         tracer: Sequence[str] = (),
     ) -> None:
-        """Start it; `address` waits until it is there.
+        """Start the process; `address` waits until the service listens.
 
         Args:
-            data_dir: where it keeps the maps, and the log `service.log`.
-            options: further ones of `placecell serve`.
-            environment: further variables.
-            tracer: what stands before the command.
+            data_dir: data directory of the service; the log is `service.log` in it.
+            options: options of `placecell serve`.
+            environment: additional environment variables.
+            tracer: command that runs the service's command, with its options.
         """
         command = [sys.executable, "-m", "cli", "serve", "--port", "0", "--data-dir", str(data_dir)]
         data_dir.mkdir(parents=True, exist_ok=True)
@@ -42,7 +42,7 @@ class Service:
                 stdout=subprocess.PIPE,
                 stderr=log,
                 text=True,
-                # Nobody watches whether it is ready.
+                # No load balancer watches whether the service is ready.
                 env=os.environ | {"PLACECELL_DRAIN_SECONDS": "0"} | dict(environment or {}),
             )
 
@@ -53,10 +53,10 @@ class Service:
         self.stop()
 
     def address(self) -> str:
-        """Where it listens, such as http://127.0.0.1:8123, as soon as it does; to be asked once.
+        """Wait until the service listens and return its address; call it once.
 
         Raises:
-            RuntimeError: it did not start; the message holds what it said.
+            RuntimeError: the service did not start; the message holds its output.
         """
         said = []
         assert self.process.stdout is not None
@@ -69,21 +69,21 @@ class Service:
         raise RuntimeError(f"the service did not start: {''.join(said)}{self.log()}")
 
     def peak_mb(self) -> float:
-        """The most memory that it ever had at once, MB; on Linux."""
+        """Return the peak memory of the process, MB; on Linux only."""
         status = Path(f"/proc/{self.process.pid}/status").read_text()
         return round(int(status.split("VmHWM:")[1].split()[0]) * 1024 / 1e6, 1)
 
     def log(self) -> str:
-        """What it wrote to its log since it was started."""
+        """Return the lines of the log since the start."""
         return self._log_file.read_bytes()[self._logged :].decode(errors="replace")
 
     def kill(self) -> None:
-        """As `kill -9`: it has no time for anything."""
+        """Kill the process with SIGKILL, without a shutdown."""
         self.process.kill()
         self._end()
 
     def stop(self) -> None:
-        """As SIGTERM: what is in flight is answered."""
+        """Stop the process with SIGTERM; requests in progress are answered."""
         self.process.terminate()
         try:
             self.process.wait(timeout=STOP_SECONDS)
@@ -104,17 +104,17 @@ def running_service(
     environment: Mapping[str, str] | None = None,
     tracer: Sequence[str] = (),
 ) -> Iterator[str]:
-    """Run `placecell serve` until the block ends; yields its address. Arguments as of `Service`.
+    """Run `placecell serve` for a block and yield its address; arguments as of the class.
 
     Raises:
-        RuntimeError: it did not start; the message holds what it said.
+        RuntimeError: the service did not start; the message holds its output.
     """
     with Service(data_dir, *options, environment=environment, tracer=tracer) as service:
         yield service.address()
 
 
 def address_of(url: str) -> tuple[str, int]:
-    """Host and port of http://HOST:PORT."""
+    """Return host and port of an address http://HOST:PORT."""
     parts = urllib.parse.urlsplit(url)
     assert parts.hostname is not None
     assert parts.port is not None

@@ -67,7 +67,7 @@ NO_CONDITIONS = Preconditions()
 
 
 class StartError(Exception):
-    """The engine or the service cannot start; the message gives the reason."""
+    """Failed start of the engine or the service; the message gives the reason."""
 
 
 class Engine:

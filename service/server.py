@@ -22,16 +22,16 @@ from service.api.state import State
 from service.core.problems import Problem
 
 HEAD_BYTES = 32 << 10
-"""Of a request's line and headers, at most."""
+"""Largest size of a request's line and headers, bytes."""
 
 AHEAD_BYTES = 64 << 10
-"""Of requests that a client sends ahead of answers; then it is not read until it has an answer."""
+"""Largest size of requests sent ahead of answers, bytes; above it, reading pauses."""
 
 HEAD_SECONDS = 15.0
-"""In which a client must have sent them, and what is left of the request before."""
+"""Seconds within which a client must send line and headers, and the rest of the last request."""
 
 RESERVE = 16
-"""Connections beyond the limit, for health checks, if none can be dropped."""
+"""Number of connections above the limit, for health checks, if no other can be dropped."""
 
 _BAD_LINE = re.compile(rb"(?<!\r)\n|\r(?!\n)|\n[ \t]")
 """Bare line feed, bare carriage return or folded line: servers read these differently."""
@@ -81,13 +81,13 @@ class Protocol(H11Protocol):
     """
 
     most = 1_000
-    """Connections at once."""
+    """Largest number of connections."""
 
     address_most = 256
     """Largest number of connections of one address."""
 
     stall_seconds = 60.0
-    """Seconds within which some byte of an answer must leave."""
+    """Seconds within which a byte of an answer must be sent."""
 
     _impatience: asyncio.TimerHandle | None = None
     _watch: asyncio.TimerHandle | None = None
@@ -96,7 +96,7 @@ class Protocol(H11Protocol):
     _used = 0.0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """A client has come; it must send a request's head in time."""
+        """Start the limits of a new connection: its client must send a head in time."""
         super().connection_made(transport)
         self.conn = _StrictConnection(self.config.h11_max_incomplete_event_size or HEAD_BYTES)
         self._used = self._progress = time.monotonic()
@@ -105,7 +105,7 @@ class Protocol(H11Protocol):
         self._watch_progress()
 
     def data_received(self, data: bytes) -> None:
-        """Some bytes have come."""
+        """Receive bytes of a request."""
         self._used = time.monotonic()
         before = self.cycle
         super().data_received(data)
@@ -113,7 +113,7 @@ class Protocol(H11Protocol):
         self._listen()
 
     def on_response_complete(self) -> None:
-        """An answer was sent; what is left of its request, and the next one's head, must come."""
+        """Start the wait for the rest of the request and for the head of the next one."""
         before = self.cycle
         self._used = time.monotonic()
         self._wait_for_head()
@@ -122,12 +122,12 @@ class Protocol(H11Protocol):
         self._listen()
 
     def resume_writing(self) -> None:
-        """Resume sending: most of the bytes handed over have left."""
+        """Resume sending: most of the bytes have been sent."""
         self._progress = time.monotonic()
         super().resume_writing()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """The client has gone."""
+        """Stop all timers of the connection."""
         self._patient()
         if self._watch is not None:
             self._watch.cancel()
@@ -178,8 +178,8 @@ class Protocol(H11Protocol):
         return self._used
 
     def _listen(self) -> None:
-        # Where a request comes ahead of an answer, uvicorn stops reading: it would not see that
-        # the client goes, and its work would be done for nobody.
+        # If a request arrives ahead of an answer, uvicorn stops reading. It would not notice
+        # that the client disconnects, and the work would go on without a reader.
         if (
             self.flow.read_paused
             and self.conn.their_state is h11.DONE
@@ -189,7 +189,7 @@ class Protocol(H11Protocol):
             self.flow.resume_reading()
 
     def _pending(self) -> int:
-        """Return the bytes of answers handed over that the client's machine does not have."""
+        """Return the bytes of answers that the client's machine has not received yet."""
         size = self.transport.get_write_buffer_size()
         sock = self.transport.get_extra_info("socket")
         held = array.array("i", [0])
@@ -200,7 +200,7 @@ class Protocol(H11Protocol):
         return size + held[0]
 
     def _watch_progress(self) -> None:
-        """End the connection if bytes are due but none leave."""
+        """End the connection if there are bytes to send but none is sent."""
         pending, now = self._pending(), time.monotonic()
         if pending == 0 or pending < self._unsent:
             self._progress = now
@@ -216,7 +216,7 @@ class Protocol(H11Protocol):
 
     def _head_is_late(self) -> None:
         if self._pending():
-            # The client still takes the last answer; how long it may is watched elsewhere.
+            # The client still reads the last answer; `_watch_progress` limits that time.
             self._wait_for_head()
         else:
             self.transport.abort()
@@ -231,10 +231,10 @@ class Protocol(H11Protocol):
             self._impatience = None
 
     def send_400_response(self, msg: str) -> None:
-        """What is no HTTP, or has too long a head."""
+        """Answer bytes that are not HTTP, or a head that is too long."""
         del msg  # says less than h11's error, which is being handled
         if self.conn.our_state not in {h11.IDLE, h11.SEND_RESPONSE}:
-            self.transport.close()  # an answer was begun already
+            self.transport.close()  # an answer has begun already
             return
         error = sys.exc_info()[1]
         status = getattr(error, "error_status_hint", 400)
@@ -261,7 +261,7 @@ def _least_useful(connections: list[Protocol]) -> Protocol | None:
 
 
 class Server(uvicorn.Server):
-    """A server that says it is not ready for a while before it refuses connections."""
+    """Server that reports "not ready" for a while before it refuses connections."""
 
     def __init__(self, app: FastAPI, state: State) -> None:
         settings = state.settings
@@ -288,7 +288,7 @@ class Server(uvicorn.Server):
         self._state = state
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """Drain at the first signal; a second one stops at once."""
+        """Drain at the first signal; stop at once at the second."""
         if self._state.draining:
             self.should_exit = self.force_exit = True
         if self._state.draining or sig == signal.SIGINT:
@@ -297,6 +297,6 @@ class Server(uvicorn.Server):
             return
         self._state.draining = True
         seconds = self._state.settings.drain_seconds
-        # From a signal's handler the loop must be woken.
+        # A signal handler has to wake the loop.
         loop = asyncio.get_running_loop()
         loop.call_soon_threadsafe(loop.call_later, seconds, super().handle_exit, sig, frame)

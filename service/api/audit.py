@@ -1,4 +1,4 @@
-"""A line for each write: who, what, to which map, how many segments."""
+"""Audit log: one line per write, with key, operation, map and number of segments."""
 
 import logging
 
@@ -11,7 +11,7 @@ logger = logging.getLogger("placecell.audit")
 
 
 def tell_written(request: Request, state: State, operation: str, written: WriteResult) -> None:
-    """Of a write to a map's segments."""
+    """Log and count a write of a map's segments."""
     what = f"{written.changed} segments changed, {written.removed} removed"
     tell(request, state, operation, written.stored.name, what, written.changed + written.removed)
 
@@ -19,21 +19,24 @@ def tell_written(request: Request, state: State, operation: str, written: WriteR
 def tell(
     request: Request, state: State, operation: str, name: str, what: str, segments: int = 0
 ) -> None:
-    """Of any write.
+    """Log and count a write.
 
     Args:
-        request: that asked for it.
-        state: of the service.
-        operation: such as `put`.
-        name: of the map.
-        what: the operation did.
-        segments: that were changed or removed.
+        request: request of the write.
+        state: state of the service.
+        operation: operation, such as `put`.
+        name: name of the map.
+        what: result of the operation in words.
+        segments: number of segments that were changed or removed.
     """
     facts = request.scope["state"]
     state.metrics.writes.labels(operation).inc()
     logger.info(
         "%s %s map %s, %s",
-        *(facts["key"], operation, name, what),
+        facts["key"],
+        operation,
+        name,
+        what,
         extra={
             "key": facts["key"],
             "operation": operation,

@@ -1,7 +1,7 @@
 """API documentation pages `/docs` and `/redoc`, served from local files only.
 
-Robots work where there is no way to a CDN, and a page that runs a CDN's scripts trusts it with the
-keys that a user types. The scripts come with the package `fastapi-offline`.
+Robots work in networks that reach no CDN. And a page that runs a CDN's scripts trusts the CDN with
+the API keys that a user types. The scripts come with the package `fastapi-offline`.
 """
 
 from importlib.resources import files
@@ -93,5 +93,5 @@ def install(app: FastAPI) -> None:
         if name == "start.js":
             return Response(START, media_type="text/javascript", headers=HEADERS | CACHED)
         if name not in FILES:
-            raise Problem(404, "not-found", f"No such file: {name!r:.80}.")
+            raise Problem(404, "not-found", f"Unknown file {name!r:.80}. GET /docs shows the page.")
         return FileResponse(folder / name, media_type=FILES[name], headers=HEADERS | CACHED)

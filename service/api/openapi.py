@@ -1,6 +1,6 @@
-"""The API's description, with the bodies' schemas.
+"""API description: adds the schemas of the bodies.
 
-FastAPI does not see them: the routes parse bodies themselves, off the event loop.
+FastAPI does not know these schemas, since the routes parse bodies themselves, off the event loop.
 """
 
 from typing import Any
@@ -36,7 +36,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
 
 
 def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
-    """The description of a body, JSON or msgpack, for a route's `openapi_extra`."""
+    """Describe a body in JSON or msgpack, for a route's `openapi_extra`."""
     return {
         "requestBody": {
             "required": True,
@@ -49,17 +49,17 @@ def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
 
 
 def json_body(schema: type[BaseModel]) -> dict[str, Any]:
-    """The description of a body that is JSON alone."""
+    """Describe a body in JSON only, for a route's `openapi_extra`."""
     return {"requestBody": {"required": True, "content": {JSON: {"schema": _reference(schema)}}}}
 
 
 def packed_response(schema: type[BaseModel]) -> dict[int | str, dict[str, Any]]:
-    """The description of an answer as msgpack, beside the JSON that FastAPI describes."""
+    """Describe a response in msgpack, in addition to the JSON that FastAPI describes."""
     return {200: {"content": {MSGPACK: {"schema": _reference(schema)}}}}
 
 
 def file_body(*media_types: str) -> dict[str, Any]:
-    """The description of a file as a body, for a route's `openapi_extra`."""
+    """Describe a file as a body, for a route's `openapi_extra`."""
     file = {"schema": {"type": "string", "format": "binary"}}
     return {"requestBody": {"required": True, "content": dict.fromkeys(media_types, file)}}
 

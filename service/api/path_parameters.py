@@ -1,4 +1,4 @@
-"""Names of maps in a path."""
+"""Path parameters: names of maps."""
 
 import re
 from typing import Annotated, Any
@@ -8,7 +8,7 @@ from fastapi import Depends, Path
 from service.core.problems import Problem
 from service.maps.store import NAME_PATTERN
 
-NAME_RULE = "1 to 64 letters, digits, dots, dashes, underscores; a letter or digit first"
+NAME_RULE = "1 to 64 letters, digits, dots, dashes or underscores, beginning with a letter or digit"
 
 
 def _path(alias: str, what: str, example: str) -> Any:
@@ -20,20 +20,24 @@ def _path(alias: str, what: str, example: str) -> Any:
     )
 
 
-async def checked_name(name: Annotated[str, _path("map", "The map's name", "yard")]) -> str:
-    """The map's name in the path; 422 if none can be named so."""
+async def checked_name(name: Annotated[str, _path("map", "Name of the map", "yard")]) -> str:
+    """Return the map's name in the path; 422 if it is not a valid name."""
     return checked(name)
 
 
-async def checked_other(name: Annotated[str, _path("other", "Another's name", "hall")]) -> str:
-    """Another map's name in the path; 422 if none can be named so."""
+async def checked_other(
+    name: Annotated[str, _path("other", "Name of the other map", "hall")],
+) -> str:
+    """Return the other map's name in the path; 422 if it is not a valid name."""
     return checked(name)
 
 
 def checked(name: str) -> str:
-    """The name; 422 if no map can be named so."""
+    """Return a name; 422 if it is not a valid name of a map."""
     if not re.fullmatch(NAME_PATTERN, name):
-        raise Problem(422, "invalid-map-name", f"{name!r:.200} is no map's name: {NAME_RULE}.")
+        raise Problem(
+            422, "invalid-map-name", f"Invalid map name {name!r:.200}: expected {NAME_RULE}."
+        )
     return name
 
 

@@ -1,4 +1,4 @@
-"""The models at work: the one that describes by default, and those that stored maps need."""
+"""Model registry: the default model, and the models that stored maps need."""
 
 import logging
 from collections.abc import Iterable
@@ -20,12 +20,12 @@ logger = logging.getLogger("placecell")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Model:
-    """A loaded model.
+    """Loaded model.
 
     Attributes:
-        describer: that runs it.
-        classifier: its pair classifier, if it has one.
-        confidence: how probable a pose is that was found from its descriptors.
+        describer: runs the model.
+        classifier: pair classifier; None if the model has none.
+        confidence: gives the probability that a pose found from its descriptors is right.
     """
 
     describer: Describer
@@ -34,20 +34,20 @@ class Model:
 
     @property
     def manifest(self) -> Manifest:
-        """What the model is."""
+        """Return the manifest."""
         return self.describer.manifest
 
     @property
     def id(self) -> str:
-        """Of the model, as maps and codes name it."""
+        """Return the id by which maps and codes name the model."""
         return self.manifest.model_id
 
 
 class Models:
-    """All loaded models by id. What is loaded stays, so that no map is stranded."""
+    """Loaded models by id. A loaded model stays, so that its maps stay searchable."""
 
     def __init__(self, settings: Settings, metrics: Metrics) -> None:
-        """Load the default model, and those that the settings name beside it.
+        """Load the default model and the other models of the settings.
 
         Raises:
             ModelError: one of them cannot be loaded.
@@ -59,16 +59,16 @@ class Models:
         self.default = self.reload()
 
     def all(self) -> list[Model]:
-        """The default first."""
+        """Return all models, the default model first."""
         default = self.default
         return [default, *(model for model in self._by_id.values() if model is not default)]
 
     def find(self, model_id: str) -> Model | None:
-        """The model of this id, if it is loaded."""
+        """Return the model of this id; None if it is not loaded."""
         return self._by_id.get(model_id)
 
     def named(self, wanted: str | None) -> Model:
-        """The model of this id or name; the default unless one is wanted.
+        """Return the model of this id or name; the default model for None.
 
         Raises:
             Problem: 409 if it is not loaded.
@@ -81,39 +81,39 @@ class Models:
         raise self.unknown(wanted)
 
     def unknown(self, wanted: str) -> Problem:
-        """The problem of a model that is not loaded."""
+        """Return the problem of a model that is not loaded."""
         return Problem(
             409,
             "other-model",
-            f"Model {wanted!r:.100} is not loaded; the default is {self.default.id}, /info "
-            "shows all.",
+            f"Model {wanted!r:.100} is not loaded. The default model is {self.default.id}; /info "
+            "lists all loaded models.",
         )
 
     def reload(self) -> Model:
-        """Load anew what has changed on disk, and what is needed; all of it, or nothing.
+        """Load the models of the settings that changed on disk, all of them or none.
 
-        Requests at work go on with the model that they began with.
+        Requests in progress keep the model that they began with.
 
         Returns:
             The default model.
 
         Raises:
-            ModelError: a model cannot be used; those that were loaded go on.
+            ModelError: a model cannot be loaded; the loaded models stay in use.
         """
         settings = self._settings
         with self._loading:
             default = self._load(settings.models_dir / settings.model)
             others = [self._load(settings.models_dir / name) for name in settings.also]
-            # A new dictionary, so that a reader in the midst of the old one is not disturbed.
+            # A new dictionary, so that readers of the old one are undisturbed.
             self._by_id = self._by_id | {model.id: model for model in [default, *others]}
             self.default = default
             self._tell()
         return default
 
     def want(self, model_ids: Iterable[str]) -> None:
-        """Load the models that maps were made with, where a folder holds them.
+        """Load the models of these ids that the models folder holds.
 
-        A model that cannot be loaded is left out, with a line in the log: its maps stay stored.
+        A model that cannot be loaded is left out, with a line in the log. Its maps stay stored.
         """
         with self._loading:
             missing = set(model_ids) - set(self._by_id)
@@ -145,12 +145,12 @@ class Models:
 
 
 def _confidence_of(folder: Path, manifest: Manifest) -> Confidence:
-    """The folder's own, if it was fitted for this model; else the default model's."""
+    """Return the confidence of a model's folder; the default model's if it does not fit."""
     file = folder / NAME
     if not file.is_file():
         return shipped()
     try:
         return Confidence.load(file, manifest.model_id)
     except (ValueError, KeyError, TypeError) as error:
-        logger.warning("probabilities of poses are by the default model's constants: %s", error)
+        logger.warning("probabilities of poses use the default model's constants: %s", error)
         return shipped()

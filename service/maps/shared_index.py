@@ -112,7 +112,7 @@ class IndexPart:
 
 
 class SharedIndexes:
-    """The shared indexes of all maps. Safe to use from many threads."""
+    """Shared indexes of all maps. Safe to use from many threads."""
 
     def __init__(self) -> None:
         self._lock = Lock()

@@ -78,7 +78,7 @@ def map_query(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModelQuery:
-    """The query as one model describes it, with the maps that this model made.
+    """Query as one model describes it, with the maps that this model made.
 
     Attributes:
         model: the model.

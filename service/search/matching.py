@@ -21,7 +21,7 @@ Candidate = dict[str, Any]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NearestSegments:
-    """The k nearest map segments of each of q queries, nearest first; ties by map, then id.
+    """Nearest map segments of q queries, k of each, nearest first; ties by map, then by id.
 
     Attributes:
         searched: the maps.

@@ -1,4 +1,4 @@
-"""`/livez`, `/readyz`, `/info`: for those who run the service, and for clients' limits."""
+"""`/livez`, `/readyz`, `/metrics`, `/info`: state and facts of the service."""
 
 from dataclasses import asdict
 
@@ -23,15 +23,15 @@ BAD_KEYS = (
 )
 
 
-@router.get("/livez", summary="The process answers", response_model_exclude_none=True)
+@router.get("/livez", summary="Check that the process runs", response_model_exclude_none=True)
 async def livez() -> HealthResponse:
-    """Restart the service if this fails."""
+    """Liveness: the process answers. Restart the service if it does not."""
     return HealthResponse(status="alive")
 
 
 @router.get(
     "/readyz",
-    summary="The service can work",
+    summary="Check that the service is ready",
     responses=documented(503),
     response_model_exclude_none=True,
 )
@@ -42,8 +42,10 @@ async def readyz(state: StateOf) -> HealthResponse:
     unreadable key file.
     """
     if state.draining:
-        raise Problem(503, "not-ready", "The service is about to stop.")
-    # In a thread of its own: a disk may hang, and no request waits for it.
+        raise Problem(
+            503, "not-ready", "The service is stopping. Send requests to another instance."
+        )
+    # In its own thread: a disk may hang, and no other request waits for it.
     trouble = await anyio.to_thread.run_sync(state.engine.maps.trouble)
     if trouble is not None:
         raise Problem(503, "not-ready", f"Maps cannot be written. {trouble}")
@@ -54,17 +56,17 @@ async def readyz(state: StateOf) -> HealthResponse:
     return HealthResponse(status="ready", warnings=[BAD_KEYS])
 
 
-@router.get("/metrics", summary="For Prometheus", response_class=PlainTextResponse)
+@router.get("/metrics", summary="Read metrics for Prometheus", response_class=PlainTextResponse)
 async def metrics(state: StateOf) -> Response:
-    """Counts and times, in Prometheus' text format."""
+    """Return counters and times in the text format of Prometheus."""
     return Response(generate_latest(state.metrics.registry), media_type=CONTENT_TYPE_LATEST)
 
 
-@router.get("/info", summary="Version, models, limits", responses=documented(401))
+@router.get("/info", summary="Read version, models and limits", responses=documented(401))
 async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoResponse:
-    """What a client needs to know before it sends anything."""
-    del holder  # any key will do
-    models = [_told(model.manifest) for model in state.engine.models.all()]
+    """Return the facts that a client needs before its first request."""
+    del holder  # any key may read them
+    models = [_model_out(model.manifest) for model in state.engine.models.all()]
     return InfoResponse(
         version=request.app.version,
         model=models[0],
@@ -75,7 +77,7 @@ async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoRespon
     )
 
 
-def _told(manifest: Manifest) -> ModelOut:
+def _model_out(manifest: Manifest) -> ModelOut:
     return ModelOut(
         model_id=manifest.model_id,
         name=manifest.name,

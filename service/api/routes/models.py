@@ -1,4 +1,4 @@
-"""`/models`: what the service runs."""
+"""`/models/reload`: load models that changed on disk."""
 
 from fastapi import APIRouter, Request
 
@@ -12,18 +12,20 @@ from service.core.problems import Problem
 router = APIRouter(tags=["models"])
 
 
-@router.post("/models/reload", summary="Load the models anew", responses=documented(401, 403, 409))
+@router.post("/models/reload", summary="Reload the models", responses=documented(401, 403, 409))
 async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadResponse:
-    """After a model's folder was replaced. Requests at work end with the model they began with.
+    """Load the models whose folders were replaced; for administrators.
 
-    A model that cannot be used is refused with the reason, and the old one goes on. Models that
-    stored maps were made with stay loaded.
+    Requests in progress finish with their old model. A model that cannot be loaded is refused with
+    a 409, and the old one stays in use. Models that made stored maps stay loaded.
     """
     holder.check_admin()
     try:
         models = await state.run(state.engine.reload_models)
     except ModelError as error:
-        raise Problem(409, "broken-model", f"The old model goes on. {error}.") from error
+        raise Problem(
+            409, "broken-model", f"The model cannot be loaded; the old one stays in use. {error}."
+        ) from error
     ids = [model.id for model in models]
     facts = {"key": holder.name, "request_id": request.scope["state"]["request_id"]}
     logger.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
