@@ -1,4 +1,4 @@
-"""What a robot needs to talk to a Placecell service: HTTP clients, compact map and delta files."""
+"""Client of a Placecell service: HTTP clients, compact map files and delta files."""
 
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client

@@ -1,4 +1,4 @@
-"""The HTTP client for asyncio."""
+"""HTTP client for asyncio: `AsyncClient`."""
 
 import asyncio
 import random
@@ -12,17 +12,17 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client import map_upload
+from placecell_client import transfers
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
 from placecell_client.http.requests import ALIGNMENT_SECONDS, Call
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
-from placecell_client.http.transport import Caller, http_options
+from placecell_client.http.transport import BaseClient, http_options
 from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
-from placecell_client.replica import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
+from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
 from placecell_client.results.core import (
     Description,
@@ -41,12 +41,18 @@ T = TypeVar("T")
 AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
 
 
-class AsyncClient(Caller):
-    """`Client` for asyncio: the same arguments, methods, results and errors.
+class AsyncClient(BaseClient):
+    """Client of one Placecell service for asyncio: `Client` with coroutine methods.
 
-    An asynchronous context manager, to be shared by the tasks of one event loop. Arrays and maps
-    are packed and read on the loop's thread. Who cannot have it held up by a large map runs
-    `encode` in another thread and puts the bytes, or gets the file and runs `decode` there.
+    The arguments, results and errors are those of `Client`. The tasks of one event loop may share
+    it. Use it as an asynchronous context manager, or await `close`:
+
+        async with AsyncClient("http://127.0.0.1:8000") as client:
+            found = await client.localize(segments=segments, sensors=sensor, maps=["yard"])
+
+    Arrays and maps are encoded and decoded on the event loop's thread. For large maps, run `encode`
+    in another thread and pass the bytes to `put_map`, or await `get_map_file` and run `decode` in
+    another thread.
     """
 
     def __init__(
@@ -131,8 +137,8 @@ class AsyncClient(Caller):
         create_only: bool = False,
     ) -> MapSummary:
         """`Client.put_map`."""
-        steps = map_upload.put_map(self._calls, name, compact_map, if_match, create_only)
-        return await self._take(steps)
+        steps = transfers.put_map(self._calls, name, compact_map, if_match, create_only)
+        return await self._run(steps)
 
     async def uploads(self, name: str) -> tuple[PartialUpload, ...]:
         """`Client.uploads`."""
@@ -168,16 +174,7 @@ class AsyncClient(Caller):
 
     async def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
         """`Client.pull`."""
-        if isinstance(copy, str):
-            copy = MapCopy(copy)
-        while True:
-            since, cursor = copy.request
-            try:
-                if copy.take(await self.changes(copy.name, since, cursor, limit)):
-                    return copy
-            except ServiceError as error:
-                if error.status != GONE or not copy.lose_way():
-                    raise
+        return await self._run(transfers.pull(self._calls, copy, limit))
 
     async def changes(
         self,
@@ -230,7 +227,7 @@ class AsyncClient(Caller):
 
     async def merge_maps(
         self,
-        site: str,
+        merged_map: str,
         maps: Sequence[str],
         *,
         dry_run: bool = False,
@@ -240,7 +237,9 @@ class AsyncClient(Caller):
         timeout: float = ALIGNMENT_SECONDS,
     ) -> Merge:
         """`Client.merge_maps`."""
-        call = self._calls.merge_maps(site, maps, dry_run, deduplicate, motion, if_match, timeout)
+        call = self._calls.merge_maps(
+            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
+        )
         return await self._send(call)
 
     async def compact_map(self, name: str, keep: int = 1) -> int:
@@ -251,20 +250,20 @@ class AsyncClient(Caller):
         """`Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
 
-    async def _take(self, steps: map_upload.Steps) -> MapSummary:
-        """Send the calls of some steps, one after the other."""
+    async def _run(self, steps: transfers.Steps[T]) -> T:
+        """Send the calls of a transfer one after the other and return its result."""
         try:
             call = next(steps)
             while True:
                 try:
                     result = await self._send(call)
-                except ServiceError as error:  # noqa: PERF203 -- the steps know what to do
+                except ServiceError as error:  # noqa: PERF203 -- the steps handle it
                     call = steps.throw(error)
                 else:
                     call = steps.send(result)
         except StopIteration as done:
-            stored: MapSummary = done.value
-            return stored
+            value: T = done.value
+            return value
 
     async def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)
@@ -278,18 +277,18 @@ class AsyncClient(Caller):
                     raise
             await self._sleep(wait)
 
-    async def _exchange(self, attempt: Attempt) -> Answer:
+    async def _exchange(self, attempt: Attempt) -> HttpResponse:
         try:
-            # Not asyncio's own, which Python 3.10 has not.
+            # Python 3.10 has no asyncio.timeout.
             with anyio.fail_after(attempt.deadline.remaining()):
                 return await self._receive(attempt)
         except TimeoutError as error:
-            raise httpx.ReadTimeout("The call's time was over.") from error
+            raise httpx.ReadTimeout("The call exceeded its timeout.") from error
 
-    async def _receive(self, attempt: Attempt) -> Answer:
+    async def _receive(self, attempt: Attempt) -> HttpResponse:
         async with self._http.stream(**attempt.request, content=attempt.content) as response:
             try:
                 parts = [part async for part in response.aiter_bytes()]
-                return Answer.of(response, b"".join(parts))
+                return HttpResponse.of(response, b"".join(parts))
             except httpx.DecodingError as error:
-                raise ServiceError.unreadable(Answer.of(response, b""), str(error)) from error
+                raise ServiceError.unreadable(HttpResponse.of(response, b""), str(error)) from error

@@ -1,4 +1,4 @@
-"""The HTTP client."""
+"""HTTP client for threads: `Client`."""
 
 import random
 import time
@@ -10,17 +10,17 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from placecell_client import map_upload
+from placecell_client import transfers
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
 from placecell_client.http.requests import ALIGNMENT_SECONDS, Call
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
-from placecell_client.http.transport import Caller, http_options
+from placecell_client.http.transport import BaseClient, http_options
 from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
-from placecell_client.replica import GONE, PAGE_SEGMENTS, ChangesPage, MapCopy
+from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
 from placecell_client.results.core import (
     Description,
@@ -39,28 +39,45 @@ T = TypeVar("T")
 ClientT = TypeVar("ClientT", bound="Client")
 
 
-class Client(Caller):
-    """Talks to one Placecell service; a context manager, to be shared by threads.
+class Client(BaseClient):
+    """Client of one Placecell service; threads may share it.
 
-    Each method raises `ServiceError` when the service refuses or cannot be understood, and
-    `httpx.TransportError` when it cannot be reached or does not answer in time. Before that, what
-    may pass by itself is tried again: unless the call may have been carried out, and to do so again
-    could undo what others wrote since. An `if_match` that is an ETag makes every write safe to
-    repeat; without it `restore_map`, `prune_map`, `merge_maps`, `compact_map`, `delete_map`, and
-    what is written with `if_match="*"`, are not repeated then.
+    Use it as a context manager, or call `close`. Localize a robot by the segments of its last scan:
+
+        from placecell_client import Client
+
+        # segments: one array (points, 3) per segment; sensor: (3,); meters, in one z-up frame
+        with Client("http://127.0.0.1:8000") as client:
+            found = client.localize(segments=segments, sensors=sensor, maps=["yard"])
+            if found.best is not None:
+                print(found.best.pose.matrix)  # from the robot's frame to the map's frame
+
+    Every method raises `ServiceError` if the service refuses the request or its answer is
+    unreadable, and `httpx.TransportError` if the service cannot be reached or does not answer in
+    time.
+
+    The client repeats a call after a temporary failure (statuses 429, 502, 503, 504 and connection
+    errors), but only if a repetition is safe. A write may have been carried out although its answer
+    was lost; a repetition could then undo later writes of other clients. An ETag as `if_match`
+    makes every write safe to repeat. Without an ETag, `restore_map`, `prune_map`, `merge_maps`,
+    `compact_map`, `delete_map`, and every write with `if_match="*"`, are not repeated in this case.
 
     Args:
-        base_url: such as `http://127.0.0.1:8000`.
-        timeout: seconds for a whole call, all attempts and the waits between them; but
-            `align_maps` and `merge_maps` have their own.
-        transport: instead of the network, for tests.
-        encoding: of points and descriptors on the wire; `json` is larger and slower, and readable.
-        key: that the service asks for, sent as `Authorization: Bearer`.
-        retries: how often, and after which waits.
-        compress: send maps and deltas as gzip.
-        jitter: draws evenly from 0 to 1, for the waits.
-        sleep: waits these seconds.
-        clock: gives seconds that only grow.
+        base_url: Address of the service, such as `http://127.0.0.1:8000`.
+        timeout: Time limit of a whole call in seconds, with all attempts and the waits between
+            them. `align_maps` and `merge_maps` have their own `timeout`.
+        transport: Replacement of the network, for tests.
+        encoding: Encoding of points and descriptors: `msgpack`, or `json`, which is readable but
+            larger and slower.
+        key: API key, sent as `Authorization: Bearer`.
+        retries: Number of attempts and waits between them.
+        compress: Compress maps and deltas with gzip before sending.
+        jitter: Function that returns a uniform random number from 0 to 1, for the waits.
+        sleep: Function that waits a number of seconds.
+        clock: Function that returns monotonic seconds.
+
+    Raises:
+        ValueError: The address, the encoding, the timeout or the key is invalid.
     """
 
     def __init__(
@@ -97,19 +114,25 @@ class Client(Caller):
         self._http.close()
 
     def info(self) -> Info:
-        """What the service is, and how much it takes at once."""
+        """Return version, default model, limits and costs of the service."""
         return self._send(self._calls.info())
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
-        """Describe the segments of one scan.
+        """Compute the descriptors of the segments of one scan.
 
         Args:
-            segments: points of each, (points, 3), or structured with fields x, y and z; metres,
-                all in one z-up frame. Points that are not finite are left out and counted.
-            sensors: where the sensor was at capture, (segments, 3) or (3,) for all, same frame.
+            segments: Points of each segment: an array (points, 3), or a structured array with the
+                fields x, y and z. Unit: meters. All segments are in one frame with z up. Points
+                that are not finite are left out and counted.
+            sensors: Sensor position at capture in the same frame, meters: (segments, 3), or (3,)
+                for all segments.
+
+        Returns:
+            Codes, descriptors and centroids, one row per segment. Segments that cannot be used are
+            listed in `errors`.
 
         Raises:
-            ValueError: an array has another shape or type, or a sensor is not finite.
+            ValueError: An array has a wrong shape or type, or a sensor position is not finite.
         """
         return self._send(self._calls.describe(segments, sensors))
 
@@ -122,17 +145,22 @@ class Client(Caller):
         maps: Sequence[str] | None = None,
         k: int = 10,
     ) -> Matches:
-        """The k nearest segments of the maps to each query.
+        """Find the k nearest map segments of each query segment.
+
+        Give either `description`, or `segments` and `sensors`.
 
         Args:
-            description: the queries, as `describe` gave them, or
-            segments: the queries' points, with
-            sensors: as for `describe`.
-            maps: names; all maps of the service's model unless said.
-            k: candidates a query, at most.
+            description: Query segments, as `describe` returned them.
+            segments: Points of the query segments, as for `describe`.
+            sensors: Sensor positions, as for `describe`.
+            maps: Names of the maps to search. Default: all maps of the default model.
+            k: Largest number of candidates per query.
+
+        Returns:
+            Candidates of each query, nearest first.
 
         Raises:
-            ValueError: neither or both kinds of query, or arrays that do not fit.
+            ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
         return self._send(self._calls.match(description, segments, sensors, maps, k))
 
@@ -147,27 +175,35 @@ class Client(Caller):
         motion: Motion = "yaw",
         session: str | None = None,
     ) -> Localizations:
-        """Where in the maps the robot is; in each that can be said of, with how sure that is.
+        """Localize the robot: compute the pose of its frame in each map.
+
+        Give either `description`, or `segments` and `sensors`: all segments around the robot, in
+        the robot's frame.
 
         Args:
-            description: all segments around the robot, as `describe` gave them, or
-            segments: their points, with
-            sensors: as for `describe`.
-            maps: names; all maps of the service's model unless said.
-            k: candidates a segment, at most.
-            motion: `yaw`, for gravity is known, or `se3`.
-            session: an id that this robot alone uses, for requests whose segments are all in its
-                one odometry frame: those of the last seconds support each other.
+            description: Query segments, as `describe` returned them.
+            segments: Points of the query segments, as for `describe`.
+            sensors: Sensor positions, as for `describe`.
+            maps: Names of the maps to search. Default: all maps of the default model.
+            k: Largest number of candidates per segment.
+            motion: Degrees of freedom of the pose: `yaw` (x, y, z, yaw; both frames are level) or
+                `se3` (all six).
+            session: Id that only this robot uses. Requests of one session have their segments in
+                one odometry frame; the requests of the last seconds support each other.
+
+        Returns:
+            One result per map, most probable first: the pose with its covariance and probability,
+            or the reason why the robot is not localized. `best` is the most probable pose.
 
         Raises:
-            ValueError: neither or both kinds of query, or arrays that do not fit.
+            ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
         return self._send(
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
     def maps(self) -> Maps:
-        """The stored maps, by name, and which of all are damaged."""
+        """Return the stored maps, sorted by name, and the names of damaged maps."""
         return self._send(self._calls.maps())
 
     def put_map(
@@ -178,33 +214,40 @@ class Client(Caller):
         if_match: str | None = None,
         create_only: bool = False,
     ) -> MapSummary:
-        """Store a map whole; returns when it is safely on disk.
+        """Store a whole map; return when it is on the service's disk.
 
-        A file larger than the service takes in one request is sent in parts, each a call with its
-        own `timeout`; nobody sees the map before all are there. After a cut link the same call goes
-        on with the part that was missing.
+        A file that exceeds the service's request limit is sent in parts. Each part is a call with
+        its own `timeout`. The map appears when all parts have arrived. After a broken connection
+        the same call continues with the missing part.
 
-        Other content of that name is replaced only if you say which version of it you have seen: a
-        ServiceError with status 428 else, or 412 if it is no longer at that version.
+        An existing map with other content is replaced only if `if_match` names its version.
+        Otherwise a `ServiceError` with status 428 is raised, or with 412 if it names an old one.
 
         Args:
-            name: of the map.
-            compact_map: the map, or its file.
-            if_match: ETag of the version to replace, or `*` for any.
-            create_only: replace none.
+            name: Name of the map.
+            compact_map: The map, or the content of its file.
+            if_match: ETag of the version to replace, or `*` for any version.
+            create_only: Refuse to replace a map (status 412).
+
+        Returns:
+            The stored map.
 
         Raises:
-            MapFileError: the map is not valid.
+            MapFileError: The map is invalid.
         """
-        steps = map_upload.put_map(self._calls, name, compact_map, if_match, create_only)
-        return self._take(steps)
+        return self._run(transfers.put_map(self._calls, name, compact_map, if_match, create_only))
 
     def uploads(self, name: str) -> tuple[PartialUpload, ...]:
-        """The key's uploads of map files in parts that are not complete."""
+        """Return the unfinished uploads of a map file that belong to this API key."""
         return self._send(self._calls.uploads(name))
 
     def delete_upload(self, name: str, digest: str) -> None:
-        """Remove an upload that is not complete; the map is unchanged."""
+        """Remove an unfinished upload; the map is unchanged.
+
+        Args:
+            name: Name of the map.
+            digest: SHA-256 of the whole file, as `uploads` lists it.
+        """
         self._send(self._calls.delete_upload(name, digest))
 
     def edit_map(
@@ -218,58 +261,68 @@ class Client(Caller):
         only_new: bool = False,
         if_match: str | None = None,
     ) -> Written:
-        """Add, replace and remove segments, all or none; returns when it is safely on disk.
+        """Add, replace and remove segments atomically; return when the write is on disk.
 
-        Segments of other robots are neither replaced nor removed: a ServiceError with status 409,
-        whose `ids` tell which they are; with `if_match` they are.
+        Without `if_match`, segments of other robots cannot be replaced or removed: a `ServiceError`
+        with status 409 lists their `ids`.
 
         Args:
-            name: of the map.
-            delta: what to do, its `since` and `until` 0; or its file.
-            robot: whose segments may be removed, beside those of the changed segments' robots.
-            create: make the map if there is none.
-            deduplicate: do not store again what is within half a metre of a stored segment and
-                looks the same; only note that it was seen. Other views of it are stored.
-            only_new: refuse to replace a segment (status 409), whoever wrote it.
-            if_match: ETag of the version that the delta is for, or `*` for any.
+            name: Name of the map.
+            delta: Changes with `since` and `until` 0, or the content of their delta file.
+            robot: Robot whose segments may be removed, in addition to the robots of the changed
+                segments.
+            create: Create the map if it does not exist.
+            deduplicate: Do not store a segment that lies within 0.5 m of a stored segment and looks
+                the same; record only that it was seen. Other views of it are stored.
+            only_new: Refuse to replace any segment (status 409).
+            if_match: ETag of the version that the delta changes, or `*` for any version. It also
+                allows changes to segments of other robots.
+
+        Returns:
+            The new version, and the numbers of changed, removed and repeated segments.
 
         Raises:
-            MapFileError: the delta is not valid.
+            MapFileError: The delta is invalid.
         """
         call = self._calls.edit_map(name, delta, robot, create, deduplicate, only_new, if_match)
         return self._send(call)
 
     def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
-        """Ids for new segments of a map, that nobody else is given: uint32 (count,), ascending."""
+        """Reserve ids for new segments of a map; no other client gets the same ids.
+
+        Args:
+            name: Name of the map.
+            count: Number of ids.
+
+        Returns:
+            The ids: uint32 (count,), ascending.
+        """
         return self._send(self._calls.reserve_ids(name, count))
 
     def reset_ids(self, name: str) -> range:
-        """Make ids free again that no kept version has, and return them; for administrators."""
+        """Free the ids that no kept version of a map uses, and return them; needs an admin key.
+
+        Ids that robots have reserved are freed too.
+        """
         return self._send(self._calls.reset_ids(name))
 
     def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
-        """Bring a copy of a map up to date, by what has changed since.
+        """Update a local copy of a map; only the changes since its version are transferred.
 
-        Each part is a call of its own, with its own `timeout`. Should one fail, the copy is as it
-        was, and the next pull of it goes on with that part.
+        The changes arrive in pages. Each page is a call with its own `timeout`. If a page fails,
+        the copy keeps its version, and the next pull continues with that page.
 
         Args:
-            copy: made by an earlier pull; or the name of a map to begin with.
-            limit: segments in a part, at most.
+            copy: Copy from an earlier pull, or the name of a map for a new copy.
+            limit: Largest number of segments per page.
 
         Returns:
-            The copy, of the version that was the newest when the pull began.
+            The copy, updated to the version that was the newest when the pull began.
+
+        Raises:
+            MapFileError: A page does not fit the copy.
         """
-        if isinstance(copy, str):
-            copy = MapCopy(copy)
-        while True:
-            since, cursor = copy.request
-            try:
-                if copy.take(self.changes(copy.name, since, cursor, limit)):
-                    return copy
-            except ServiceError as error:
-                if error.status != GONE or not copy.lose_way():
-                    raise
+        return self._run(transfers.pull(self._calls, copy, limit))
 
     def changes(
         self,
@@ -278,40 +331,49 @@ class Client(Caller):
         cursor: str | None = None,
         limit: int = PAGE_SEGMENTS,
     ) -> ChangesPage:
-        """A part of what changed in a map; `pull` puts the parts together.
+        """Return one page of the changes of a map; `pull` combines all pages.
 
         Args:
-            name: of the map.
-            since: ETag of the version that is known, or its sequence; 0: none.
-            cursor: of the part, from the page before it.
-            limit: segments in a part, at most.
+            name: Name of the map.
+            since: ETag or sequence number of the known version; 0 requests the whole map.
+            cursor: Cursor of the page, from the page before it; None requests the first page.
+            limit: Largest number of segments per page.
         """
         return self._send(self._calls.changes(name, since, cursor, limit))
 
     def get_map(self, name: str, version: int | None = None) -> CompactMap:
-        """A stored map, or an earlier version of it.
+        """Download a map and decode it.
+
+        Args:
+            name: Name of the map.
+            version: Sequence number of an earlier version. Default: the newest.
 
         Raises:
-            MapFileError: the file is of another version than this client reads.
+            MapFileError: The file has a version that this client cannot read.
         """
         return self._send(self._calls.get_map(name, version))
 
     def get_map_file(self, name: str, version: int | None = None) -> bytes:
-        """A stored map's file, or that of an earlier version."""
+        """Download a map as a file.
+
+        Args:
+            name: Name of the map.
+            version: Sequence number of an earlier version. Default: the newest.
+        """
         return self._send(self._calls.get_map_file(name, version))
 
     def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
-        """The versions of a map that are kept, newest first, so many at most."""
+        """Return the kept versions of a map, newest first, at most `limit`."""
         return self._send(self._calls.versions(name, limit))
 
     def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
-        """Make a map again what it was: a new version with the content of an old one.
+        """Restore an old version of a map: write a new version with its content.
 
         Args:
-            name: of the map.
-            version: the old one's sequence.
-            if_match: ETag of the version that is given up; a ServiceError with status 412 if it
-                is not the newest.
+            name: Name of the map.
+            version: Sequence number of the old version.
+            if_match: ETag that the newest version must have; otherwise a `ServiceError` with status
+                412 is raised.
         """
         return self._send(self._calls.restore_map(name, version, if_match))
 
@@ -326,10 +388,13 @@ class Client(Caller):
         """Remove segments that were last seen before a time.
 
         Args:
-            name: of the map.
-            unseen_since: the time, seconds of the clock of the frames.
-            dry_run: only tell how many they are.
-            if_match: ETag of the version to do it to.
+            name: Name of the map.
+            unseen_since: Time in seconds, on the clock of the map's frame times.
+            dry_run: Only count the segments.
+            if_match: ETag that the newest version must have.
+
+        Returns:
+            The new version; `removed` is the number of removed segments.
         """
         return self._send(self._calls.prune_map(name, unseen_since, dry_run, if_match))
 
@@ -342,22 +407,27 @@ class Client(Caller):
         pairs: bool = False,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> MapAlignment:
-        """How another map lies to a map: the transform between their frames, or why none is told.
+        """Align two maps: compute the pose of the other map's frame in the first map's frame.
 
         Nothing is written. The service may need minutes for large maps.
 
         Args:
-            name: of the map in whose frame the answer is.
-            other: name of the map that is laid on it.
-            motion: `yaw`, for both frames are level, or `se3`.
-            pairs: tell the segments that agree, too.
-            timeout: seconds, in place of the client's.
+            name: Name of the first map.
+            other: Name of the other map.
+            motion: Degrees of freedom: `yaw` (x, y, z, yaw; both frames are level) or `se3` (all
+                six).
+            pairs: Return the pairs of segments that agree with the pose, too.
+            timeout: Time limit of the call in seconds; it replaces the client's.
+
+        Returns:
+            The pose with its covariance and the overlap, or the reason why the maps are not
+            aligned.
         """
         return self._send(self._calls.align_maps(name, other, motion, pairs, timeout))
 
     def merge_maps(
         self,
-        site: str,
+        merged_map: str,
         maps: Sequence[str],
         *,
         dry_run: bool = False,
@@ -366,45 +436,57 @@ class Client(Caller):
         if_match: str | None = None,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> Merge:
-        """Lay maps on each other, and put their segments into a site map; it is made if need be.
+        """Align maps and merge their segments into one map, which is created if needed.
 
-        Maps that cannot be laid on the site are left out, which the result tells; if all are, that
-        is a ServiceError with status 409, and nothing is written. The service may need minutes.
+        Maps that cannot be aligned are left out; `parts` of the result lists them. If no maps can
+        be aligned, a `ServiceError` with status 409 is raised, and nothing is written. The service
+        may need minutes.
 
         Args:
-            site: name of the map to put them into; a new one takes the frame of the first map.
-            maps: names. Those that have grown since can be merged again.
-            dry_run: only tell what would be done.
-            deduplicate: leave out what another map's segment shows already.
-            motion: `yaw`, for all frames are level, or `se3`.
-            if_match: ETag of the site's version to do it to.
-            timeout: seconds, in place of the client's.
+            merged_map: Name of the merged map. A new one takes the frame of the first of `maps`.
+            maps: Names of the maps to merge. A map that has grown can be merged again.
+            dry_run: Only compute the result; write nothing.
+            deduplicate: Leave out segments that repeat a segment of another map.
+            motion: Degrees of freedom: `yaw` (x, y, z, yaw; all frames are level) or `se3` (all
+                six).
+            if_match: ETag that the merged map's newest version must have.
+            timeout: Time limit of the call in seconds; it replaces the client's.
+
+        Returns:
+            The alignments, the outcome for each map, and the new version.
         """
-        call = self._calls.merge_maps(site, maps, dry_run, deduplicate, motion, if_match, timeout)
+        call = self._calls.merge_maps(
+            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
+        )
         return self._send(call)
 
     def compact_map(self, name: str, keep: int = 1) -> int:
-        """Let go of all but the newest versions; the sequence of the oldest that is kept."""
+        """Drop all but the newest `keep` versions; return the oldest kept sequence number."""
         return self._send(self._calls.compact_map(name, keep))
 
     def delete_map(self, name: str, if_match: str | None = None) -> None:
-        """Remove a map with all its versions."""
+        """Delete a map with all its versions.
+
+        Args:
+            name: Name of the map.
+            if_match: ETag that the newest version must have.
+        """
         self._send(self._calls.delete_map(name, if_match))
 
-    def _take(self, steps: map_upload.Steps) -> MapSummary:
-        """Send the calls of some steps, one after the other."""
+    def _run(self, steps: transfers.Steps[T]) -> T:
+        """Send the calls of a transfer one after the other and return its result."""
         try:
             call = next(steps)
             while True:
                 try:
                     result = self._send(call)
-                except ServiceError as error:  # noqa: PERF203 -- the steps know what to do
+                except ServiceError as error:  # noqa: PERF203 -- the steps handle it
                     call = steps.throw(error)
                 else:
                     call = steps.send(result)
         except StopIteration as done:
-            stored: MapSummary = done.value
-            return stored
+            value: T = done.value
+            return value
 
     def _send(self, call: Call[T]) -> T:
         attempts = self._attempts(call)
@@ -418,10 +500,10 @@ class Client(Caller):
                     raise
             self._sleep(wait)
 
-    def _exchange(self, attempt: Attempt) -> Answer:
+    def _exchange(self, attempt: Attempt) -> HttpResponse:
         with self._http.stream(**attempt.request, content=attempt.parts()) as response:
             try:
                 parts = attempt.deadline.guard(response.iter_bytes(), httpx.ReadTimeout)
-                return Answer.of(response, b"".join(parts))
+                return HttpResponse.of(response, b"".join(parts))
             except httpx.DecodingError as error:
-                raise ServiceError.unreadable(Answer.of(response, b""), str(error)) from error
+                raise ServiceError.unreadable(HttpResponse.of(response, b""), str(error)) from error

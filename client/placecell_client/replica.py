@@ -1,4 +1,4 @@
-"""A robot's copy of a shared map, and what is still missing from it. Nothing here sends."""
+"""Local copy of a shared map, updated page by page; no input or output."""
 
 from dataclasses import dataclass
 
@@ -7,23 +7,20 @@ from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.edit import apply, join
 
 PAGE_SEGMENTS = 20_000
-"""In a part, at most: about a megabyte."""
+"""Largest number of segments per page; a page is about a megabyte."""
 
-LOST_AT_MOST = 5
-"""Times that a pull is begun anew."""
-
-GONE = 410
-"""Status of a version that the service no longer knows."""
+RESTARTS = 5
+"""Largest number of restarts of a pull."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ChangesPage:
-    """A part of what changed in a map.
+    """One page of the changes of a map.
 
     Attributes:
-        delta: of the segments of this part; `since` and `until` are those of all parts together.
-        etag: of the version that all parts lead to.
-        next: cursor of the next part; None: this is the last.
+        delta: Changes of this page; `since` and `until` are those of all pages together.
+        etag: ETag of the version after all pages.
+        next: Cursor of the next page; None for the last page.
     """
 
     delta: Delta
@@ -32,32 +29,32 @@ class ChangesPage:
 
 
 class MapCopy:
-    """A copy that `Client.pull` brings up to date.
+    """Local copy of a map; `Client.pull` updates it.
 
-    It always is one version of the map, whole: parts that have come are kept apart until all are
-    there. Should the link be cut before, the next pull goes on where that one ended.
+    The copy always holds one complete version of the map. Received pages are kept apart until all
+    have arrived. If the connection breaks before, the next pull continues with the missing page.
 
     Attributes:
-        name: of the map.
-        content: its segments; None before the first pull.
-        etag: of the version; None before the first pull.
+        name: Name of the map.
+        content: The map; None before the first pull.
+        etag: ETag of the version; None before the first pull.
     """
 
     def __init__(
         self, name: str, content: CompactMap | None = None, etag: str | None = None
     ) -> None:
-        """A copy.
+        """Create a copy, empty or from an earlier pull.
 
         Args:
-            name: of the map.
-            content: what is known of it, as it was pulled, perhaps by an earlier run; with
-            etag: of that version.
+            name: Name of the map.
+            content: The map from an earlier pull.
+            etag: ETag of that version.
 
         Raises:
-            ValueError: one is given without the other.
+            ValueError: Only one of `content` and `etag` is given.
         """
         if (content is None) != (etag is None):
-            raise ValueError("give both, content and etag, or none")
+            raise ValueError("Give both content and etag, or neither.")
         self.name = name
         self.content = content
         self.etag = etag
@@ -68,46 +65,52 @@ class MapCopy:
 
     @property
     def sequence(self) -> int:
-        """Of the version; 0 before the first pull."""
+        """Sequence number of the version; 0 before the first pull."""
         return int(self.etag.rpartition("-")[2]) if self.etag is not None else 0
 
     @property
     def request(self) -> tuple[str, str | None]:
-        """What to ask for next: since which version, and the cursor of a part, if some are here."""
+        """The next page to request: the version to start from, and the page's cursor or None."""
         return "0" if self._whole or self.etag is None else self.etag, self._cursor
 
     def take(self, page: ChangesPage) -> bool:
-        """Put a part to the others; whether all are there, and the copy is the new version.
+        """Add a page; return whether it was the last and the copy is updated.
 
         Raises:
-            MapFileError: the part is not of what was asked for.
+            MapFileError: The page does not fit the copy.
         """
         if page.delta.since not in {0, self.sequence}:
-            raise MapFileError(f"changes since {page.delta.since}; the copy is at {self.sequence}")
+            raise MapFileError(
+                f"the page starts at version {page.delta.since}, "
+                f"but the copy is at version {self.sequence}"
+            )
         parts = [*self._parts, page.delta]
         if page.next is not None:
             self._parts, self._cursor = parts, page.next
             return False
         delta = join(parts)
-        # One from nothing is the map itself.
+        # The changes since version 0 are the whole map.
         base = delta.changed if self.content is None else self.content
         self.content, self.etag = apply(base, delta), page.etag
-        self._begin_anew(whole=False)
+        self._reset(whole=False)
         self._lost = 0
         return True
 
-    def lose_way(self) -> bool:
-        """The service no longer knows the version, or the cursor: begin anew, or with nothing.
+    def restart(self) -> bool:
+        """Restart after the service has dropped the version or the cursor.
+
+        A dropped cursor restarts the pull from the copy's version; a dropped version restarts it
+        with the whole map.
 
         Returns:
-            False if there is no point in it now; a later pull may have more luck.
+            False if the pull must fail, because it has restarted too often or has nothing to drop.
         """
         self._lost += 1
-        if self.request == ("0", None) or self._lost > LOST_AT_MOST:
+        if self.request == ("0", None) or self._lost > RESTARTS:
             self._lost = 0
             return False
-        self._begin_anew(whole=self._whole or self._cursor is None)
+        self._reset(whole=self._whole or self._cursor is None)
         return True
 
-    def _begin_anew(self, whole: bool) -> None:
+    def _reset(self, whole: bool) -> None:
         self._parts, self._cursor, self._whole = [], None, whole

@@ -64,7 +64,7 @@ def test_arrays_are_checked_before_they_are_sent(encoding: Encoding) -> None:
 
 
 def test_an_unknown_encoding_is_refused() -> None:
-    with pytest.raises(ValueError, match="'cbor' is none of msgpack, json"):
+    with pytest.raises(ValueError, match="Invalid encoding 'cbor': expected one of msgpack, json"):
         Client("http://service", encoding="cbor")  # type: ignore[arg-type]
 
 

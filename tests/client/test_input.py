@@ -169,13 +169,13 @@ def test_B3_codes_and_centroids_are_checked() -> None:
     for codes, words in (
         (np.zeros(4, np.int8), r"codes has shape \(4,\), expected \(n, any\)"),
         (np.zeros((4, 2)), "codes has type float64, expected integers"),
-        (np.full((4, 2), 200), "codes has values beyond -128 to 127"),
+        (np.full((4, 2), 200), "codes has values outside -128 to 127"),
     ):
         with pytest.raises(ValueError, match=words):
             codes_of(codes, "msgpack")
     for centroids, words in (
         (np.zeros((3, 4)), r"centroids has shape \(3, 4\), expected \(n, 3\)"),
-        (np.full((3, 3), np.nan), "a centroid is not finite"),
+        (np.full((3, 3), np.nan), "centroid 0 is not finite"),
     ):
         with pytest.raises(ValueError, match=words):
             centroids_of(centroids, "msgpack")

@@ -73,6 +73,6 @@ def test_no_transport_error_tells_the_key() -> None:
 def test_a_key_that_fits_no_header_is_refused_untold(
     kind: type[Client | AsyncClient], key: str
 ) -> None:
-    with pytest.raises(ValueError, match="key: not one or more visible") as raised:
+    with pytest.raises(ValueError, match="Invalid key: expected one or more visible") as raised:
         kind("http://service", key=key)
     assert not key or key not in str(raised.value)

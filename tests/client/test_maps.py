@@ -17,7 +17,7 @@ from placecell_client import (
     encode_delta,
 )
 from placecell_client.maps.edit import delta_between, difference, take
-from placecell_client.replica import LOST_AT_MOST
+from placecell_client.replica import RESTARTS
 
 from tests.client.client_fakes import SUMMARY, WRITTEN, Blocking, client_of
 from tests.client.map_builders import random_map
@@ -169,10 +169,10 @@ def test_a_copy_that_lost_its_way_often_is_not_given_up_for_good() -> None:
     copy = MapCopy("yard", OLD, "e-1")
     for _ in range(3):
         losses = 0
-        while copy.lose_way():
+        while copy.restart():
             losses += 1
             assert not copy.take(ChangesPage(part, "e-2", "cursor"))
-        assert losses == LOST_AT_MOST
+        assert losses == RESTARTS
 
 
 def test_what_cannot_be_followed_is_got_whole_until_it_is_there(make: Callable[..., Any]) -> None:
@@ -188,10 +188,10 @@ def test_what_cannot_be_followed_is_got_whole_until_it_is_there(make: Callable[.
 def test_a_copy_takes_only_what_it_asked_for() -> None:
     changed, removed = difference(OLD, NEW)
     copy = MapCopy("yard", OLD, "e-1")
-    with pytest.raises(MapFileError, match="since 7"):
+    with pytest.raises(MapFileError, match="starts at version 7"):
         copy.take(ChangesPage(Delta(changed, removed, 7, 9), "e-9", None))
     assert not copy.take(ChangesPage(Delta(changed, NONE, 1, 2), "e-2", "c"))
-    with pytest.raises(MapFileError, match="not parts"):
+    with pytest.raises(MapFileError, match="different deltas"):
         copy.take(ChangesPage(Delta(changed, removed, 1, 3), "e-3", None))
     assert (copy.content, copy.etag) == (OLD, "e-1")
     with pytest.raises(ValueError, match="both"):

@@ -175,5 +175,5 @@ def test_a_name_too_many_is_refused() -> None:
         random_map(optional=PROVENANCE), sources=tuple(f"{number}" for number in range(65_535))
     )
     assert originated(full, "7").sources == full.sources
-    with pytest.raises(MapFileError, match="sources: 65536 names; at most 65535"):
+    with pytest.raises(MapFileError, match="sources: 65536 names; the limit is 65535"):
         originated(full, "another")

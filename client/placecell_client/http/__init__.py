@@ -1,1 +1,1 @@
-"""HTTP side of the client: requests, retries, encodings and errors."""
+"""HTTP of the client: requests, responses, retries, encodings and errors."""

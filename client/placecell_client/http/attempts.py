@@ -1,4 +1,4 @@
-"""The attempts of one call: what to send, and whether to send it again. Nothing here sends."""
+"""Attempts of one call: the next request, and whether to repeat it; no input or output."""
 
 import uuid
 from collections.abc import Callable, Iterator
@@ -7,31 +7,32 @@ from typing import Any, Generic, TypeVar
 
 import httpx
 
-from placecell_client.http.deadline import Deadline, Timeouts
+from placecell_client.http.deadline import Deadline, RemainingTime
 from placecell_client.http.errors import ServiceError
 from placecell_client.http.requests import Call
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import RETRIED, Retries, may_be_done
 from placecell_client.maps.map_file import MapFileError
 
 T = TypeVar("T")
 
 PART_BYTES = 1 << 16
+"""Size of the parts in which a body is sent, bytes."""
 HOPELESS = (httpx.LocalProtocolError, httpx.UnsupportedProtocol)
-"""Transport errors that are the caller's own: a URL without http, say."""
+"""Transport errors that the caller causes, such as a URL without http; never repeated."""
 UNREADABLE = (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
-"""What reading an answer may end in that is none of Placecell's."""
+"""Errors while reading an answer that a Placecell service did not make."""
 
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """How long and how often calls are tried.
+    """Time limit and repetition of calls.
 
     Attributes:
-        timeout: seconds, of a whole call.
-        retries: when to try again.
-        jitter: draws evenly from 0 to 1.
-        clock: gives seconds that only grow.
+        timeout: Time limit of a whole call, seconds.
+        retries: Number of attempts and waits between them.
+        jitter: Function that returns a uniform random number from 0 to 1.
+        clock: Function that returns monotonic seconds.
     """
 
     timeout: float
@@ -41,16 +42,18 @@ class Policy:
 
     def __post_init__(self) -> None:
         if not 0 < self.timeout < float("inf"):
-            raise ValueError(f"timeout: {self.timeout}, not a number of seconds above 0")
+            raise ValueError(
+                f"Invalid timeout {self.timeout!r}: expected a positive number of seconds."
+            )
 
     def lasting(self, timeout: float) -> "Policy":
-        """For a call that may take so many seconds, and all of them in one attempt."""
+        """Return a policy with another timeout, where one attempt may take all of the time."""
         return replace(self, timeout=timeout, retries=replace(self.retries, longest_attempt=None))
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """One request, and when its answer must be there."""
+    """One request and the deadline of its answer."""
 
     method: str
     path: str
@@ -60,16 +63,16 @@ class Attempt:
 
     @property
     def request(self) -> dict[str, Any]:
-        """Arguments of httpx's `stream`, but for the body."""
+        """Arguments of httpx's `stream`, without the body."""
         return {
             "method": self.method,
             "url": self.path,
             "headers": self.headers,
-            "extensions": {"timeout": Timeouts(self.deadline)},
+            "extensions": {"timeout": RemainingTime(self.deadline)},
         }
 
     def parts(self) -> Iterator[bytes] | None:
-        """The body in parts, as long as there is time."""
+        """Yield the body in parts until the deadline."""
         content = self.content
         if content is None:
             return None
@@ -78,7 +81,7 @@ class Attempt:
 
 
 class Attempts(Generic[T]):
-    """One call, from its first attempt to its result or its last error."""
+    """One call, from its first attempt to its result or last error."""
 
     def __init__(self, call: Call[T], policy: Policy) -> None:
         if call.timeout is not None:
@@ -92,10 +95,10 @@ class Attempts(Generic[T]):
         self._last: Exception | None = None
 
     def next(self) -> Attempt:
-        """What to send now.
+        """Return the next request to send.
 
         Raises:
-            Exception: the last attempt's, if the wait after it took all the time.
+            Exception: The error of the last attempt, if the wait used up the time.
         """
         self._made += 1
         left = self._deadline.remaining()
@@ -116,13 +119,13 @@ class Attempts(Generic[T]):
             Deadline(seconds, self._policy.clock),
         )
 
-    def result(self, answer: Answer) -> T:
-        """What the call gives.
+    def result(self, answer: HttpResponse) -> T:
+        """Return the result of the call.
 
         Raises:
-            ServiceError: the answer is a refusal, or nothing that can be read.
+            ServiceError: The service refused the request, or its answer is unreadable.
         """
-        # The answer to an earlier DELETE was lost on the way, but not the DELETE.
+        # 404 to a repeated DELETE means that the first one succeeded and its answer was lost.
         gone = answer.status == 404 and self._call.method == "DELETE" and self._may_be_done
         if not answer.ok and not gone:
             raise ServiceError.of(answer)
@@ -133,11 +136,11 @@ class Attempts(Generic[T]):
         except UNREADABLE as error:
             missing = isinstance(error, KeyError)
             reason = f"The key {error} is missing" if missing else str(error)
-            # Not from the error: it may quote the answer, and that the key.
+            # Drop the cause: it may quote the answer, which may hold the API key.
             raise ServiceError.unreadable(answer, reason) from None
 
     def wait_after(self, error: httpx.TransportError | ServiceError) -> float | None:
-        """Seconds to wait before the next attempt; None if this error is the last."""
+        """Return the seconds to wait before the next attempt; None to give up with this error."""
         self._last = error
         self._may_be_done |= may_be_done(error)
         if self._may_be_done and not self._call.repeatable:

@@ -14,7 +14,7 @@ def checked_url(base_url: str) -> httpx.URL:
     """Parse the address of a service.
 
     Raises:
-        ValueError: it is none, or has no scheme or host.
+        ValueError: The text is not a URL with scheme http or https and a host.
     """
     try:
         url = httpx.URL(base_url)
@@ -55,7 +55,7 @@ def proxy_of(url: httpx.URL) -> str | None:
 
 
 def explained(error: httpx.TransportError, url: httpx.URL) -> str:
-    """Return what happened and what to do; only the error's own text if no more is known."""
+    """Return the error's text, with a hint what to do if one is known."""
     text = str(error) or type(error).__name__
     hints = [_hint(error, text, url)]
     proxy = proxy_of(url)

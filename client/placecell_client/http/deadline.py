@@ -1,19 +1,19 @@
-"""A moment by which something must be done."""
+"""Deadlines of calls."""
 
 from collections.abc import Callable, Iterable, Iterator
 
 import httpx
 
 SHORTEST = 0.001
-"""Seconds; a socket takes zero for `do not wait at all`."""
+"""Shortest socket timeout, seconds; a socket treats zero as non-blocking."""
 
 
 class Deadline:
-    """A moment of a clock.
+    """Time at which a call must be finished.
 
     Args:
-        seconds: from now.
-        clock: gives seconds that only grow.
+        seconds: Time from now, seconds.
+        clock: Function that returns monotonic seconds.
     """
 
     def __init__(self, seconds: float, clock: Callable[[], float]) -> None:
@@ -21,28 +21,31 @@ class Deadline:
         self._end = clock() + seconds
 
     def remaining(self) -> float:
-        """Seconds until then; negative after it."""
+        """Return the seconds until the deadline; negative after it."""
         return self._end - self._clock()
 
     def guard(self, parts: Iterable[bytes], late: type[httpx.TimeoutException]) -> Iterator[bytes]:
-        """The parts of a body, as long as there is time.
+        """Yield the parts of a body until the deadline.
 
-        httpx bounds each step of a socket, not their sum: a body that trickles never times out.
+        httpx limits the time of each socket operation, not their sum, so a slowly sent body never
+        times out by itself.
 
         Raises:
-            httpx.TimeoutException: the deadline has passed; of the type `late`.
+            httpx.TimeoutException: The deadline has passed; the exception has the type `late`.
         """
         for part in parts:
             if self.remaining() <= 0:
-                raise late("The call's time was over before its body had passed.")
+                raise late("The call exceeded its timeout before the body was transferred.")
             yield part
 
 
-class Timeouts(dict[str, float]):
-    """httpx's `timeout` extension, which leaves to each step the seconds that are left *then*.
+class RemainingTime(dict[str, float]):
+    """Timeout extension of httpx that gives each socket operation the time that is left *then*.
 
-    A plain one would let connecting, sending and reading take the whole time each. Should httpx
-    ever copy it, it becomes the plain one.
+    httpx's own timeouts are constant, so connecting, sending and reading could each take the whole
+    time of the call. httpcore reads the extension with `get` before each operation; tests hold
+    this. If a later release copies the dictionary, each operation gets the time that was left at
+    the start of the attempt.
     """
 
     def __init__(self, deadline: Deadline) -> None:

@@ -1,4 +1,4 @@
-"""Requests and answers in their two encodings; docs/reference/msgpack.md describes the second."""
+"""Encoding of requests and responses: JSON, or msgpack as in docs/reference/msgpack.md."""
 
 import json
 from collections.abc import Sequence
@@ -15,26 +15,26 @@ MEDIA_TYPES: dict[Encoding, str] = {"msgpack": "application/msgpack", "json": "a
 
 
 def dumps(body: dict[str, Any], encoding: Encoding) -> bytes:
-    """A request's body."""
+    """Encode the body of a request."""
     if encoding == "msgpack":
         return bytes(msgpack.packb(body))
     return json.dumps(body, separators=(",", ":"), allow_nan=False).encode()
 
 
 def loads(media_type: str, content: bytes) -> dict[str, Any]:
-    """An answer's body, in the encoding that it names.
+    """Decode the body of a response.
 
     Raises:
-        ValueError: it is in neither encoding, or cut short, or no map.
+        ValueError: The media type is unknown, or the body is not a valid object.
     """
     if media_type == MEDIA_TYPES["msgpack"]:
         body = msgpack.unpackb(content)
     elif media_type == MEDIA_TYPES["json"]:
         body = json.loads(content)
     else:
-        raise ValueError(f"The answer is neither of {' nor of '.join(MEDIA_TYPES.values())}")
+        raise ValueError(f"The answer's type is not one of {', '.join(MEDIA_TYPES.values())}")
     if not isinstance(body, dict):
-        raise ValueError("The answer is no map")
+        raise ValueError("The answer is not an object")
     return body
 
 
@@ -43,17 +43,17 @@ def segments_of(
 ) -> tuple[dict[str, Any], int]:
     """Return the part of a body that holds segments, and the number of non-finite points.
 
-    Nothing is rounded that need not be: float32 arrays travel as they are. Others, as msgpack,
-    travel as float32 relative to the median sensor, where that resolves micrometres.
+    float32 arrays are sent unchanged. In msgpack, other arrays are sent as float32 relative to the
+    median sensor position, with a resolution of micrometers.
 
     Args:
-        segments: points of each, (points, 3), or structured with fields x, y and z; metres, all in
-            one z-up frame.
-        sensors: where the sensor was at capture, (segments, 3) or (3,) for all, same frame.
-        encoding: of the body.
+        segments: Points of each segment, (points, 3) or structured with fields x, y and z; meters,
+            all in one frame with z up.
+        sensors: Sensor position at capture, (segments, 3) or (3,) for all, in the same frame.
+        encoding: Encoding of the body.
 
     Raises:
-        ValueError: an array has another shape or type, or a sensor is not finite.
+        ValueError: An array has a wrong shape or type, or a sensor position is not finite.
     """
     clouds = Clouds.of(segments, sensors)
     if encoding == "json":
@@ -80,11 +80,11 @@ def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:
     """Encode codes (q, d) for a body.
 
     Raises:
-        ValueError: the array has another shape, or values that are no int8.
+        ValueError: The array has a wrong shape, or values beyond int8.
     """
     array = rows_of(codes, "codes", None, integers=True)
     if array.size and (array.min() < -128 or array.max() > 127):
-        raise ValueError("codes has values beyond -128 to 127")
+        raise ValueError("codes has values outside -128 to 127")
     if encoding == "msgpack":
         return np.ascontiguousarray(array, dtype=np.int8).tobytes()
     rows: list[list[int]] = array.tolist()
@@ -95,12 +95,12 @@ def centroids_of(centroids: ArrayLike, encoding: Encoding) -> list[list[float]] 
     """Encode centroids (q, 3) for a body.
 
     Raises:
-        ValueError: the array has another shape, or a value that is not finite.
+        ValueError: The array has a wrong shape, or a value that is not finite.
     """
     array = rows_of(centroids, "centroids", 3, integers=False)
     wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
     if len(wrong):
-        raise ValueError(f"a centroid is not finite: row {wrong[0]}")
+        raise ValueError(f"centroid {wrong[0]} is not finite")
     if encoding == "msgpack":
         return np.ascontiguousarray(array, dtype="<f8").tobytes()
     rows: list[list[float]] = array.tolist()
@@ -108,7 +108,7 @@ def centroids_of(centroids: ArrayLike, encoding: Encoding) -> list[list[float]] 
 
 
 def row_of(values: list[float] | bytes, dtype: str) -> NDArray[Any]:
-    """An array of an answer, of a list or of a blob with elements of this type."""
+    """Return an array of a response, from a list or from bytes with elements of this type."""
     if isinstance(values, bytes):
         return np.frombuffer(values, dtype)
     return np.array(values, dtype)
@@ -117,9 +117,9 @@ def row_of(values: list[float] | bytes, dtype: str) -> NDArray[Any]:
 def _origin(
     clouds: Sequence[NDArray[Any]], positions: NDArray[np.float64]
 ) -> NDArray[np.float64] | None:
-    """Where float32 is fine enough for the clouds, float64 (3,); None if they are float32 already.
+    """Return the origin for float32 coordinates, float64 (3,); None if all clouds are float32.
 
-    The service computes about this very sensor, so that it does not round a second time.
+    The service computes relative to the same sensor position, so it does not round again.
     """
     if not clouds or all(cloud.dtype == np.float32 for cloud in clouds):
         return None
@@ -132,7 +132,7 @@ def _blob(cloud: NDArray[Any], origin: NDArray[np.float64] | None, index: int) -
         return cloud.astype("<f4", copy=False).tobytes()
     with np.errstate(over="ignore"):
         near = (cloud - origin).astype("<f4")
-    # The service would take it for a point that the sensor did not measure.
+    # The service would treat it as a point that the sensor did not measure.
     wrong = np.flatnonzero(~np.isfinite(near).all(axis=1))
     if len(wrong):
         row = cloud[wrong[0]].tolist()

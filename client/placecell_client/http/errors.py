@@ -1,28 +1,32 @@
-"""What a service answers when it refuses: problem+json (RFC 9457)."""
+"""Error responses: problem+json (RFC 9457), Retry-After, unreadable answers."""
 
 import re
+from collections.abc import Mapping
+from datetime import datetime, timezone
+from email.utils import parsedate_to_datetime
 from http import HTTPStatus
 from typing import Any
 
 from placecell_client.http.encoding import MEDIA_TYPES, loads
-from placecell_client.http.response import Answer
-from placecell_client.http.retry_after import retry_after
+from placecell_client.http.response import HttpResponse
 
 UNREADABLE = "urn:placecell:problem:unreadable-answer"
-"""The type of an answer that says success, yet is none of a Placecell service."""
+"""Problem type of a successful answer that is not a Placecell service's."""
 
 
 class ServiceError(Exception):
-    """The service refused a request, or failed, or something else answered in its place.
+    """Error: the service refused or failed, or another server answered in its place.
 
     Attributes:
-        status: of HTTP; of success if the answer could not be read.
-        title: the kind of problem in a few words.
-        detail: what is wrong with this request.
-        type: the kind of problem as a URI, the same for every release.
-        request_id: of the call, sent as `X-Request-Id` in each of its attempts.
-        retry_after: seconds after which the service asks to be called again, if it said so.
-        ids: of the segments in question, if it told them; not all where they are very many.
+        status: HTTP status; a success status (2xx) if the answer was unreadable.
+        title: Kind of problem in a few words.
+        detail: Fault of this request.
+        type: Kind of problem as a URI that does not change between releases.
+        request_id: Id of the call, sent as `X-Request-Id` in every attempt; the service's log has
+            it.
+        retry_after: Seconds after which to repeat the call; None if the service gave none.
+        ids: Ids of the segments that caused the problem, if the service lists them; very long lists
+            are cut.
     """
 
     def __init__(
@@ -50,8 +54,8 @@ class ServiceError(Exception):
         return text + (f" (request {self.request_id})" if self.request_id else "")
 
     @classmethod
-    def of(cls, answer: Answer) -> "ServiceError":
-        """From an answer that is no success, whether Placecell or a proxy on the way made it."""
+    def of(cls, answer: HttpResponse) -> "ServiceError":
+        """Build from an error response of the service or of a proxy."""
         problem = _problem(answer)
         return cls(
             status=answer.status,
@@ -64,8 +68,8 @@ class ServiceError(Exception):
         )
 
     @classmethod
-    def unreadable(cls, answer: Answer, reason: str) -> "ServiceError":
-        """From an answer that says success, and is not what was asked for."""
+    def unreadable(cls, answer: HttpResponse, reason: str) -> "ServiceError":
+        """Build from a successful response whose content is not the expected one."""
         return cls(
             status=answer.status,
             title="Unreadable answer",
@@ -76,7 +80,28 @@ class ServiceError(Exception):
         )
 
 
-def _problem(answer: Answer) -> dict[str, Any]:
+def retry_after(headers: Mapping[str, str]) -> float | None:
+    """Read the header Retry-After (RFC 9110, 10.2.3): seconds from now; None if it is unusable."""
+    value = headers.get("Retry-After", "").strip()
+    if re.fullmatch("[0-9]{1,9}", value):
+        return float(value)
+    then = _date(value)
+    if then is None:
+        return None
+    # Prefer the service's clock, in the header Date: the robot's clock may be hours off.
+    now = _date(headers.get("Date", "")) or datetime.now(timezone.utc)
+    return max(0.0, (then - now).total_seconds())
+
+
+def _date(text: str) -> datetime | None:
+    try:
+        date = parsedate_to_datetime(text)
+    except (ValueError, OverflowError):
+        return None
+    return date if date.tzinfo is not None else date.replace(tzinfo=timezone.utc)
+
+
+def _problem(answer: HttpResponse) -> dict[str, Any]:
     if answer.media_type not in {"application/problem+json", MEDIA_TYPES["json"]}:
         return {}
     try:
@@ -97,14 +122,14 @@ def _phrase(status: int) -> str:
         return "Unknown status"
 
 
-def _excerpt(answer: Answer) -> str:
-    """What came instead, for a person to guess who sent it."""
+def _excerpt(answer: HttpResponse) -> str:
+    """Describe an unexpected response, so that a person can identify its sender."""
     kind = answer.media_type or "no content type"
     if not answer.content:
-        return f"the answer is empty, of {kind}"
-    told = f"the answer is of {kind}, {len(answer.content)} bytes"
+        return f"the answer is empty (type {kind})"
+    found = f"the answer has type {kind} and {len(answer.content)} bytes"
     if not re.search("^text/|json|xml", kind):
-        return told
-    # The key goes before anything is cut: a half of it would stay.
+        return found
+    # Remove the key before the text is cut; otherwise a part of it could remain.
     text = " ".join(answer.without_key(answer.content.decode(errors="replace")).split())
-    return f"{told}, and starts with {text[:100]!r}"
+    return f"{found}; it starts with {text[:100]!r}"

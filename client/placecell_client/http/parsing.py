@@ -1,7 +1,7 @@
-"""Answers of success, read into what the client gives.
+"""Parsers of successful responses.
 
-Each function raises a ValueError, KeyError, TypeError or the like if the answer is not as the
-service makes it.
+Each function raises a ValueError, KeyError, TypeError or similar error if the response does not
+have the service's format.
 """
 
 import re
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from placecell_client.http.encoding import loads, row_of
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import decode_delta
 from placecell_client.replica import ChangesPage
@@ -34,8 +34,8 @@ from placecell_client.results.localization import Localizations, localization_of
 from placecell_client.results.merge import Merge, merge_of
 
 
-def info(answer: Answer) -> Info:
-    """Of `GET /info`."""
+def info(answer: HttpResponse) -> Info:
+    """Read the response of `GET /info`."""
     content = _content(answer)
     return Info(
         version=content["version"],
@@ -47,17 +47,19 @@ def info(answer: Answer) -> Info:
     )
 
 
-def description(answer: Answer, count: int, dropped: int = 0) -> Description:
-    """Read the answer of `POST /describe` to `count` segments; `dropped` points were left out."""
+def description(answer: HttpResponse, count: int, dropped: int = 0) -> Description:
+    """Read the response of `POST /describe` to `count` segments; `dropped` points were left out."""
     content = _content(answer)
     items = _items(content["descriptors"], count)
     good = [index for index, item in enumerate(items) if "error" not in item]
     if not good:
-        raise ValueError("The answer has no descriptor at all")
+        raise ValueError("The answer has no descriptors")
     rows = np.stack([row_of(items[index]["codes"], "int8") for index in good])
     values = np.stack([row_of(items[index]["descriptor"], "<f4") for index in good])
     if values.shape[1] != content["dimension"]:
-        raise ValueError(f"The descriptors have not {content['dimension']} dimensions")
+        raise ValueError(
+            f"The descriptors have {values.shape[1]} dimensions, not {content['dimension']}"
+        )
     codes = np.zeros((count, rows.shape[1]), dtype=np.int8)
     descriptors = np.full((count, values.shape[1]), np.nan, dtype=np.float32)
     centroids = np.full((count, 3), np.nan)
@@ -76,8 +78,8 @@ def description(answer: Answer, count: int, dropped: int = 0) -> Description:
     )
 
 
-def matches(answer: Answer, count: int, dropped: int = 0) -> Matches:
-    """Read the answer of `POST /match` to `count` queries; `dropped` points were left out."""
+def matches(answer: HttpResponse, count: int, dropped: int = 0) -> Matches:
+    """Read the response of `POST /match` to `count` queries; `dropped` points were left out."""
     content = _content(answer)
     items = _items(content["queries"], count)
     return Matches(
@@ -95,8 +97,8 @@ def matches(answer: Answer, count: int, dropped: int = 0) -> Matches:
     )
 
 
-def matches_of(answer: Answer, description: Description, rows: list[int]) -> Matches:
-    """Of `POST /match` with these rows of a description, by the description's own indices."""
+def matches_of(answer: HttpResponse, description: Description, rows: list[int]) -> Matches:
+    """Read the response of `POST /match` to some rows of a description; restore its indices."""
     found = matches(answer, len(rows))
     queries: list[tuple[Candidate, ...]] = [()] * len(description.codes)
     for row, candidates in zip(rows, found.queries, strict=True):
@@ -105,8 +107,8 @@ def matches_of(answer: Answer, description: Description, rows: list[int]) -> Mat
     return Matches(found.model_id, tuple(queries), errors, found.searched, found.skipped)
 
 
-def localizations(answer: Answer, dropped: int = 0) -> Localizations:
-    """Read the answer of `POST /localize`; `dropped` points were left out."""
+def localizations(answer: HttpResponse, dropped: int = 0) -> Localizations:
+    """Read the response of `POST /localize`; `dropped` points were left out."""
     content = _content(answer)
     return Localizations(
         model_id=content["model_id"],
@@ -122,8 +124,10 @@ def localizations(answer: Answer, dropped: int = 0) -> Localizations:
     )
 
 
-def localizations_of(answer: Answer, description: Description, rows: list[int]) -> Localizations:
-    """Of `POST /localize` with these rows of a description, by the description's own indices."""
+def localizations_of(
+    answer: HttpResponse, description: Description, rows: list[int]
+) -> Localizations:
+    """Read the response of `POST /localize` to some rows of a description; restore its indices."""
     found = localizations(answer)
     own = np.array(rows, dtype=np.int64)
     maps = [
@@ -133,100 +137,100 @@ def localizations_of(answer: Answer, description: Description, rows: list[int]) 
     return replace(found, maps=tuple(maps), errors=description.errors)
 
 
-def maps(answer: Answer) -> Maps:
-    """Of `GET /maps`."""
+def maps(answer: HttpResponse) -> Maps:
+    """Read the response of `GET /maps`."""
     content = _content(answer)
     return Maps(tuple(map(MapSummary.of, content["maps"])), tuple(content["damaged"]))
 
 
-def summary(answer: Answer) -> MapSummary:
-    """Of `PUT /maps/{map}`."""
+def summary(answer: HttpResponse) -> MapSummary:
+    """Read the response of `PUT /maps/{map}`."""
     return MapSummary.of(_content(answer))
 
 
-def file(answer: Answer) -> bytes:
-    """Of `GET /maps/{map}`."""
+def file(answer: HttpResponse) -> bytes:
+    """Read the response of `GET /maps/{map}`."""
     return _file(answer, map_file.MEDIA_TYPE)
 
 
-def page(answer: Answer) -> ChangesPage:
-    """Of `GET /maps/{map}/changes`."""
+def page(answer: HttpResponse) -> ChangesPage:
+    """Read the response of `GET /maps/{map}/changes`."""
     delta = decode_delta(_file(answer, delta_file.MEDIA_TYPE))
-    # What compresses on the way makes the tag a weak one.
+    # A proxy that compresses the response makes the ETag weak.
     etag = str(answer.headers["ETag"]).removeprefix("W/").strip('"')
     if not re.fullmatch("[0-9a-f]+-[0-9]+", etag):
-        raise ValueError("The answer's ETag is no map's")
+        raise ValueError("The answer's ETag is not a map version")
     return ChangesPage(delta, etag, answer.headers.get("Placecell-Next"))
 
 
-def written(answer: Answer) -> Written:
-    """Of a write to a map's segments."""
+def written(answer: HttpResponse) -> Written:
+    """Read the response to a write of segments."""
     return Written.of(_content(answer))
 
 
-def ids(answer: Answer) -> NDArray[np.uint32]:
-    """Of `POST /maps/{map}/ids`."""
+def ids(answer: HttpResponse) -> NDArray[np.uint32]:
+    """Read the response of `POST /maps/{map}/ids`."""
     content = _content(answer)
     first, count = int(content["first"]), int(content["count"])
     return np.arange(first, first + count, dtype=np.uint32)
 
 
-def free_ids(answer: Answer) -> range:
-    """Read the answer of `POST /maps/{map}/ids/reset`."""
+def free_ids(answer: HttpResponse) -> range:
+    """Read the response of `POST /maps/{map}/ids/reset`."""
     content = _content(answer)
     return range(content["first"], content["first"] + content["count"])
 
 
-def uploads(answer: Answer) -> tuple[PartialUpload, ...]:
-    """Read the answer of `GET /maps/{map}/uploads`."""
+def uploads(answer: HttpResponse) -> tuple[PartialUpload, ...]:
+    """Read the response of `GET /maps/{map}/uploads`."""
     return tuple(
         PartialUpload(item["digest"], item["bytes"], item["time"])
         for item in _content(answer)["uploads"]
     )
 
 
-def received(answer: Answer, until: int) -> int:
-    """Read the answer of `PUT /maps/{map}/uploads/{digest}` to a part that ends at this byte."""
+def received(answer: HttpResponse, until: int) -> int:
+    """Read the response of `PUT /maps/{map}/uploads/{digest}` to a part that ends at `until`."""
     count = _content(answer)["bytes"]
     if not isinstance(count, int) or count < until:
-        raise ValueError(f"The service has {count!r} bytes after a part until byte {until}")
+        raise ValueError(f"The service has {count!r} bytes, not the {until} that were sent")
     return count
 
 
-def versions(answer: Answer) -> tuple[MapVersion, ...]:
-    """Of `GET /maps/{map}/versions`."""
+def versions(answer: HttpResponse) -> tuple[MapVersion, ...]:
+    """Read the response of `GET /maps/{map}/versions`."""
     return tuple(MapVersion.of(item) for item in _content(answer)["versions"])
 
 
-def alignment(answer: Answer) -> MapAlignment:
-    """Of `POST /maps/{map}/align/{other}`."""
+def alignment(answer: HttpResponse) -> MapAlignment:
+    """Read the response of `POST /maps/{map}/align/{other}`."""
     return alignment_of(_content(answer))
 
 
-def merge(answer: Answer) -> Merge:
-    """Of `POST /maps/{map}/merge`."""
+def merge(answer: HttpResponse) -> Merge:
+    """Read the response of `POST /maps/{map}/merge`."""
     return merge_of(_content(answer))
 
 
-def oldest(answer: Answer) -> int:
-    """Of `POST /maps/{map}/compact`."""
+def oldest(answer: HttpResponse) -> int:
+    """Read the response of `POST /maps/{map}/compact`."""
     return int(_content(answer)["oldest"])
 
 
-def gone(answer: Answer) -> None:
-    """Of `DELETE /maps/{map}`; 404 is of one repeated."""
-    # The page of a network that asks for a log-in says success too.
+def gone(answer: HttpResponse) -> None:
+    """Read the response of a DELETE; a repeated one gets 404."""
+    # A login page of a network has a success status, too.
     if answer.status not in {204, 404}:
         raise ValueError("The answer is not 204 No Content")
 
 
-def _file(answer: Answer, media_type: str) -> bytes:
+def _file(answer: HttpResponse, media_type: str) -> bytes:
     if answer.media_type != media_type:
         raise ValueError(f"The answer is not {media_type}")
     return answer.content
 
 
-def _content(answer: Answer) -> dict[str, Any]:
+def _content(answer: HttpResponse) -> dict[str, Any]:
     return loads(answer.media_type, answer.content)
 
 
@@ -241,7 +245,7 @@ def _skipped(content: dict[str, Any]) -> tuple[Skipped, ...]:
 
 
 def _dropped(content: dict[str, Any]) -> int:
-    return int(content.get("dropped_points", 0))  # an earlier service tells none
+    return int(content.get("dropped_points", 0))  # older services have no such field
 
 
 def _errors(items: list[dict[str, Any]]) -> dict[int, ItemError]:
@@ -262,5 +266,5 @@ def _candidate(item: dict[str, Any]) -> Candidate:
         probability=item["probability"],
         centroid=(x, y, z),
         frame=item["frame"],
-        model_id=item.get("model_id", ""),  # an earlier service tells none
+        model_id=item.get("model_id", ""),  # older services have no such field
     )

@@ -1,4 +1,4 @@
-"""Point clouds and positions of callers: checked, named in errors, never reshaped."""
+"""Checks of the caller's point clouds and positions; errors name the array."""
 
 import warnings
 from collections.abc import Sequence
@@ -24,9 +24,10 @@ class Clouds:
     """Segments of a call as checked arrays.
 
     Attributes:
-        points: of each, (n, 3), finite; float32 if they were, otherwise float64.
-        sensors: float64 (segments, 3).
-        dropped: points that were not finite, or masked, over all segments.
+        points: Points of each segment, (n, 3), finite; float32 if the input is float32, otherwise
+            float64.
+        sensors: Sensor positions, float64 (segments, 3).
+        dropped: Number of points that were not finite or were masked, over all segments.
     """
 
     points: tuple[NDArray[Any], ...]
@@ -35,10 +36,10 @@ class Clouds:
 
     @classmethod
     def of(cls, segments: Sequence[ArrayLike], sensors: ArrayLike) -> "Clouds":
-        """Build from the arrays of a caller.
+        """Check the arrays of a caller.
 
         Raises:
-            ValueError: an array has another shape or type, or a sensor is not finite.
+            ValueError: An array has a wrong shape or type, or a sensor position is not finite.
         """
         given = [points_of(points, f"segment {index}") for index, points in enumerate(segments)]
         clouds, dropped = [], 0
@@ -60,11 +61,11 @@ class Clouds:
 def points_of(points: ArrayLike, name: str) -> NDArray[Any]:
     """Convert points to (n, 3), float32 if they are float32 already, otherwise float64.
 
-    Structured arrays with fields x, y and z are taken, whatever else they hold. What is masked
-    becomes NaN.
+    Structured arrays need the fields x, y and z; other fields are ignored. Masked values become
+    NaN.
 
     Raises:
-        ValueError: the array has another shape or type.
+        ValueError: The array has a wrong shape or type.
     """
     array = _array(points, name)
     if array.dtype.names is not None:
@@ -80,7 +81,7 @@ def rows_of(values: ArrayLike, name: str, columns: int | None, integers: bool) -
     """Convert numbers to (n, columns), or (n, any) if columns is None; integers stay integers.
 
     Raises:
-        ValueError: the array has another shape or type.
+        ValueError: The array has a wrong shape or type.
     """
     array = _array(values, name)
     wanted = "any" if columns is None else str(columns)
@@ -137,7 +138,7 @@ def _is_coarse(points: NDArray[Any]) -> bool:
         return False
     far = points[:, large]
     with np.errstate(over="ignore"):
-        # A grid of whole meters, or of halves, is no loss: nobody measured it.
+        # Coordinates in whole or half meters are synthetic; they have lost nothing.
         return bool((far.astype(np.float32) == far).all() and (far * 2 % 1 != 0).any())
 
 

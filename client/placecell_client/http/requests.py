@@ -1,4 +1,4 @@
-"""Each request that the service takes, and how to read its answer. Nothing here sends."""
+"""Requests to the service, each with the parser of its response; no input or output."""
 
 import gzip
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ from placecell_client.http.encoding import (
     dumps,
     segments_of,
 )
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import Delta, encode_delta
 from placecell_client.maps.map_file import CompactMap, decode, encode
@@ -40,36 +40,36 @@ from placecell_client.results.merge import Merge
 T = TypeVar("T")
 
 ANY = "*"
-"""In the place of an ETag: whatever version is there."""
+"""Any version, in the place of an ETag."""
 
 ALIGNMENT_SECONDS = 300.0
-"""For a call that aligns or merges maps: as many as the service takes, unless it is told others."""
+"""Default timeout of `align_maps` and `merge_maps`, seconds; the service's default is the same."""
 
 OCTETS = "application/octet-stream"
 
 COMPRESSED_BYTES = 1024
-"""Files of less are sent as they are."""
+"""Smallest file that is compressed, bytes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Call(Generic[T]):
-    """A request, and how to read its answer.
+    """A request and the parser of its response.
 
     Attributes:
-        method: of HTTP.
-        path: below the service's address, quoted.
-        read: raises a ValueError, KeyError, TypeError or the like if the answer is not as it should
-            be.
-        headers: of the request.
-        content: its body, the same bytes in every attempt.
-        repeatable: whether it may be sent again when it may have been done already: what others
-            wrote since is then not undone.
-        timeout: seconds that it may take, and each attempt too; None: as all others.
+        method: HTTP method.
+        path: Path below the service's address, quoted.
+        read: Parser of the response. It raises a ValueError, KeyError, TypeError or similar error
+            if the response has another format.
+        headers: Headers of the request.
+        content: Body of the request, the same bytes in every attempt.
+        repeatable: Whether the request may be sent again although it may have been carried out. A
+            repeatable request never undoes later writes of other clients.
+        timeout: Time limit of the call and of each attempt, seconds; None for the client's.
     """
 
     method: str
     path: str
-    read: Callable[[Answer], T]
+    read: Callable[[HttpResponse], T]
     headers: dict[str, str] = field(default_factory=dict)
     content: bytes | None = None
     repeatable: bool = True
@@ -78,11 +78,11 @@ class Call(Generic[T]):
 
 @dataclass(frozen=True, slots=True)
 class Calls:
-    """Makes calls; the clients say what each does.
+    """Factory of calls, one method per method of the clients; `Client` documents them.
 
     Attributes:
-        encoding: of points and descriptors.
-        compress: whether maps and deltas travel as gzip.
+        encoding: Encoding of points and descriptors.
+        compress: Whether maps and deltas are compressed with gzip.
     """
 
     encoding: Encoding
@@ -109,7 +109,7 @@ class Calls:
         k: int,
     ) -> Call[Matches]:
         """`POST /match`."""
-        body = _asked(maps, k)
+        body = _search(maps, k)
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
@@ -122,7 +122,7 @@ class Calls:
             return self._post(
                 "/match", body | own, lambda answer: parsing.matches(answer, count, dropped)
             )
-        raise ValueError("give either a description, or segments and sensors")
+        raise ValueError("Give either a description, or segments and sensors.")
 
     def localize(
         self,
@@ -135,7 +135,7 @@ class Calls:
         session: str | None,
     ) -> Call[Localizations]:
         """`POST /localize`."""
-        body = _asked(maps, k) | {"motion": motion}
+        body = _search(maps, k) | {"motion": motion}
         if session is not None:
             body["session"] = session
         if description is not None and segments is None and sensors is None:
@@ -152,7 +152,7 @@ class Calls:
             return self._post(
                 "/localize", body | own, lambda answer: parsing.localizations(answer, dropped)
             )
-        raise ValueError("give either a description, or segments and sensors")
+        raise ValueError("Give either a description, or segments and sensors.")
 
     def maps(self) -> Call[Maps]:
         """`GET /maps`."""
@@ -176,7 +176,7 @@ class Calls:
         return Call("GET", _path(name, "/uploads"), parsing.uploads)
 
     def put_part(self, name: str, digest: str, offset: int, part: bytes) -> Call[int]:
-        """`PUT /maps/{map}/uploads/{digest}`: how many bytes the service has then."""
+        """`PUT /maps/{map}/uploads/{digest}`; the result is the number of received bytes."""
         path = _path(name, f"/uploads/{_quoted(digest)}", offset=offset)
         until = offset + len(part)
         return self._upload(
@@ -218,7 +218,7 @@ class Calls:
         path = _path(name, "/segments", robot=robot, **flags)
         headers = _conditions(if_match)
         call = self._upload("POST", path, data, delta_file.MEDIA_TYPE, parsing.written, headers)
-        # Without a condition it replaces and removes only what is the robot's own.
+        # Without a condition it changes only segments of the robot itself.
         return replace(call, repeatable=if_match != ANY)
 
     def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
@@ -273,7 +273,7 @@ class Calls:
 
     def merge_maps(
         self,
-        site: str,
+        merged_map: str,
         maps: Sequence[str],
         dry_run: bool,
         deduplicate: bool,
@@ -288,8 +288,8 @@ class Calls:
             "deduplicate": deduplicate,
             "motion": motion,
         }
-        call = self._tied("POST", _path(site, "/merge"), parsing.merge, if_match)
-        # It is JSON for all clients: there is nothing large in it.
+        call = self._tied("POST", _path(merged_map, "/merge"), parsing.merge, if_match)
+        # The body is small, so it is always JSON.
         return replace(
             call,
             headers=call.headers | {"Content-Type": MEDIA_TYPES["json"]},
@@ -308,9 +308,9 @@ class Calls:
         return self._tied("DELETE", _path(name), parsing.gone, if_match)
 
     def _tied(
-        self, method: str, path: str, read: Callable[[Answer], T], if_match: str | None
+        self, method: str, path: str, read: Callable[[HttpResponse], T], if_match: str | None
     ) -> Call[T]:
-        """A write that may be sent again only if it is tied to a version."""
+        """Build a write that is repeatable only if it depends on a version."""
         repeatable = if_match not in (None, ANY)
         return Call(method, path, read, _conditions(if_match), repeatable=repeatable)
 
@@ -320,12 +320,12 @@ class Calls:
         path: str,
         data: bytes,
         media_type: str,
-        read: Callable[[Answer], T],
+        read: Callable[[HttpResponse], T],
         headers: dict[str, str],
     ) -> Call[T]:
         headers = headers | {"Content-Type": media_type}
         if self.compress and len(data) > COMPRESSED_BYTES:
-            # No time in its header: equal maps are equal uploads.
+            # mtime=0: equal maps are equal uploads.
             packed = gzip.compress(data, mtime=0)
             if len(packed) < len(data):
                 data = packed
@@ -333,43 +333,43 @@ class Calls:
         return Call(method, path, read, headers, data)
 
     def _codes(self, description: Description, rows: list[int]) -> dict[str, Any]:
-        """The part of a body that holds codes."""
+        """Return the part of a body that holds codes."""
         codes = codes_of(description.codes[rows], self.encoding)
         return {"model_id": description.model_id, "codes": codes}
 
-    def _post(self, path: str, body: dict[str, Any], read: Callable[[Answer], T]) -> Call[T]:
+    def _post(self, path: str, body: dict[str, Any], read: Callable[[HttpResponse], T]) -> Call[T]:
         media_type = MEDIA_TYPES[self.encoding]
         headers = {"Content-Type": media_type, "Accept": media_type}
         return Call("POST", path, read, headers, dumps(body, self.encoding))
 
 
-def _asked(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
-    """The part of a body that says where to look."""
+def _search(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
+    """Return the part of a body that selects the maps."""
     return {"k": k} if maps is None else {"k": k, "maps": list(maps)}
 
 
 def _usable(description: Description) -> list[int]:
-    """Rows that have a descriptor."""
+    """Return the rows that have a descriptor."""
     return [row for row in range(len(description.codes)) if row not in description.errors]
 
 
 def _path(name: str, way: str = "", **query: object) -> str:
-    """Of a map, and what of it; values that are None are left out of the query."""
+    """Return the path of a map or of a part of it; query values that are None are left out."""
     path = f"/maps/{_quoted(name)}{way}"
     given = {key: value for key, value in query.items() if value is not None}
     return f"{path}?{urlencode(given)}" if given else path
 
 
 def _quoted(name: str) -> str:
-    """One part of a path."""
-    # Quoted whole, so that a name with a slash is refused by the service, not taken for a path.
-    # Dots too: `..` would be resolved on the way.
+    """Quote one part of a path."""
+    # Slashes are quoted too, so that the service refuses such a name instead of reading a path.
+    # Dots are quoted, because a proxy would resolve `..`.
     return quote(name, safe="").replace(".", "%2E")
 
 
 def _conditions(if_match: str | None) -> dict[str, str]:
-    """Headers that tie a write to a version, by its ETag, or to `*`."""
+    """Return the headers that bind a write to a version by its ETag, or to `*`."""
     if if_match is None:
         return {}
-    # An ETag is given as results tell it, without quotes.
+    # Results hold ETags without quotes.
     return {"If-Match": if_match if if_match == ANY else f'"{if_match}"'}

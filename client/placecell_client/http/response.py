@@ -1,4 +1,4 @@
-"""An answer of HTTP, received whole."""
+"""A completely received HTTP response."""
 
 from dataclasses import dataclass, field
 
@@ -6,15 +6,15 @@ import httpx
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
-    """What came back of one attempt.
+class HttpResponse:
+    """A completely received HTTP response.
 
     Attributes:
-        status: of HTTP.
-        headers: of the answer.
-        content: the body, with its content encoding taken off.
-        request_id: of the call.
-        key: that the request carried, so that no error repeats it.
+        status: HTTP status.
+        headers: Headers of the response.
+        content: Body without its content encoding.
+        request_id: Id of the call.
+        key: API key of the request; error texts must not show it.
     """
 
     status: int
@@ -24,22 +24,22 @@ class Answer:
     key: str | None = field(default=None, repr=False)
 
     @classmethod
-    def of(cls, response: httpx.Response, content: bytes) -> "Answer":
-        """From a response whose body was read apart."""
+    def of(cls, response: httpx.Response, content: bytes) -> "HttpResponse":
+        """Build from a response and its body."""
         sent = response.request.headers
         key = sent.get("Authorization", "").removeprefix("Bearer ") or None
         return cls(response.status_code, response.headers, content, sent.get("X-Request-Id"), key)
 
     @property
     def ok(self) -> bool:
-        """Whether it says success."""
+        """Whether the status is a success (2xx)."""
         return 200 <= self.status <= 299
 
     @property
     def media_type(self) -> str:
-        """Without its parameters, in lower case; empty if it is not told."""
+        """Media type in lower case without parameters; empty if the header is missing."""
         return str(self.headers.get("Content-Type", "")).partition(";")[0].strip().lower()
 
     def without_key(self, text: str) -> str:
-        """The text, should the key stand in it, without: some error pages show the request."""
+        """Replace the API key in a text: some error pages show the request."""
         return text.replace(self.key, "[key]") if self.key else text

@@ -1,4 +1,4 @@
-"""How often, and after which waits, a call is repeated."""
+"""Retry policy: when a call is repeated, and the waits between attempts."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,17 @@ from placecell_client.http.errors import ServiceError
 
 TOO_MANY_REQUESTS = 429
 RETRIED = frozenset({TOO_MANY_REQUESTS, 502, 503, 504})
-"""Statuses that pass by themselves: too many requests, a restart, a proxy that finds nobody."""
+"""Temporary statuses: too many requests, a restart, a proxy without a service."""
 
 UNSENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
-"""Transport errors after which nothing has come to the service."""
+"""Transport errors after which the service has received nothing."""
 
 
 def may_be_done(error: httpx.TransportError | ServiceError) -> bool:
-    """Whether what an attempt asked for may have been done, for all that its error says.
+    """Return whether the service may have carried out the failed request.
 
-    Of what a restart, a deadline or a proxy ends nobody knows; a proxy's 503 is not told from the
-    service's.
+    After a restart, a deadline or a proxy's error this is unknown. A 503 of a proxy looks like one
+    of the service.
     """
     if isinstance(error, ServiceError):
         return error.status != TOO_MANY_REQUESTS
@@ -27,18 +27,18 @@ def may_be_done(error: httpx.TransportError | ServiceError) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Retries:
-    """Exponential back-off with full jitter: robots that failed together do not return together.
+    """Retry policy: exponential back-off with full jitter, so that robots do not retry together.
 
-    The wait after attempt i is drawn evenly from 0 to `first_wait * 2 ** (i - 1)`, at most to
-    `longest_wait`. Where the service says `Retry-After`, that comes on top, however long.
+    The wait after attempt i is uniform between 0 and `first_wait * 2 ** (i - 1)`, at most
+    `longest_wait`. A `Retry-After` of the service is added, however long it is.
 
     Attributes:
-        attempts: at most, the first included; 1 repeats nothing.
-        first_wait: seconds.
-        longest_wait: seconds.
-        longest_attempt: seconds after which an attempt is given up and made again; unless said,
-            each has all that is left of the call's timeout. For links that go silent. Not of
-            `align_maps` and `merge_maps`, which are silent for minutes.
+        attempts: Largest number of attempts, including the first; 1 disables retries.
+        first_wait: Upper bound of the first wait, seconds.
+        longest_wait: Upper bound of every wait, seconds.
+        longest_attempt: Time limit of one attempt, seconds, for links that go silent. None: an
+            attempt may take all of the time that is left. `align_maps` and `merge_maps` ignore it,
+            because the service computes for minutes.
     """
 
     attempts: int = 5
@@ -48,22 +48,25 @@ class Retries:
 
     def __post_init__(self) -> None:
         if self.attempts < 1:
-            raise ValueError(f"attempts: {self.attempts}, not 1 or more")
+            raise ValueError(f"Invalid attempts {self.attempts!r}: expected 1 or more.")
         if not all(0 <= wait < float("inf") for wait in (self.first_wait, self.longest_wait)):
-            raise ValueError("first_wait, longest_wait: not 0 or more seconds")
+            raise ValueError("Invalid first_wait or longest_wait: expected 0 or more seconds.")
         if self.longest_attempt is not None and not self.longest_attempt > 0:
-            raise ValueError("longest_attempt: not more than 0 seconds")
+            raise ValueError(
+                f"Invalid longest_attempt {self.longest_attempt!r}: expected more than 0 seconds."
+            )
 
     def wait(self, made: int, chance: float, retry_after: float | None = None) -> float:
-        """Seconds to wait.
+        """Return the seconds to wait before the next attempt.
 
         Args:
-            made: attempts so far, 1 or more.
-            chance: evenly drawn from 0 to 1.
-            retry_after: what the service asked for, seconds.
+            made: Number of attempts so far, 1 or more.
+            chance: Uniform random number from 0 to 1.
+            retry_after: Wait that the service asked for, seconds.
         """
         longest = min(self.longest_wait, self.first_wait * 2.0 ** min(made - 1, 60))
         return chance * longest + (retry_after or 0.0)
 
 
 USUAL = Retries()
+"""Default retry policy."""

@@ -1,4 +1,4 @@
-"""What both clients share: all but the sending."""
+"""Base of both clients: everything except sending."""
 
 import re
 from collections.abc import Callable
@@ -15,8 +15,8 @@ from placecell_client.http.retry import Retries
 T = TypeVar("T")
 
 
-class Caller:
-    """Knows how to call one service; its subclasses say what the arguments are."""
+class BaseClient:
+    """Base of both clients: address, encoding and retry policy of one service."""
 
     def __init__(
         self,
@@ -29,7 +29,9 @@ class Caller:
         clock: Callable[[], float],
     ) -> None:
         if encoding not in MEDIA_TYPES:
-            raise ValueError(f"encoding {encoding!r} is none of {', '.join(MEDIA_TYPES)}")
+            raise ValueError(
+                f"Invalid encoding {encoding!r}: expected one of {', '.join(MEDIA_TYPES)}."
+            )
         self._base_url = checked_url(base_url)
         self._calls = Calls(encoding, compress)
         self._policy = Policy(timeout, retries, jitter, clock)
@@ -39,7 +41,7 @@ class Caller:
         return f"{type(self).__name__}({self._base_url!r})"
 
     def _explain(self, error: Exception) -> None:
-        """Add what to do to the last error of a call."""
+        """Add a hint to the last connection error of a call."""
         if isinstance(error, httpx.TransportError):
             error.args = (explained(error, self._base_url),)
 
@@ -48,20 +50,22 @@ class Caller:
 
 
 def http_options(base_url: httpx.URL, key: str | None) -> dict[str, Any]:
-    """Arguments of httpx's clients; the key is kept in their headers alone, whose repr hides it.
+    """Return the arguments of httpx's clients; only their headers hold the key, hidden in repr.
 
     Raises:
-        ValueError: the key cannot stand in a header. It is not told: it may be right but for a
-            line's end.
+        ValueError: The key has characters that a header cannot hold. The message does not show the
+            key, which may be right except for a line break.
     """
     options: dict[str, Any] = {"base_url": base_url}
     if is_loopback(base_url.host):
         host = f"[{base_url.host}]" if ":" in base_url.host else base_url.host
-        # No proxy can reach this machine's loopback.
+        # A proxy cannot reach the loopback interface of this machine.
         options["mounts"] = {f"all://{host}": None}
     if key is None:
         return options
-    # No quotes and backslashes: escaped, they would hide the key in an error page from us.
+    # Quotes and backslashes are refused: escaped in an error page, the key could not be found.
     if not re.fullmatch(r"[!#-\[\]-~]+", key):
-        raise ValueError('key: not one or more visible ASCII characters other than " and \\')
+        raise ValueError(
+            'Invalid key: expected one or more visible ASCII characters other than " and \\.'
+        )
     return options | {"headers": {"Authorization": f"Bearer {key}"}}

@@ -1,4 +1,4 @@
-"""The canonical form of a compact map, so that equal maps become equal files."""
+"""Canonical form of a compact map: equal maps become equal files."""
 
 from dataclasses import replace
 from typing import Any
@@ -12,11 +12,14 @@ Rows = NDArray[np.bool_] | NDArray[np.integer] | slice
 
 
 def canonical(compact_map: CompactMap) -> CompactMap:
-    """Rows sorted by id, tables sorted, merged, only of what is used; centroids rounded.
+    """Return a map in canonical form.
+
+    Rows are sorted by id. Tables are sorted, without duplicates and unused entries. Centroids are
+    rounded to centimeters.
 
     Args:
-        compact_map: a valid one (`CompactMap.check`). Columns that are in order already are shared
-            with the result.
+        compact_map: A valid map (`CompactMap.check`). The result shares columns that are sorted
+            already.
     """
     ordered = compact_map
     if not is_ascending(ordered.ids):
@@ -37,21 +40,21 @@ def canonical(compact_map: CompactMap) -> CompactMap:
 
 
 def take(compact_map: CompactMap, rows: Rows) -> CompactMap:
-    """Some of a map's segments, in the order of `rows`; the tables stay as they are.
+    """Select segments of a map, in the order of `rows`; the tables are unchanged.
 
     Args:
-        compact_map: the map.
-        rows: a mask (n,), indices (m,), or a slice.
+        compact_map: The map.
+        rows: Mask (n,), indices (m,), or slice.
     """
     columns = (*SEGMENT_COLUMNS, *compact_map.optional)
     return replace(compact_map, **{name: getattr(compact_map, name)[rows] for name in columns})
 
 
 def snap(centroids: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rounded to whole centimetres from the coordinate frame's own origin, metres.
+    """Round centroids to whole centimeters from the frame's origin; meters.
 
-    From the frame's origin, not from the map's corner: a map that loses or gains segments is not
-    rounded a second time.
+    The reference is the frame's origin, not the map's corner. So adding or removing segments never
+    rounds a map a second time.
     """
     snapped = centimeters(centroids)
     snapped /= 100
@@ -60,13 +63,16 @@ def snap(centroids: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def centimeters(meters: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Whole centimetres, halves to even."""
+    """Round meters to whole centimeters, halves to even."""
     whole = meters * 100
     return np.rint(whole, out=whole)
 
 
 def frame_rows(compact_map: CompactMap) -> NDArray[np.float64]:
-    """The frame table, float64 (f, 8): time, position, orientation; equal frames are equal rows."""
+    """Return the frame table, float64 (f, 8): time, position, orientation.
+
+    Equal frames are equal rows.
+    """
     table = np.column_stack(
         [
             compact_map.frame_times,
@@ -81,7 +87,7 @@ def frame_rows(compact_map: CompactMap) -> NDArray[np.float64]:
 def distinct_rows(
     table: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """A table's different rows in ascending order, and for each given row its place there."""
+    """Return the distinct rows of a table in ascending order, and the index of each given row."""
     order = np.lexsort(table.T[::-1])
     ordered = table[order]
     is_new = np.ones(len(table), dtype=bool)
@@ -92,7 +98,7 @@ def distinct_rows(
 
 
 def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """The frames that segments name, as `distinct_rows`, and each frame's place among them."""
+    """Return the used frames like `distinct_rows`, and the new index of each frame."""
     used = _used(compact_map.frame_index, len(compact_map.frame_times))
     table, places = distinct_rows(frame_rows(compact_map)[used])
     ranks = np.zeros(len(used), dtype=np.uint32)
@@ -101,7 +107,7 @@ def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArra
 
 
 def _sorted_sources(compact_map: CompactMap) -> dict[str, Any]:
-    """The columns that tell of sources, where the map has them."""
+    """Return the provenance columns in canonical form, if the map has them."""
     if compact_map.source is None:
         return {}
     merged = compact_map.source > 0
@@ -114,7 +120,7 @@ def _sorted_sources(compact_map: CompactMap) -> dict[str, Any]:
 def _sorted_names(
     names: tuple[str, ...], indices: NDArray[np.uint16]
 ) -> tuple[tuple[str, ...], NDArray[np.uint16]]:
-    """The names that indices name, ascending, and each name's place among them."""
+    """Return the used names in ascending order, and the new index of each name."""
     used = np.flatnonzero(_used(indices, len(names)))
     order = sorted(used.tolist(), key=lambda index: names[index])
     ranks = np.zeros(len(names), dtype=np.uint16)
@@ -129,7 +135,7 @@ def _used(indices: NDArray[np.integer], size: int) -> NDArray[np.bool_]:
 
 
 def _one_sign(orientations: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Of q and -q, the same rotation, the one whose last component that is not zero is positive."""
+    """Choose between q and -q (the same rotation): make the last non-zero component positive."""
     last = np.zeros(len(orientations), dtype=np.float32)
     for component in orientations.T:
         last = np.where(component != 0, component, last)

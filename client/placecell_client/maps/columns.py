@@ -1,4 +1,4 @@
-"""A compact map as the columns and header of a file, and back."""
+"""Conversion between a compact map and the columns and header of a file."""
 
 from typing import Any
 
@@ -16,15 +16,16 @@ REQUIRED = frozenset(
     }
 )  # fmt: skip
 SCALE_CM = 1
+"""Unit of the centroids in a file, centimeters."""
 REACH_CM = 32_767
-"""From a sensor to its segment, along each axis: what an int16 holds of either sign."""
+"""Largest offset from a sensor to its segment along an axis, cm: the range of int16."""
 
 
 def columns_of(ordered: CompactMap) -> Columns:
-    """The columns of a canonical map.
+    """Return the columns of a canonical map.
 
     Raises:
-        MapFileError: a segment is too far from its sensor.
+        MapFileError: A segment is too far from its sensor.
     """
     columns: Columns = {
         "frame_positions": ordered.frame_positions.astype("<f8", copy=False),
@@ -45,7 +46,7 @@ def columns_of(ordered: CompactMap) -> Columns:
 
 
 def header_of(ordered: CompactMap) -> dict[str, Any]:
-    """The header's part that tells of a canonical map."""
+    """Return the header fields of a canonical map."""
     span = ordered.time_span
     sources = {"sources": list(ordered.sources)} if ordered.source is not None else {}
     return sources | {
@@ -60,15 +61,15 @@ def header_of(ordered: CompactMap) -> dict[str, Any]:
 
 
 def map_of(header: dict[str, Any], columns: Columns) -> CompactMap:
-    """The map of a header and columns.
+    """Build a map from a header and columns; the map is not yet checked.
 
     Raises:
-        MapFileError: they are not a map's; the map that is returned is not yet checked.
+        MapFileError: A field or column is missing or has a wrong type.
     """
     try:
         if header["scale_cm"] != SCALE_CM or isinstance(header["scale_cm"], bool):
             raise MapFileError(
-                f"header: scale_cm is {header['scale_cm']!r:.40}; this program reads {SCALE_CM}"
+                f"header: scale_cm is {header['scale_cm']!r:.40}, expected {SCALE_CM}"
             )
         return CompactMap(
             model_id=_text(header, "model_id"),
@@ -95,42 +96,44 @@ def map_of(header: dict[str, Any], columns: Columns) -> CompactMap:
     except MapFileError:
         raise
     except (KeyError, TypeError, ValueError, OverflowError) as error:
-        raise MapFileError(f"header: a value is missing or of a wrong type ({error})") from error
+        raise MapFileError(f"header: a value is missing or has a wrong type ({error})") from error
 
 
 def _from_sensors(ordered: CompactMap) -> NDArray[np.int16]:
-    """Centroids as whole centimetres from their frame's sensor."""
+    """Return the centroids as whole centimeters from their frame's sensor."""
     sensors = centimeters(ordered.frame_positions)
     steps = np.empty(ordered.centroids.shape, dtype="<i2")
-    for axis in range(3):  # one at a time: a third of the memory
+    for axis in range(3):  # one axis at a time needs a third of the memory
         offsets = centimeters(ordered.centroids[:, axis]) - sensors[ordered.frame_index, axis]
         far = np.flatnonzero(np.abs(offsets) > REACH_CM)
         if len(far):
             raise MapFileError(
                 f"centroids: segment {ordered.ids[far[0]]} is {abs(offsets[far[0]]) / 100:.2f} m "
-                f"from its frame's sensor along axis {axis}; at most {REACH_CM / 100} m"
+                f"from its frame's sensor along axis {axis}; the limit is {REACH_CM / 100} m"
             )
         steps[:, axis] = offsets
     return steps
 
 
 def _in_frame(columns: Columns) -> NDArray[np.float64]:
-    """Centroids in the coordinate frame, metres."""
+    """Return the centroids in the coordinate frame, meters."""
     steps, positions, index = (
         columns[name] for name in ("centroids", "frame_positions", "frame_index")
     )
-    # Before any arithmetic: what does not fit would be broadcast.
+    # Check shapes before any arithmetic, which would broadcast.
     for name, shape in {
         "centroids": (len(index), 3),
         "frame_positions": (len(positions), 3),
     }.items():
         if columns[name].shape != shape:
-            raise MapFileError(f"{name}: {columns[name].shape}, not {shape}")
+            raise MapFileError(f"{name}: shape {columns[name].shape}, expected {shape}")
     if index.ndim != 1:
-        raise MapFileError(f"frame_index: {index.shape}, not one number a segment")
+        raise MapFileError(f"frame_index: shape {index.shape}, expected one number per segment")
     if len(index) and int(index.max()) >= len(positions):
-        raise MapFileError(f"frame_index: index {int(index.max())} in a table of {len(positions)}")
-    with np.errstate(all="ignore"):  # what is not finite is refused by the map's check
+        raise MapFileError(
+            f"frame_index: index {int(index.max())}, but the table has {len(positions)} entries"
+        )
+    with np.errstate(all="ignore"):  # the map's check refuses values that are not finite
         centroids = centimeters(positions)[index]
         centroids += steps
         centroids /= 100
@@ -139,5 +142,5 @@ def _in_frame(columns: Columns) -> NDArray[np.float64]:
 
 def _text(header: dict[str, Any], key: str) -> str:
     if not isinstance(header[key], str):
-        raise MapFileError(f"header: {key} is not a text")
+        raise MapFileError(f"header: {key} is not a string")
     return str(header[key])

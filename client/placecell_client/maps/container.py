@@ -1,4 +1,4 @@
-"""The carrier of map and delta files: columns in safetensors, with a header and a checksum."""
+"""Container of map and delta files: columns in safetensors, with a header and a checksum."""
 
 import hashlib
 import json
@@ -14,12 +14,12 @@ from placecell_client.maps.compact_map import MapFileError
 
 METADATA_KEY = "placecell"
 HEADER_LIMIT = 1 << 20
-"""Bytes; 1 kB is common. Parsed JSON takes twenty times its length."""
+"""Largest header, bytes; 1 kB is common. Parsed JSON takes twenty times its size in memory."""
 
 Columns = dict[str, NDArray[Any]]
 
 DTYPES = {
-    # In the order of the tensors in a file: wide elements first, so that all are aligned.
+    # Order of the tensors in a file: wide elements first, so that all are aligned.
     "frame_positions": ("F64",),
     "frame_times": ("F64",),
     "frame_orientations": ("F32",),
@@ -46,14 +46,14 @@ _NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class FileFormat:
-    """What a reader expects of a file.
+    """File format that a reader expects.
 
     Attributes:
-        name: that its header states.
-        noun: what messages call it.
-        version: that its header states.
-        required: columns that it has.
-        optional: columns that it may have.
+        name: Format name in the header.
+        noun: Name of the file in error messages.
+        version: Version in the header.
+        required: Required columns.
+        optional: Optional columns.
     """
 
     name: str
@@ -65,20 +65,20 @@ class FileFormat:
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What a file carries: its header without the checksum, and its columns, little-endian."""
+    """Content of a file: its header without the checksum, and its columns, little-endian."""
 
     header: dict[str, Any]
     columns: Columns
 
 
 def write(content: Content) -> bytes:
-    """The safetensors file.
+    """Encode a file in the safetensors format.
 
-    Written here, though read with the library, because its bytes must never change: the library's
-    writer is free to order and pad anew in a later release.
+    The library reads files, but does not write them here: a later release might order or pad
+    differently, and the bytes must never change.
 
     Raises:
-        MapFileError: the header is too long.
+        MapFileError: The header is too long.
     """
     parts: list[bytes | memoryview] = [_head(content, _checksum(content))]
     parts += [np.ascontiguousarray(column).data for column in _in_order(content.columns).values()]
@@ -86,10 +86,13 @@ def write(content: Content) -> bytes:
 
 
 def read(data: bytes, expected: FileFormat) -> tuple[Content, str]:
-    """What a file carries, and its checksum, which has been compared.
+    """Decode a file and verify its checksum.
+
+    Returns:
+        The content and the checksum.
 
     Raises:
-        MapFileError: the file is cut short, altered, or of another format or version.
+        MapFileError: The file is cut, altered, or has another format or version.
     """
     outer = _outer_header(data, expected)
     header = _header(outer, expected)
@@ -98,12 +101,12 @@ def read(data: bytes, expected: FileFormat) -> tuple[Content, str]:
     content = Content(header, columns)
     checksum = _checksum(content)
     if stated != checksum:
-        raise MapFileError("its SHA-256 is not the one in its header: the file was altered")
+        raise MapFileError("the SHA-256 differs from the one in the header: the file was altered")
     return content, checksum
 
 
 def is_file_of(data: bytes, content: Content, checksum: str) -> bool:
-    """Whether `write` makes exactly these bytes of a content that has this checksum."""
+    """Return whether `write` encodes a content with this checksum to exactly these bytes."""
     head = _head(content, checksum)
     if not data.startswith(head):
         return False
@@ -134,7 +137,7 @@ def _checksum(content: Content) -> str:
 
 
 def _head(content: Content, checksum: str) -> bytes:
-    """All that stands before the columns."""
+    """Return the bytes before the columns."""
     inner = _canonical_json(content.header | {"sha256": checksum})
     outer: dict[str, Any] = {"__metadata__": {METADATA_KEY: inner}}
     end = 0
@@ -149,37 +152,43 @@ def _head(content: Content, checksum: str) -> bytes:
     text += b" " * (-len(text) % 8)
     if len(text) > HEADER_LIMIT:
         raise MapFileError(
-            f"header: {len(text)} bytes, of maps' and robots' names; at most {HEADER_LIMIT}"
+            f"header: {len(text)} bytes with the names of maps and robots; "
+            f"the limit is {HEADER_LIMIT}"
         )
     return len(text).to_bytes(8, "little") + text
 
 
 def _outer_header(data: bytes, expected: FileFormat) -> dict[str, Any]:
-    """The safetensors header, after a check of its stated length."""
+    """Return the safetensors header after a check of its length."""
     if len(data) < 8:
-        raise MapFileError(f"{len(data)} bytes are too few for a {expected.noun}")
+        raise MapFileError(f"the file has {len(data)} bytes, too few for a {expected.noun}")
     length = int.from_bytes(data[:8], "little")
     if length > len(data) - 8:
         raise MapFileError(
-            f"not a {expected.noun}, or cut short: its header is longer than the file"
+            f"the file is not a {expected.noun}, or it is cut: its header is longer than the file"
         )
     if length > HEADER_LIMIT:
-        raise MapFileError(f"header: {length} bytes; at most {HEADER_LIMIT}")
+        raise MapFileError(f"header: {length} bytes; the limit is {HEADER_LIMIT}")
     return _json(data[8 : 8 + length], expected)
 
 
 def _header(outer: dict[str, Any], expected: FileFormat) -> dict[str, Any]:
-    """Placecell's own header, of a format and version that this program reads."""
+    """Return Placecell's own header after a check of format and version."""
     metadata = outer.get("__metadata__")
     if not isinstance(metadata, dict) or not isinstance(metadata.get(METADATA_KEY), str):
-        raise MapFileError(f"not a {expected.noun}: no header under {METADATA_KEY!r}")
+        raise MapFileError(
+            f"the file is not a {expected.noun}: it has no header under {METADATA_KEY!r}"
+        )
     header = _json(metadata[METADATA_KEY].encode(errors="replace"), expected)
     if header.get("format") != expected.name:
-        raise MapFileError(f"not a {expected.noun}: its header's format is not {expected.name!r}")
+        raise MapFileError(
+            f"the file is not a {expected.noun}: the format in its header is not {expected.name!r}"
+        )
     version = header.get("version")
     if version != expected.version or isinstance(version, bool):
         raise MapFileError(
-            f"{expected.noun} of version {version!r:.40}; this program reads {expected.version}"
+            f"the {expected.noun} has version {version!r:.40}; "
+            f"this program reads version {expected.version}"
         )
     return header
 
@@ -187,16 +196,16 @@ def _header(outer: dict[str, Any], expected: FileFormat) -> dict[str, Any]:
 def _columns(data: bytes, outer: dict[str, Any], expected: FileFormat) -> Columns:
     names = set(outer) - {"__metadata__"}
     if not expected.required <= names <= expected.required | expected.optional:
-        raise MapFileError(f"not a {expected.noun}: it does not hold exactly such a file's columns")
+        raise MapFileError(f"the file is not a {expected.noun}: it has missing or unknown columns")
     for name in names:
         entry = outer[name]
         if not isinstance(entry, dict) or entry.get("dtype") not in DTYPES[name]:
-            raise MapFileError(f"{name}: not of type {' or '.join(DTYPES[name])}")
+            raise MapFileError(f"{name}: expected type {' or '.join(DTYPES[name])}")
     try:
-        # Checks shapes and offsets against the length of `data` before it allocates.
+        # The library checks shapes and offsets against the length of `data` before it allocates.
         loaded = safetensors.numpy.load(data)
     except (safetensors.SafetensorError, ValueError) as error:
-        raise MapFileError(f"cut short, too long, or not safetensors: {error}") from error
+        raise MapFileError(f"the file is cut, too long, or not safetensors: {error}") from error
     return {
         name: column.astype(column.dtype.newbyteorder("<"), copy=False)
         for name, column in loaded.items()
@@ -207,7 +216,9 @@ def _json(text: bytes, expected: FileFormat) -> dict[str, Any]:
     try:
         value = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise MapFileError(f"not a {expected.noun}: its header is not JSON ({error})") from error
+        raise MapFileError(
+            f"the file is not a {expected.noun}: its header is not JSON ({error})"
+        ) from error
     if not isinstance(value, dict):
-        raise MapFileError(f"not a {expected.noun}: its header is not a JSON object")
+        raise MapFileError(f"the file is not a {expected.noun}: its header is not a JSON object")
     return value

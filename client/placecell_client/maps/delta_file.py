@@ -1,7 +1,6 @@
-"""The delta file, version 1: what turns one version of a map into another.
+"""Delta file, version 1: the changes from one version of a map to another.
 
-`docs/reference/delta-file.md` describes it. It is as strict as the map file: equal deltas are equal
-files.
+`docs/reference/delta-file.md` describes the format. Like map files, equal deltas are equal files.
 """
 
 from dataclasses import dataclass
@@ -19,22 +18,24 @@ FORMAT = "placecell-delta"
 VERSION = 1
 MEDIA_TYPE = "application/vnd.placecell.delta"
 SEQUENCE_LIMIT = 1 << 53
-"""Beyond which JSON readers in other languages round."""
+"""Upper bound of sequence numbers: JSON readers in other languages round larger integers."""
 
 _DELTA_FILE = FileFormat(FORMAT, "delta file", VERSION, REQUIRED | {"removed"}, frozenset(OPTIONAL))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Delta:
-    """Segments that a version of a map has gained, and those that it has lost.
+    """Changes to a map: added, replaced and removed segments.
 
     Attributes:
-        changed: segments that are new or have other values; may have no rows. Its optional columns
-            are columns of the result, even then.
-        removed: uint32 (m,), ids ascending; none of `changed`. Those of no segment do no harm.
-        since: the map's sequence before; 0 with an `until` above it: from nothing, `changed` is the
-            whole map.
-        until: the map's sequence after; 0 with `since` 0: applies to whatever is there.
+        changed: Added and replaced segments, maybe none. The result has its optional columns, even
+            if it has no rows.
+        removed: Ids of removed segments, ascending, uint32 (m,); none of them in `changed`. Unknown
+            ids are ignored.
+        since: Sequence number before the changes. 0 with a positive `until`: `changed` is the whole
+            map.
+        until: Sequence number after the changes. 0 with `since` 0: the delta applies to any
+            version.
     """
 
     changed: CompactMap
@@ -44,49 +45,51 @@ class Delta:
 
     @property
     def is_whole(self) -> bool:
-        """Whether it is from nothing: `changed` is the map."""
+        """Whether `changed` is the whole map."""
         return self.since == 0 < self.until
 
     def __len__(self) -> int:
-        """Segments that it changes or removes."""
+        """Return the number of changed and removed segments."""
         return len(self.changed) + len(self.removed)
 
     def check(self) -> None:
-        """See that the parts are valid and fit each other.
+        """Check that all parts are valid and fit together.
 
         Raises:
-            MapFileError: they are not, or do not; the message says which.
+            MapFileError: A part is invalid; the message names it.
         """
         self.changed.check()
         removed = self.removed
         if removed.dtype != np.uint32 or removed.ndim != 1:
-            raise MapFileError(f"removed: {removed.dtype} {removed.shape}, not uint32 (m,)")
+            raise MapFileError(f"removed: {removed.dtype} {removed.shape}, expected uint32 (m,)")
         if not is_ascending(removed):
-            raise MapFileError("removed: ids do not ascend")
+            raise MapFileError("removed: the ids are not ascending")
         if len(np.intersect1d(removed, self.changed.ids, assume_unique=True)):
-            raise MapFileError("removed: an id is changed as well")
-        if type(self.since) is not int or type(self.until) is not int:  # a bool is none either
-            raise MapFileError("since, until: not integers")
+            raise MapFileError("removed: an id is also in changed")
+        if type(self.since) is not int or type(self.until) is not int:  # this refuses bool, too
+            raise MapFileError("since, until: expected integers")
         if not 0 <= self.since <= self.until < SEQUENCE_LIMIT:
-            raise MapFileError("since, until: not 0 <= since <= until < 2^53")
+            raise MapFileError("since, until: expected 0 <= since <= until < 2^53")
         if self.is_whole and len(removed):
-            raise MapFileError("removed: nothing can be removed from nothing (since 0)")
+            raise MapFileError(
+                "removed: expected no ids in a delta that holds the whole map (since 0)"
+            )
 
 
 def encode_delta(delta: Delta) -> bytes:
-    """The delta as a file; rows, tables and centroids as `map_file.encode`.
+    """Encode a delta as a file; rows, tables and centroids are stored as by `encode`.
 
     Raises:
-        MapFileError: the delta is not valid, or a segment too far from its sensor.
+        MapFileError: The delta is invalid, or a segment is too far from its sensor.
     """
     return container.write(_content(delta))
 
 
 def decode_delta(data: bytes) -> Delta:
-    """The delta of a file.
+    """Decode a delta file.
 
     Raises:
-        MapFileError: the bytes are not exactly what `encode_delta` makes of a delta.
+        MapFileError: The bytes are not exactly those that `encode_delta` makes of a delta.
     """
     content, checksum = container.read(data, _DELTA_FILE)
     header, columns = content.header, content.columns

@@ -1,4 +1,4 @@
-"""Maps and deltas, taken apart and put together; every result is in canonical form."""
+"""Operations on maps and deltas: apply, compare, compose, join; results are canonical."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -32,17 +32,17 @@ __all__ = [
 
 
 def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
-    """The map after a delta: removed segments are gone, changed ones added or replaced by id.
+    """Apply a delta to a map: remove segments, and add or replace segments by id.
 
-    Optional columns are those of either. What lacks one gets: 0 for `extents`, `points` and
-    `source`, its own id for `views` and `source_ids`, its frame's time for `seen`.
+    The result has the optional columns of both. Missing values become 0 for `extents`, `points` and
+    `source`, the segment's own id for `views` and `source_ids`, and the capture time for `seen`.
 
     Args:
-        compact_map: a valid map.
-        delta: any; one from nothing (`Delta.is_whole`) is the result, whatever the map was.
+        compact_map: A valid map.
+        delta: The changes. If it holds the whole map (`Delta.is_whole`), it replaces the map.
 
     Raises:
-        MapFileError: the delta is not valid, or of another model, preprocessing or frame.
+        MapFileError: The delta is invalid, or has another model, preprocessing or frame.
     """
     delta.check()
     if delta.is_whole:
@@ -52,21 +52,21 @@ def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
 
 
 def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np.uint32]]:
-    """What turns one map into another, where no optional column is lost.
+    """Compare two maps.
 
-    Segments are compared by value in canonical form, frames, robots and sources too, whatever their
-    index.
+    Segments are compared by value in canonical form, with their captures, robots and sources.
+    Indices into tables do not matter.
 
     Returns:
-        The segments of `new` that are new or differ, and the ids that are gone, ascending.
+        The added and changed segments of `new`, and the ids of removed segments, ascending.
 
     Raises:
-        MapFileError: they are of different models, preprocessing or frames, or `new` lacks an
-            optional column of `old`; `delta_between` has an answer for these.
+        MapFileError: The maps differ in model, preprocessing or frame, or `new` lacks an optional
+            column of `old`. `delta_between` handles these cases.
     """
     lost = set(old.optional) - set(new.optional)
     if lost:
-        raise MapFileError(f"{min(lost)}: a difference cannot take a column away")
+        raise MapFileError(f"{min(lost)}: a difference cannot remove a column")
     check_same_kind([old, new])
     before, after = canonical(with_optional(old, new.optional)), canonical(new)
     places = np.searchsorted(before.ids, after.ids)
@@ -80,18 +80,18 @@ def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np
 
 
 def delta_between(old: CompactMap, new: CompactMap, since: int, until: int) -> Delta:
-    """The delta from one version of a map to another: `apply(old, delta)` is `new`.
+    """Return the delta from one version of a map to another: `apply(old, delta)` equals `new`.
 
-    Where a difference cannot say it (another model, an optional column lost), it is from nothing.
+    If a difference is impossible (another model, a removed column), the delta holds the whole map.
 
     Args:
-        old: a valid map.
-        new: a valid map.
-        since: the sequence of `old`; 0: the delta is from nothing.
-        until: the sequence of `new`; 0 with `since` 0: the delta applies to whatever is there.
+        old: A valid map.
+        new: A valid map.
+        since: Sequence number of `old`; 0: the delta holds the whole map.
+        until: Sequence number of `new`; 0 with `since` 0: the delta applies to any version.
 
     Raises:
-        MapFileError: a difference cannot say it, and `until` is 0.
+        MapFileError: A difference is impossible, and `until` is 0.
     """
     is_told = is_same_kind(old, new) and set(old.optional) <= set(new.optional)
     if until and not (since and is_told):
@@ -100,17 +100,19 @@ def delta_between(old: CompactMap, new: CompactMap, since: int, until: int) -> D
 
 
 def compose(first: Delta, second: Delta) -> Delta:
-    """One delta that does what two do, one after the other.
+    """Combine two consecutive deltas into one.
 
     Raises:
-        MapFileError: the second does not begin where the first ends, or is of another model.
+        MapFileError: The second delta does not follow the first, or has another model.
     """
     first.check()
     second.check()
     if second.is_whole:
         return replace(second, changed=canonical(second.changed))
     if first.until != second.since:
-        raise MapFileError(f"a delta since {second.since} does not follow one until {first.until}")
+        raise MapFileError(
+            f"a delta since version {second.since} does not follow one until version {first.until}"
+        )
     gone = _rows_of(first.changed, np.concatenate([second.removed, second.changed.ids]))
     changed = union([first.changed, second.changed], gone)
     removed = np.zeros(0, np.uint32)
@@ -121,18 +123,18 @@ def compose(first: Delta, second: Delta) -> Delta:
 
 
 def join(parts: Sequence[Delta]) -> Delta:
-    """A delta that came in parts.
+    """Join the parts of a delta.
 
     Args:
-        parts: one or more, in any order, each of other segments.
+        parts: One or more parts in any order, without common segments.
 
     Raises:
-        MapFileError: they are not parts of one delta.
+        MapFileError: The parts do not belong to one delta.
     """
     for part in parts:
         part.check()
     if len({(part.since, part.until) for part in parts}) != 1:
-        raise MapFileError("since, until: not parts of one delta")
+        raise MapFileError("since, until: the parts belong to different deltas")
     changed = union([part.changed for part in parts])
     removed = np.sort(np.concatenate([part.removed for part in parts]))
     joined = Delta(changed, removed, parts[0].since, parts[0].until)
@@ -143,7 +145,7 @@ def join(parts: Sequence[Delta]) -> Delta:
 def empty(
     model_id: str, preprocessing: str, frame: str, code_bytes: int, optional: Iterable[str] = ()
 ) -> CompactMap:
-    """A map without segments, with these optional columns."""
+    """Return a map without segments, with the given optional columns."""
     columns: dict[str, Any] = {
         name: np.zeros((0, *OPTIONAL[name][1]), OPTIONAL[name][0]) for name in optional
     }
@@ -165,8 +167,8 @@ def empty(
 
 
 def _rows_of(compact_map: CompactMap, ids: NDArray[np.uint32]) -> NDArray[np.intp]:
-    """The rows of those ids that the map has."""
-    order = np.argsort(compact_map.ids, kind="stable")  # as good as free where they are sorted
+    """Return the rows of the ids that the map has."""
+    order = np.argsort(compact_map.ids, kind="stable")  # almost free if the ids are sorted
     places = np.searchsorted(compact_map.ids, ids, sorter=order)
     found = _at(compact_map.ids[order], places, ids)
     return order[places[found]]
@@ -175,7 +177,7 @@ def _rows_of(compact_map: CompactMap, ids: NDArray[np.uint32]) -> NDArray[np.int
 def _at(
     ids: NDArray[np.uint32], places: NDArray[np.intp], wanted: NDArray[np.uint32]
 ) -> NDArray[np.bool_]:
-    """Whether the id at each place is the one that is wanted."""
+    """Return whether the id at each place is the wanted one."""
     inside = places < len(ids)
     inside[inside] = ids[places[inside]] == wanted[inside]
     return inside
@@ -184,7 +186,7 @@ def _at(
 def _differs(
     before: CompactMap, places: NDArray[np.intp], after: CompactMap, rows: NDArray[np.intp]
 ) -> NDArray[np.bool_]:
-    """For each pair of segments of one id, whether a value differs."""
+    """Return for each pair of segments with the same id whether a value differs."""
     differs = np.zeros(len(rows), dtype=bool)
     for name in ("codes", "centroids", *(name for name in after.optional if name != "source")):
         one, other = getattr(before, name)[places], getattr(after, name)[rows]

@@ -1,7 +1,7 @@
-"""The compact map file, version 1: a `CompactMap` in at most 48 bytes a segment.
+"""Map file, version 1: a `CompactMap` in at most 48 bytes per segment.
 
-`docs/reference/map-file.md` describes it byte by byte, for readers in any language. `decode` takes
-exactly what `encode` gives: equal maps are equal files, and any other bytes are refused.
+`docs/reference/map-file.md` describes each byte, for readers in any language. Equal maps are equal
+files; `decode` refuses all bytes that `encode` does not make.
 """
 
 from placecell_client.maps import container
@@ -20,27 +20,27 @@ _MAP_FILE = FileFormat(FORMAT, "map file", VERSION, REQUIRED, frozenset(OPTIONAL
 
 
 def encode(compact_map: CompactMap) -> bytes:
-    """The map as a file.
+    """Encode a map as a file.
 
-    Rows are sorted by id; robots and frames are sorted, merged where equal, and left out where no
-    segment names them; centroids are rounded to whole centimetres.
+    Rows are sorted by id. Robots and captures are sorted; duplicates and unused ones are left out.
+    Centroids are rounded to whole centimeters.
 
     Raises:
-        MapFileError: the map is not valid, or a segment is more than 327.67 m along an axis from
-            the sensor that took it.
+        MapFileError: The map is invalid, or a segment is more than 327.67 m away from its sensor
+            along an axis.
     """
     return container.write(_content(compact_map))
 
 
 def decode(data: bytes) -> CompactMap:
-    """The map of a file.
+    """Decode a map file.
 
     Raises:
-        MapFileError: the bytes are not exactly what `encode` makes of a map.
+        MapFileError: The bytes are not exactly those that `encode` makes of a map.
     """
     content, checksum = container.read(data, _MAP_FILE)
     compact_map = map_of(content.header, content.columns)
-    # One rule for all that is left: order, widths, rounding, spelling of the header.
+    # This one check covers order, widths, rounding and the spelling of the header.
     if not container.is_file_of(data, _content(compact_map), checksum):
         raise MapFileError("the file is not in canonical form: encode the map again")
     return compact_map

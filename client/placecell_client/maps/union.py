@@ -1,4 +1,4 @@
-"""Segments of several maps in one."""
+"""Union of the segments of several maps."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -18,18 +18,20 @@ from placecell_client.maps.compact_map import (
 )
 
 ROBOT_LIMIT = 1 << 16
-"""Names that a robot index tells apart."""
+"""Largest number of robots: the range of a robot index."""
 
 
 def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -> CompactMap:
-    """The segments of all maps, in canonical form; optional columns are those of any.
+    """Unite the segments of all maps in canonical form, with the optional columns of all.
 
     Args:
-        maps: one or more valid ones, of one kind; no id in two of them, but for the rows left out.
-        without: rows of the first to leave out.
+        maps: One or more valid maps of the same kind. Apart from the rows left out, no id may occur
+            in two maps.
+        without: Rows of the first map to leave out.
 
     Raises:
-        MapFileError: the maps do not go together, or have too many robots or sources.
+        MapFileError: The maps differ in model, preprocessing, frame or code size, or have too many
+            robots or sources.
     """
     check_same_kind(maps)
     tables = {
@@ -57,10 +59,10 @@ def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -
 
 
 def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
-    """The map with these optional columns.
+    """Add missing optional columns to a map.
 
-    Those that it lacks: 0 for `extents`, `points` and `source`, a segment's own id for `views` and
-    `source_ids`, its frame's time for `seen`, rounded down, within what an uint32 holds.
+    Their values are 0 for `extents`, `points` and `source`, the segment's own id for `views` and
+    `source_ids`, and for `seen` the capture time, rounded down and clipped to uint32.
     """
     missing = [name for name in names if getattr(compact_map, name) is None]
     defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}
@@ -68,27 +70,27 @@ def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
 
 
 def places_of(names: tuple[str, ...], table: tuple[str, ...]) -> NDArray[np.int64]:
-    """Where each name stands in a table; -1: it does not."""
+    """Return the index of each name in a table; -1 if it is missing."""
     places = {name: place for place, name in enumerate(table)}
     return np.array([places.get(name, -1) for name in names], np.int64)
 
 
 def is_same_kind(one: CompactMap, other: CompactMap) -> bool:
-    """Whether segments of both may stand in one map: same model, preprocessing, frame, width."""
+    """Return whether two maps have the same model, preprocessing, frame and code size."""
     return _kind(one) == _kind(other)
 
 
 def check_same_kind(maps: Sequence[CompactMap]) -> None:
-    """See that segments of all may stand in one map.
+    """Check that all maps have the same model, preprocessing, frame and code size.
 
     Raises:
-        MapFileError: they may not; the message says why.
+        MapFileError: Two maps differ; the message names the property.
     """
     first = _kind(maps[0])
     for other in maps[1:]:
         for what, value in _kind(other).items():
             if value != first[what]:
-                raise MapFileError(f"{what}: {first[what]!r} and {value!r} do not go together")
+                raise MapFileError(f"{what}: the maps have {first[what]!r} and {value!r}")
 
 
 def _kind(compact_map: CompactMap) -> dict[str, str | int]:
@@ -111,20 +113,20 @@ def _default(compact_map: CompactMap, name: str) -> NDArray[Any]:
 
 
 def _names(maps: Sequence[CompactMap], table: str, limit: int) -> tuple[str, ...]:
-    """The names of all maps' tables, each once."""
+    """Return the names in the tables of all maps, without duplicates."""
     names = tuple({name: None for each in maps for name in getattr(each, table)})
     if len(names) > limit:
-        raise MapFileError(f"{table}: {len(names)} names; at most {limit}")
+        raise MapFileError(f"{table}: {len(names)} names; the limit is {limit}")
     return names
 
 
 def _renumbered(
     compact_map: CompactMap, tables: dict[str, tuple[str, ...]], frames_before: int
 ) -> CompactMap:
-    """With indices into the joined tables."""
+    """Replace the indices of a map by indices into the joined tables."""
     source = compact_map.source
     if source is not None:
-        # Before the names stands the map itself, which has none.
+        # Index 0 is the map itself, which has no name.
         places = places_of(("", *compact_map.sources), ("", *tables["sources"]))
         source = places.astype(np.uint16)[source]
     robots = places_of(compact_map.robots, tables["robots"]).astype(np.uint16)

@@ -1,1 +1,1 @@
-"""Typed results of the service."""
+"""Results of the service as typed classes."""

@@ -1,4 +1,4 @@
-"""How maps lie to each other, and what became of them in a merge, as the service answers it."""
+"""Results of aligning two maps."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -11,11 +11,11 @@ from placecell_client.results.localization import Pose, pose_of
 
 @dataclass(frozen=True, slots=True)
 class Overlap:
-    """How much of two maps is of the same places.
+    """Overlap of two maps as shares of their sensor positions, 0 to 1.
 
     Attributes:
-        of_map: of where the first map's robots were, the share where the other's were too.
-        of_other: the same, of the other map.
+        of_map: Share of the first map's sensor positions that lie in the other map's area.
+        of_other: Share of the other map's sensor positions that lie in the first map's area.
     """
 
     of_map: float
@@ -24,12 +24,12 @@ class Overlap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapPairs:
-    """The segments of two maps that agree, n pairs of them.
+    """Inliers of an alignment: n pairs of segments that agree with the pose.
 
     Attributes:
-        ids: int64 (n,), of the first map's segments.
-        other_ids: int64 (n,), of the other map's.
-        residuals: float64 (n,), metres between the two, by the pose.
+        ids: Ids of the first map's segments, int64 (n,).
+        other_ids: Ids of the other map's segments, int64 (n,).
+        residuals: Distances within the pairs after alignment, meters, float64 (n,).
     """
 
     ids: NDArray[np.int64]
@@ -42,13 +42,13 @@ class MapPairs:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapHypothesis:
-    """A way to lay a map on another.
+    """Pose hypothesis of an alignment.
 
     Attributes:
-        pose: of the other map's frame in the first's.
-        score: what the pairs that agree are worth together.
-        agreement: of what should agree where both robots were, how much does, 0 to 1.
-        pairs: how many agree.
+        pose: Pose of the other map's frame in the first map's frame.
+        score: Total weight of the pairs that agree with the pose.
+        agreement: Share of the segments in the overlap that agree, 0 to 1.
+        pairs: Number of pairs that agree.
     """
 
     pose: Pose
@@ -59,27 +59,29 @@ class MapHypothesis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapAlignment:
-    """How another map lies to a map.
+    """Alignment of two maps: the pose of the other map's frame in the first map's frame.
 
     Attributes:
-        map: its name.
-        etag: of its version that was looked at.
-        frame: name of its frame.
-        other: the other map's name.
-        other_etag: of its version.
-        other_frame: name of its frame.
-        pose: of the other's frame in the first's; None if the maps are not aligned.
-        reason: why they are not: `too-few-segments`, `inconsistent` or `ambiguous`; None if they
-            are.
-        detail: the reason in words.
-        covariance: of the pose, float64 (4, 4): x, y, z, yaw, or (6, 6): x, y, z and about x, y, z;
-            along the first map's axes, of the other frame's origin. None without a pose.
-        overlap: what both have seen; None without a pose.
-        score: of the best way to lay them, aligned or not.
-        agreement: of that.
-        pairs: how many agree with the pose; 0 without one.
-        inliers: these, if they were asked for.
-        others: the second-best way; without a pose, the best one first.
+        map: Name of the first map.
+        etag: ETag of its version.
+        frame: Name of its coordinate frame.
+        other: Name of the other map.
+        other_etag: ETag of its version.
+        other_frame: Name of its coordinate frame.
+        pose: Pose of the other map's frame in the first map's frame; None if the maps are not
+            aligned.
+        reason: Reason why the maps are not aligned: `too-few-segments`, `inconsistent` or
+            `ambiguous`; None if they are.
+        detail: The reason in words.
+        covariance: Covariance of the pose, float64: (4, 4) for x, y, z, yaw, or (6, 6) for x, y, z
+            and the rotations about x, y, z. Units: meters and radians, along the first map's axes,
+            at the origin of the other frame. None without a pose.
+        overlap: Overlap of the maps; None without a pose.
+        score: Score of the best hypothesis, whether accepted or not.
+        agreement: Agreement of the best hypothesis, 0 to 1.
+        pairs: Number of pairs that agree with the pose; 0 without one.
+        inliers: The pairs that agree, if the request asked for them.
+        others: Other hypotheses: the second-best one; without a pose, the best one first.
     """
 
     map: str
@@ -101,7 +103,7 @@ class MapAlignment:
 
 
 def alignment_of(content: dict[str, Any]) -> MapAlignment:
-    """From the service's answer."""
+    """Build an alignment from the service's response."""
     inliers, covariance = content["inliers"], content["covariance"]
     return MapAlignment(
         map=content["map"],
@@ -131,10 +133,10 @@ def alignment_of(content: dict[str, Any]) -> MapAlignment:
 
 
 def pose_if_any(item: dict[str, Any] | None) -> Pose | None:
-    """From a pose of the service's answer, or none."""
+    """Build a pose from the service's response, or return None."""
     return None if item is None else pose_of(item)
 
 
 def overlap_of(item: dict[str, Any] | None) -> Overlap | None:
-    """From an overlap of the service's answer, or none."""
+    """Build an overlap from the service's response, or return None."""
     return None if item is None else Overlap(item["of_map"], item["of_other"])

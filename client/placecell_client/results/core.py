@@ -1,4 +1,4 @@
-"""What the service answers, typed."""
+"""Results of describing, matching, and of reading and writing maps."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -10,7 +10,13 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True)
 class ItemError:
-    """Why one segment of a request could not be used, while others were."""
+    """Reason why one segment of a request could not be used.
+
+    Attributes:
+        type: Kind of problem as a URI.
+        title: Kind of problem in a few words.
+        detail: Fault of this segment.
+    """
 
     type: str
     title: str
@@ -22,12 +28,13 @@ class Description:
     """Descriptors of n segments.
 
     Attributes:
-        model_id: of the model that made them.
-        codes: int8 (n, code bytes), the stored form, for maps and for `Client.match`.
-        descriptors: float32 (n, d), before they were rounded to codes.
-        centroids: float64 (n, 3), metres, in the frame of the request.
-        errors: by index, the segments that could not be used; their codes are 0, the rest is NaN.
-        dropped_points: points that were not finite and were left out.
+        model_id: Id of the model that computed the descriptors.
+        codes: Stored form of the descriptors, int8 (n, code bytes), for maps and `Client.match`.
+        descriptors: Descriptors before quantization to codes, float32 (n, d).
+        centroids: Centroids in the frame of the request, meters, float64 (n, 3).
+        errors: Segments that could not be used, by index. Their codes are 0, their descriptors and
+            centroids NaN.
+        dropped_points: Number of points that were not finite and were left out.
     """
 
     model_id: str
@@ -40,18 +47,18 @@ class Description:
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A segment of a map that looks like the query.
+    """Candidate: a map segment with a descriptor near the query's.
 
     Attributes:
-        map: the map's name.
-        id: of the segment in that map.
-        robot: that put it there.
-        distance: between the stored descriptors.
-        probability: that both are the same place; None if the model has no classifier.
-        centroid: metres, in the map's frame.
-        frame: name of the map's frame.
-        model_id: of the model that made the map: the probability is by its pair classifier, and
-            the distance between its descriptors. Empty from a service older than this field.
+        map: Name of the map.
+        id: Id of the segment in that map.
+        robot: Robot that stored the segment.
+        distance: Euclidean distance between the stored descriptors.
+        probability: Match probability, 0 to 1; None if the model has no pair classifier.
+        centroid: Centroid in the map's frame, meters.
+        frame: Name of the map's frame.
+        model_id: Id of the model of the map, which gives distance and probability. Empty if the
+            service is older than this field.
     """
 
     map: str
@@ -66,7 +73,12 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Skipped:
-    """A map that was not searched: another model made it."""
+    """A map that was not searched, because its descriptors are from another model.
+
+    Attributes:
+        map: Name of the map.
+        model_id: Id of the map's model.
+    """
 
     map: str
     model_id: str
@@ -74,15 +86,15 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Matches:
-    """Candidates of each query, nearest first; those of several models most probable first.
+    """Candidates of each query, nearest first; with several models, most probable first.
 
     Attributes:
-        model_id: of the model whose descriptors were compared.
-        queries: candidates of query i; empty if it could not be used.
-        errors: by index, the queries that could not be used.
-        searched: names of the maps.
-        skipped: maps of other models.
-        dropped_points: points that were not finite and were left out.
+        model_id: Id of the model whose descriptors were compared.
+        queries: Candidates of query i; empty if the query could not be used.
+        errors: Queries that could not be used, by index.
+        searched: Names of the searched maps.
+        skipped: Maps of other models, which were not searched.
+        dropped_points: Number of points that were not finite and were left out.
     """
 
     model_id: str
@@ -95,20 +107,21 @@ class Matches:
 
 @dataclass(frozen=True, slots=True)
 class MapSummary:
-    """A stored map.
+    """Summary of a stored map.
 
     Attributes:
-        name: of the map.
-        segments: in it.
-        sequence: of its newest version; each write makes one.
-        etag: names that version, of all versions of all maps.
-        bytes: that it takes in the service's store, with its old versions.
-        model_id: of the model that made it; searched only if the service has that model loaded.
-        frame: name of its coordinate frame.
-        robots: how many segments each has in it.
-        time_span: earliest and latest time, seconds; None for a map without segments.
-        optional: names of the optional columns that it has.
-        sources: how many segments were merged from each map, as far as the service tells.
+        name: Name of the map.
+        segments: Number of segments.
+        sequence: Sequence number of the newest version; each write makes one.
+        etag: ETag of the newest version, unique among all versions of all maps.
+        bytes: Size in the service's store with all versions, bytes.
+        model_id: Id of the map's model; the map is searched only if this model is loaded.
+        frame: Name of the map's coordinate frame.
+        robots: Number of segments of each robot.
+        time_span: Earliest and latest frame time, seconds; None for a map without segments.
+        optional: Names of the map's optional columns.
+        sources: Number of segments that were merged from each map. Empty if the service is older
+            than this field.
     """
 
     name: str
@@ -125,7 +138,7 @@ class MapSummary:
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapSummary":
-        """From the service's JSON; fields that a later service adds are left out."""
+        """Build from the service's JSON; unknown fields are ignored."""
         span = content["time_span"]
         return cls(
             name=content["name"],
@@ -138,17 +151,17 @@ class MapSummary:
             robots=dict(content["robots"]),
             time_span=(span[0], span[1]) if span is not None else None,
             optional=tuple(content["optional"]),
-            sources=dict(content.get("sources", {})),  # an earlier service tells none
+            sources=dict(content.get("sources", {})),  # older services have no such field
         )
 
 
 @dataclass(frozen=True, slots=True)
 class Maps:
-    """The stored maps; a sequence of those that can be read.
+    """Stored maps; iterating yields the readable maps.
 
     Attributes:
-        maps: by name.
-        damaged: names of those that are stored but cannot be read, and so are not served.
+        maps: Readable maps, sorted by name.
+        damaged: Names of maps that cannot be read and are not served.
     """
 
     maps: tuple[MapSummary, ...]
@@ -163,16 +176,16 @@ class Maps:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """What a write to a map did.
+    """Result of a write to a map.
 
     Attributes:
-        map: its name.
-        sequence: of its version after the write.
-        etag: of that version.
-        segments: in the map after it.
-        changed: segments added or replaced; 0 also if the write had been done before.
-        removed: segments removed.
-        repeats: segments that were not stored, for they were seen before.
+        map: Name of the map.
+        sequence: Sequence number of the version after the write.
+        etag: ETag of that version.
+        segments: Number of segments after the write.
+        changed: Number of segments added or replaced; 0 if the write changed nothing.
+        removed: Number of segments removed.
+        repeats: Number of segments that were not stored, because the map has them already.
     """
 
     map: str
@@ -185,22 +198,22 @@ class Written:
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "Written":
-        """From the service's JSON."""
+        """Build from the service's JSON."""
         return cls(**{name: content[name] for name in cls.__slots__})
 
 
 @dataclass(frozen=True, slots=True)
 class MapVersion:
-    """A version of a map.
+    """Version of a map.
 
     Attributes:
-        sequence: its number; they grow by one.
-        etag: names it, of all versions of all maps.
-        time: when it was written, Unix seconds of the service's clock.
-        author: name of the key that wrote it.
-        operation: such as `put`, `edit`, `restore`, `age`.
-        changed: segments added or replaced.
-        removed: segments removed.
+        sequence: Sequence number; it grows by one per version.
+        etag: ETag of the version, unique among all versions of all maps.
+        time: Time of the write on the service's clock, Unix seconds.
+        author: Principal whose API key wrote the version.
+        operation: Kind of write, such as `put`, `edit`, `restore` or `age` (`Client.prune_map`).
+        changed: Number of segments added or replaced.
+        removed: Number of segments removed.
     """
 
     sequence: int
@@ -213,18 +226,18 @@ class MapVersion:
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapVersion":
-        """From the service's JSON."""
+        """Build from the service's JSON."""
         return cls(**{name: content[name] for name in cls.__slots__})
 
 
 @dataclass(frozen=True, slots=True)
 class PartialUpload:
-    """A map file that is uploaded in parts and is not complete.
+    """Unfinished upload of a map file in parts.
 
     Attributes:
-        digest: SHA-256 of the whole file, 64 hex digits.
-        bytes: that the service has received.
-        time: of the last part, Unix seconds of the service's clock.
+        digest: SHA-256 of the whole file, 64 hexadecimal digits.
+        bytes: Number of bytes that the service has received.
+        time: Time of the last part on the service's clock, Unix seconds.
     """
 
     digest: str
@@ -237,13 +250,13 @@ class Info:
     """Versions, limits and costs of a service.
 
     Attributes:
-        version: of the service.
-        model_id: of the model that it has loaded.
-        model: the model's manifest in short.
-        limits: by name; see the service's `/info`.
-        costs: seconds of one core for each unit of work, by name; see the service's `/info`. Empty
-            of a service that does not tell them.
-        map_file_version: of the map files that it reads.
+        version: Version of the service.
+        model_id: Id of the default model.
+        model: Short form of the default model's manifest.
+        limits: Limits by name; `GET /info` documents them.
+        costs: Processor time per unit of work by name, seconds; `GET /info` documents them. Empty
+            if the service is older than this field.
+        map_file_version: Version of the map files that the service reads.
     """
 
     version: str

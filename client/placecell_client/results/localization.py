@@ -1,4 +1,4 @@
-"""Where a robot is, as the service answers it."""
+"""Results of localizing a robot."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -9,17 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 from placecell_client.results.core import ItemError, Skipped
 
 Motion = Literal["yaw", "se3"]
-"""What of the pose is sought: yaw and translation, for gravity is known; or all six degrees."""
+"""Degrees of freedom of a pose: `yaw` (x, y, z, yaw; gravity is known) or `se3` (all six)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """A rigid transform to a map's frame: from the robot's, that of the request, or another map's.
+    """Rigid transform into a map's frame, from the robot's frame or from another map's frame.
 
     Attributes:
-        translation: float64 (3,), metres.
-        rotation: float64 (4,), unit quaternion x, y, z, w.
-        yaw: radians, -pi to pi: where the x axis points, seen from above.
+        translation: Translation x, y, z in meters, float64 (3,).
+        rotation: Unit quaternion x, y, z, w, float64 (4,).
+        yaw: Heading of the x axis about z, radians, -pi to pi.
     """
 
     translation: NDArray[np.float64]
@@ -28,7 +28,7 @@ class Pose:
 
     @property
     def matrix(self) -> NDArray[np.float64]:
-        """As a transform (4, 4)."""
+        """Homogeneous matrix of the transform, float64 (4, 4)."""
         x, y, z, w = self.rotation
         matrix = np.eye(4)
         matrix[:3, :3] = [
@@ -40,19 +40,19 @@ class Pose:
         return matrix
 
     def apply(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Points (n, 3) of the robot's or the other map's frame, or one (3,), in the map's."""
+        """Transform points (n, 3), or one point (3,), into the map's frame; meters."""
         matrix = self.matrix
         return np.asarray(np.asarray(points) @ matrix[:3, :3].T + matrix[:3, 3])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Inliers:
-    """The segments that agree with a pose, n of them.
+    """Inliers of a pose: n pairs of query and map segments that agree with it.
 
     Attributes:
-        queries: int64 (n,), indices of the segments that were asked about.
-        ids: int64 (n,), of the map's segments that they were found as.
-        residuals: float64 (n,), metres between the two, by the pose.
+        queries: Indices of the query segments, int64 (n,).
+        ids: Ids of the map's segments, int64 (n,).
+        residuals: Distances within the pairs after the transform, meters, float64 (n,).
     """
 
     queries: NDArray[np.int64]
@@ -65,12 +65,12 @@ class Inliers:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hypothesis:
-    """Another place where the robot may be.
+    """Pose hypothesis.
 
     Attributes:
-        pose: it would have there.
-        score: evidence for it, to be compared with others of the same request.
-        inliers: how many segments agree with it.
+        pose: Pose of the robot's frame in the map's frame.
+        score: Evidence for the pose, comparable within one request.
+        inliers: Number of segments that agree with the pose.
     """
 
     pose: Pose
@@ -80,11 +80,11 @@ class Hypothesis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rival(Hypothesis):
-    """Best pose in another map that is not known to show the same place.
+    """Best pose hypothesis in another map that is not known to show the same place.
 
     Attributes:
-        map: the other map's name.
-        frame: name of its frame, to which the pose leads.
+        map: Name of the other map.
+        frame: Name of its frame; the pose is in this frame.
     """
 
     map: str
@@ -96,19 +96,21 @@ class Localization:
     """Localization in one map: the robot's pose, or the reason why there is none.
 
     Attributes:
-        map: the map's name.
-        frame: name of its frame.
-        pose: of the robot's frame in the map's; None if the robot is not localised.
-        reason: why it is not: `too-few-segments`, `inconsistent` or `ambiguous`; None if it is.
-        detail: the reason in words.
-        probability: that the best hypothesis is right, within 1 m and 3 degrees.
-        covariance: of the pose, float64 (4, 4): x, y, z, yaw, or (6, 6): x, y, z and about x, y, z;
-            along the map's axes, of the frame's origin. None without a pose.
-        score: evidence for the pose.
-        inliers: the segments that agree with it.
-        others: the second-best hypothesis; without a pose, the best one first.
-        rival: the best place in another map of the request; None: there is none, or the service is
-            older than this field.
+        map: Name of the map.
+        frame: Name of its coordinate frame.
+        pose: Pose of the robot's frame in the map's frame; None if the robot is not localized.
+        reason: Reason why the robot is not localized: `too-few-segments`, `inconsistent` or
+            `ambiguous`; None if it is.
+        detail: The reason in words.
+        probability: Probability that the best hypothesis is right within 1 m and 3 degrees, 0 to 1.
+        covariance: Covariance of the pose, float64: (4, 4) for x, y, z, yaw, or (6, 6) for x, y, z
+            and the rotations about x, y, z. Units: meters and radians, along the map's axes, at the
+            origin of the robot's frame. None without a pose.
+        score: Evidence for the pose, comparable within one request.
+        inliers: Segments that agree with the pose.
+        others: Other hypotheses: the second-best one; without a pose, the best one first.
+        rival: Best hypothesis in another map of the request; None if there is none, or if the
+            service is older than this field.
     """
 
     map: str
@@ -124,13 +126,19 @@ class Localization:
     rival: Rival | None = None
 
     def covariance_at(self, point: ArrayLike) -> NDArray[np.float64]:
-        """Covariance (3, 3) of where the pose takes a point (3,), such as the sensor: metres^2.
+        """Return the covariance of a transformed point, such as the sensor position.
+
+        Args:
+            point: Point in the robot's frame, meters, (3,).
+
+        Returns:
+            Covariance along the map's axes, square meters, float64 (3, 3).
 
         Raises:
-            ValueError: the robot is not localised.
+            ValueError: The robot is not localized.
         """
         if self.pose is None or self.covariance is None:
-            raise ValueError(f"not localised in {self.map!r}: {self.reason}")
+            raise ValueError(f"The robot is not localized in map {self.map!r}: {self.reason}.")
         x, y, z = self.pose.matrix[:3, :3] @ np.asarray(point, dtype=np.float64)
         turned = np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
         moved = np.column_stack([np.eye(3), turned[:, 3 - (len(self.covariance) - 3) :]])
@@ -142,11 +150,11 @@ class Localizations:
     """Localizations in several maps, the most probable first.
 
     Attributes:
-        model_id: of the model whose codes were compared.
-        maps: one each.
-        errors: by index, the segments that could not be used.
-        skipped: maps of other models.
-        dropped_points: points that were not finite and were left out.
+        model_id: Id of the model whose codes were compared.
+        maps: Localization in each map, most probable first.
+        errors: Segments that could not be used, by index.
+        skipped: Maps of other models, which were not searched.
+        dropped_points: Number of points that were not finite and were left out.
     """
 
     model_id: str
@@ -157,19 +165,19 @@ class Localizations:
 
     @property
     def best(self) -> Localization | None:
-        """Return the most probable localization, equal ones by score; None if no map has a pose.
+        """Most probable localization, equal ones by score; None if no map has a pose.
 
-        None also if two maps fit about equally well: see `rival`.
+        No map has a pose if two maps fit about equally well: see `rival`.
         """
         told = (each for each in self.maps if each.pose is not None)
         return max(told, key=lambda each: (each.probability, each.score), default=None)
 
     @property
     def rival(self) -> Rival | None:
-        """Return the map and pose that fit as well as the first map's; None if that is no reason.
+        """Hypothesis in another map that makes the first map ambiguous; None if there is none.
 
-        The first map's own pose is the first of its `others`. Name one of the two in `maps`, or
-        merge them if they show one place.
+        The first map's own hypothesis is `maps[0].others[0]`. To get a pose, pass only one of the
+        two maps to `localize`, or merge the maps if they show the same place.
         """
         first = self.maps[0] if self.maps else None
         is_ambiguous = first is not None and first.reason == "ambiguous"
@@ -177,7 +185,7 @@ class Localizations:
 
 
 def localization_of(item: dict[str, Any]) -> Localization:
-    """From one of the service's answer."""
+    """Build a localization from the service's response."""
     inliers = item["inliers"]
     covariance = item["covariance"]
     return Localization(
@@ -198,7 +206,7 @@ def localization_of(item: dict[str, Any]) -> Localization:
             Hypothesis(pose_of(each["pose"]), each["score"], each["inliers"])
             for each in item["others"]
         ),
-        rival=_rival_of(item.get("rival")),  # an earlier service tells none
+        rival=_rival_of(item.get("rival")),  # older services have no such field
     )
 
 
@@ -210,7 +218,7 @@ def _rival_of(item: dict[str, Any] | None) -> Rival | None:
 
 
 def pose_of(item: dict[str, Any]) -> Pose:
-    """From a pose of the service's answer."""
+    """Build a pose from the service's response."""
     return Pose(
         np.array(item["translation"], dtype=np.float64).reshape(3),
         np.array(item["rotation"], dtype=np.float64).reshape(4),

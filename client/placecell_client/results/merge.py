@@ -1,4 +1,4 @@
-"""What a merge of maps into a site did, or would do, as the service answers it."""
+"""Results of merging maps."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,17 +9,18 @@ from placecell_client.results.localization import Pose
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergedPart:
-    """What became of a map.
+    """Outcome of a merge for one map.
 
     Attributes:
-        map: its name.
-        etag: of its version that was merged.
-        merged: False: it could not be laid on the site, and was left out.
-        pose: of its frame in the site's; None if it was left out.
-        added: segments that are new in the site.
-        known: segments that were merged before, and stay as they are.
-        repeats: segments left out, for another map's segment shows the same.
-        removed: segments merged before that the map no longer has, or has replaced.
+        map: Name of the map.
+        etag: ETag of its version.
+        merged: Whether the map was merged; False if it could not be aligned and was left out.
+        pose: Pose of its frame in the merged map's frame; None if it was left out.
+        added: Number of segments that are new in the merged map.
+        known: Number of segments that an earlier merge added and that are unchanged.
+        repeats: Number of segments left out, because they repeat a segment of another map.
+        removed: Number of segments that an earlier merge added and that the map has since removed
+            or replaced.
     """
 
     map: str
@@ -34,21 +35,21 @@ class MergedPart:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergePair:
-    """What was found of two of the maps; the site is one of them, if it held any segments.
+    """Alignment of two maps of a merge; the merged map is one of the maps if it held segments.
 
     Attributes:
-        map: name of the one.
-        other: name of the other.
-        aligned: whether they lie on each other.
-        rejected: loops rule the alignment out.
-        proven: the alignment is part of a loop that closes.
-        reason: why they are not aligned; None if they are.
-        detail: the reason in words.
-        pose: of the other's frame in the one's; None if they are not aligned.
-        overlap: what both have seen; None if they are not aligned.
-        score: of the best way to lay them, aligned or not.
-        agreement: of that.
-        pairs: how many segments agree with the pose.
+        map: Name of the first map.
+        other: Name of the other map.
+        aligned: Whether the maps are aligned.
+        rejected: Whether the alignment was rejected, because loops with it do not close.
+        proven: Whether the alignment is part of a loop that closes.
+        reason: Reason why the maps are not aligned; None if they are.
+        detail: The reason in words.
+        pose: Pose of the other map's frame in the first map's frame; None if they are not aligned.
+        overlap: Overlap of the maps; None if they are not aligned.
+        score: Score of the best hypothesis, whether accepted or not.
+        agreement: Agreement of the best hypothesis, 0 to 1.
+        pairs: Number of pairs of segments that agree with the pose.
     """
 
     map: str
@@ -67,13 +68,13 @@ class MergePair:
 
 @dataclass(frozen=True, slots=True)
 class MapLoop:
-    """A way around from map to map, back to the first.
+    """Loop of alignments: from map to map, back to the first.
 
     Attributes:
-        maps: their names.
-        metres: by which one misses where one began.
-        degrees: by which one is turned then.
-        closes: whether that is little enough.
+        maps: Names of the maps in order.
+        metres: Translation error of the loop, meters.
+        degrees: Rotation error of the loop, degrees.
+        closes: Whether both errors are within the tolerance.
     """
 
     maps: tuple[str, ...]
@@ -84,23 +85,23 @@ class MapLoop:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Merge:
-    """What a merge did, or would do.
+    """Result of a merge, or of its dry run.
 
     Attributes:
-        map: the site's name.
-        frame: name of its frame.
-        dry_run: whether it was only asked what would be done.
-        sequence: of the site's version after it; None of a dry run.
-        etag: of that version; None of a dry run.
-        previous: sequence of the site's version before, which `Client.restore_map` takes to undo
-            the merge; None: there was no site, and `Client.delete_map` undoes it. The same as
+        map: Name of the merged map.
+        frame: Name of its coordinate frame.
+        dry_run: Whether nothing was written.
+        sequence: Sequence number of the merged map's new version; None for a dry run.
+        etag: ETag of that version; None for a dry run.
+        previous: Sequence number of the version before. Pass it to `Client.restore_map` to undo the
+            merge. None if the merge created the map; `Client.delete_map` undoes it then. Equal to
             `sequence` if nothing was changed.
-        segments: in the site after it.
-        changed: segments added or replaced.
-        removed: segments removed.
-        parts: what became of each map, in the order of the request.
-        alignments: of each two of site and maps.
-        loops: of these alignments.
+        segments: Number of segments in the merged map.
+        changed: Number of segments added or replaced.
+        removed: Number of segments removed.
+        parts: Outcome for each map, in the order of the request.
+        alignments: Alignment of each pair of maps.
+        loops: Loops of these alignments.
     """
 
     map: str
@@ -118,7 +119,7 @@ class Merge:
 
 
 def merge_of(content: dict[str, Any]) -> Merge:
-    """From the service's answer."""
+    """Build a merge from the service's response."""
     return Merge(
         map=content["map"],
         frame=content["frame"],

@@ -42,7 +42,7 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
         *(*drives, "--peer", "scan-context", "--no-refine", "--queries", 4, "--seed", 5),
         *("--python", HERE, "--output", tmp_path, "--json", tmp_path / "figures.json"),
     )
-    assert "4 queries of robot_b in a map of 30 frames of robot_a" in shown
+    assert "4 queries of robot_b in a map of 30 captures of robot_a" in shown
     report = json.loads((tmp_path / "figures.json").read_text())
     assert (report["map_frames"], report["seed"], report["blocks"]) == (30, 5, False)
     assert (report["protocol"], report["local_map_radius"]) == ("v1", 40.0)
@@ -89,7 +89,7 @@ def test_a_drive_by_blocks(drives: tuple[Path, Path], tmp_path: Path) -> None:
         *(drives[0], "--peer", "scan-context", "--no-refine", "--radius", 60),
         *("--python", HERE, "--output", tmp_path),
     )
-    assert "within 60 m" in shown
+    assert "radius 60 m" in shown
     assert len(list((tmp_path / QUERIES).iterdir())) > 2
 
 

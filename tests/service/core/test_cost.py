@@ -8,7 +8,7 @@ import httpx
 import numpy as np
 import pytest
 from placecell_client.http.parsing import info
-from placecell_client.http.response import Answer
+from placecell_client.http.response import HttpResponse
 
 from placecell.core.parameters import NEIGHBORHOOD_V1
 from placecell.core.segments import Segments
@@ -158,4 +158,4 @@ def test_client_tells_the_rates(costs: dict[str, Any] | None) -> None:
         "map_file": {"version": 1},
     } | ({} if costs is None else {"costs": costs})
     headers = httpx.Headers({"content-type": "application/json"})
-    assert info(Answer(200, headers, json.dumps(content).encode())).costs == (costs or {})
+    assert info(HttpResponse(200, headers, json.dumps(content).encode())).costs == (costs or {})

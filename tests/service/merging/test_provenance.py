@@ -177,8 +177,8 @@ def test_what_is_seen_again_keeps_it(service: Any, stored: str, site: bytes) -> 
 @pytest.mark.parametrize(
     ("sources", "detail"),
     [
-        (["east"], "source: 2 in a table of 1 names"),
-        (["east", 7], "sources is not a text"),
+        (["east"], "source: 2, but there are 1 names"),
+        (["east", 7], "sources is not a string"),
         (["east", "a\n"], "printable"),
         (["west", "east"], "canonical"),
     ],

@@ -1,31 +1,38 @@
-"""How a map is stored whole: in one request, or in parts where it is larger than one may be.
+"""Transfers of several calls: upload of a map in parts, pull of a map in pages.
 
-The steps are generators of calls: they take each call's result, or its ServiceError. Nothing here
-sends.
+A transfer is a generator of calls. The client sends each call and passes its result, or its
+`ServiceError`, back into the generator.
 """
 
 import hashlib
 from collections.abc import Generator
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from placecell_client.http.errors import ServiceError
 from placecell_client.http.requests import Call, Calls
 from placecell_client.maps.map_file import CompactMap, encode
+from placecell_client.replica import MapCopy
 from placecell_client.results.core import Info, MapSummary
 
-Steps: TypeAlias = Generator[Call[Any], Any, MapSummary]
+T = TypeVar("T")
+
+Steps: TypeAlias = Generator[Call[Any], Any, T]
+"""A transfer with a result of type T."""
 
 PART_BYTES = 4 << 20
-"""Size of a part of an uploaded file, bytes; a slow link sends a part within the call's time."""
+"""Size of an uploaded part, bytes; a slow link sends a part within the call's timeout."""
 
 ASK_BYTES = 8 << 20
-"""Before a larger file is sent, the service is asked whether it takes it in one request."""
+"""File size above which the client asks for the service's limits before it sends, bytes."""
 
 ROUNDS = 2
-"""How often an upload is begun, at most: another client may complete or remove it meanwhile."""
+"""Largest number of starts of an upload; another client may complete or remove it meanwhile."""
+
+GONE = 410
+"""HTTP status: the service has dropped the version or the cursor."""
 
 TOO_LARGE = "urn:placecell:problem:body-too-large"
-BEGIN_ANEW = frozenset(
+RESTARTABLE = frozenset(
     f"urn:placecell:problem:{kind}" for kind in ("unknown-upload", "upload-damaged", "wrong-offset")
 )
 
@@ -36,15 +43,15 @@ def put_map(
     compact_map: CompactMap | bytes,
     if_match: str | None,
     create_only: bool,
-) -> Steps:
-    """Store a map, in parts if the service takes no such file in one request.
+) -> Steps[MapSummary]:
+    """Store a map, in parts if its file exceeds the service's request limit.
 
     Args:
-        calls: makes the calls.
-        name: of the map.
-        compact_map: the map, or its file.
-        if_match: ETag of the version to replace, or `*` for any.
-        create_only: replace none.
+        calls: Factory of the calls.
+        name: Name of the map.
+        compact_map: The map, or the content of its file.
+        if_match: ETag of the version to replace, or `*` for any version.
+        create_only: Refuse to replace a map.
     """
     data = encode(compact_map) if isinstance(compact_map, CompactMap) else compact_map
     info: Info | None = None
@@ -66,21 +73,43 @@ def put_map(
     return (yield from _in_parts(calls, name, data, if_match, create_only, info))
 
 
+def pull(calls: Calls, copy: MapCopy | str, limit: int) -> Steps[MapCopy]:
+    """Update a copy of a map, page by page.
+
+    Args:
+        calls: Factory of the calls.
+        copy: Copy to update, or the name of a map for a new copy.
+        limit: Largest number of segments per page.
+    """
+    if isinstance(copy, str):
+        copy = MapCopy(copy)
+    while True:
+        since, cursor = copy.request
+        try:
+            page = yield calls.changes(copy.name, since, cursor, limit)
+        except ServiceError as error:
+            if error.status != GONE or not copy.restart():
+                raise
+        else:
+            if copy.take(page):
+                return copy
+
+
 def _takes_parts(info: Info) -> bool:
-    """Whether the service is of a version that takes uploads in parts."""
+    """Return whether the service supports uploads in parts."""
     return "upload_bytes" in info.limits
 
 
 def _in_parts(
     calls: Calls, name: str, data: bytes, if_match: str | None, create_only: bool, info: Info
-) -> Steps:
-    """Send what the service has not received, and complete the upload."""
+) -> Steps[MapSummary]:
+    """Send the parts that the service has not received, and complete the upload."""
     digest = hashlib.sha256(data).hexdigest()
     size = min(PART_BYTES, int(info.limits["map_bytes"]))
     seconds = info.limits["upload_seconds"]
-    began = 0
+    starts = 0
     while True:
-        began += 1
+        starts += 1
         try:
             uploads = yield calls.uploads(name)
             at = next((each.bytes for each in uploads if each.digest == digest), 0)
@@ -90,7 +119,7 @@ def _in_parts(
                 name, digest, if_match, create_only, seconds
             )
         except ServiceError as error:
-            if error.type not in BEGIN_ANEW or began == ROUNDS:
+            if error.type not in RESTARTABLE or starts == ROUNDS:
                 raise
         else:
             return completed
