@@ -384,7 +384,7 @@ def _unpinned(images: list[str]) -> list[str]:
 
 def score_of(answer: dict[str, object]) -> float:
     """Return the probability of an answer's first localization; -1 if there is none."""
-    told = answer.get("localisations") or answer.get("localizations") or []
+    told = answer.get("localizations") or answer.get("localizations") or []
     assert isinstance(told, list)
     return round(float(told[0]["probability"]), 6) if told else -1.0
 

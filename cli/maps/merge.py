@@ -97,7 +97,7 @@ def print_merge(merged: "Merge") -> None:
     for loop in merged.loops:
         way = " - ".join((*loop.maps, loop.maps[0]))
         closes = "closes" if loop.closes else "does not close"
-        typer.echo(f"Loop {way} {closes}: error {loop.metres:.2f} m and {loop.degrees:.1f} degrees")
+        typer.echo(f"Loop {way} {closes}: error {loop.meters:.2f} m and {loop.degrees:.1f} degrees")
     if is_any_aligned(merged):
         typer.echo(summary(merged))
 

@@ -102,7 +102,7 @@ def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut
         loops=[
             LoopOut(
                 maps=[plan.maps[number].name for number in loop.maps],
-                metres=loop.meters,
+                meters=loop.meters,
                 degrees=loop.degrees,
                 closes=loop.closes,
             )

@@ -132,8 +132,8 @@ def test_merge_prints_loops_and_their_verdicts(capsys: pytest.CaptureFixture[str
         {"rejected": True, "proven": False},
         {"rejected": False, "proven": False},
     ]
-    loop = {"maps": ["site", "yard", "hall"], "metres": 8.25, "degrees": 0.5, "closes": False}
-    loops = [loop | {"metres": 0.5, "closes": True}, loop]
+    loop = {"maps": ["site", "yard", "hall"], "meters": 8.25, "degrees": 0.5, "closes": False}
+    loops = [loop | {"meters": 0.5, "closes": True}, loop]
     pairs = [LAID | each for each in verdicts]
     print_merge(merge_of(MERGED | {"alignments": pairs, "loops": loops}))
     told = capsys.readouterr().out

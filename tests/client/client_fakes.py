@@ -54,12 +54,12 @@ MATCHED = {
 }
 POSE = {"translation": [10.0, 20.0, 1.0], "rotation": [0.0, 0.0, 0.6, 0.8], "yaw": 1.287}
 PLACE = {
-    "map": "yard", "frame": "f", "localised": True, "reason": None, "detail": "",
+    "map": "yard", "frame": "f", "localized": True, "reason": None, "detail": "",
     "probability": 0.97, "pose": POSE, "covariance": [[0.01, 0, 0, 0]] * 4, "score": 7.5,
     "inliers": [{"query": 0, "id": 9, "residual": 0.25}],
     "others": [{"pose": POSE, "score": 2.5, "inliers": 3}], "rival": None, "later": "field",
 }  # fmt: skip
-LOCALIZED = {"model_id": "m", "localisations": [PLACE], "unusable": [], "skipped": []}
+LOCALIZED = {"model_id": "m", "localizations": [PLACE], "unusable": [], "skipped": []}
 
 ALIGNED = {
     "map": "yard", "etag": "e-3", "frame": "f", "other": "hall", "other_etag": "h-1",
@@ -95,7 +95,7 @@ MERGED = {
         },
     ],
     "loops": [
-        {"maps": ["site", "yard", "hall"], "metres": 0.5, "degrees": 0.25, "closes": True}
+        {"maps": ["site", "yard", "hall"], "meters": 0.5, "degrees": 0.25, "closes": True}
     ],
     "later": "field",
 }  # fmt: skip

@@ -144,7 +144,7 @@ def test_an_alignment_that_is_none_is_told(make: Make, content: Any) -> None:
         MERGED | {"parts": None},
         MERGED | {"parts": [{"map": "yard"}]},
         MERGED | {"alignments": [LAID]},
-        MERGED | {"loops": [{"maps": 3, "metres": 0, "degrees": 0, "closes": True}]},
+        MERGED | {"loops": [{"maps": 3, "meters": 0, "degrees": 0, "closes": True}]},
     ],
 )
 def test_a_merge_that_is_none_is_told(make: Make, content: Any) -> None:

@@ -132,7 +132,7 @@ def test_B10_the_result_counts_the_points_of_both_sides() -> None:
         answers: dict[str, dict[str, Any]] = {
             "/describe": {"model_id": "m", "dimension": 1, "descriptors": [good, error]},
             "/match": {"model_id": "m", "queries": [error, error], "searched": [], "skipped": []},
-            "/localize": {"model_id": "m", "localisations": [], "unusable": [], "skipped": []},
+            "/localize": {"model_id": "m", "localizations": [], "unusable": [], "skipped": []},
         }
         content = answers[request.url.path]
         assert len(asked["segments"][1]["points"]) == 0

@@ -35,7 +35,7 @@ def test_a_description_goes_with_its_centroids() -> None:
         }
         inliers = [{"query": 1, "id": 9, "residual": 0.25}]
         return httpx.Response(
-            200, json=LOCALIZED | {"localisations": [PLACE | {"inliers": inliers}]}
+            200, json=LOCALIZED | {"localizations": [PLACE | {"inliers": inliers}]}
         )
 
     with client_of(answer, encoding="json") as client:
@@ -89,7 +89,7 @@ def test_uncertainty_is_told_of_any_point(size: int) -> None:
     covariance = np.diag([0.04, 0.04, 0.01, *[0.0] * (size - 4), 0.01])
     flat = {"translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "yaw": 0.0}
     place = PLACE | {"pose": flat, "covariance": covariance.tolist()}
-    with client_of(lambda _: packed(LOCALIZED | {"localisations": [place]})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localizations": [place]})) as client:
         best = client.localize(DESCRIBED).best
     assert best is not None
     np.testing.assert_allclose(best.covariance_at([0, 0, 0]), np.diag([0.04, 0.04, 0.01]))
@@ -99,12 +99,12 @@ def test_uncertainty_is_told_of_any_point(size: int) -> None:
 
 def test_not_localized_is_no_pose() -> None:
     nowhere = PLACE | {
-        "localised": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
+        "localized": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
         "covariance": None, "inliers": [],
     }  # fmt: skip
     unusable = [{"query": 3, "error": {"type": "urn:x", "title": "t", "detail": "d"}}]
     content = LOCALIZED | {
-        "localisations": [nowhere], "unusable": unusable,
+        "localizations": [nowhere], "unusable": unusable,
         "skipped": [{"map": "old", "model_id": "n"}],
     }  # fmt: skip
     with client_of(lambda _: packed(content)) as client:
@@ -121,14 +121,14 @@ def test_not_localized_is_no_pose() -> None:
 def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> None:
     rival = {"map": "hall", "frame": "g", "pose": POSE, "score": 7.25, "inliers": 5}
     nowhere = {
-        "localised": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
+        "localized": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
         "covariance": None, "inliers": [],
     }  # fmt: skip
     places = [
         PLACE | nowhere | {"rival": rival},
         PLACE | nowhere | {"map": "hall", "rival": rival | {"map": "yard"}},
     ]
-    with client_of(lambda _: packed(LOCALIZED | {"localisations": places})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localizations": places})) as client:
         found = client.localize(DESCRIBED)
     assert found.best is None
     assert found.rival is not None
@@ -143,7 +143,7 @@ def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
     """The answer is that of a service without joint judgment."""
     old = {name: value for name, value in PLACE.items() if name != "rival"}
     places = [old | {"map": "a", "score": 73.0}, old | {"map": "z", "score": 129.0}]
-    with client_of(lambda _: packed(LOCALIZED | {"localisations": places})) as client:
+    with client_of(lambda _: packed(LOCALIZED | {"localizations": places})) as client:
         found = client.localize(DESCRIBED)
     assert found.best is not None
     assert found.best.map == "z"

@@ -112,7 +112,7 @@ def localizations(answer: HttpResponse, dropped: int = 0) -> Localizations:
     content = _content(answer)
     return Localizations(
         model_id=content["model_id"],
-        maps=tuple(localization_of(item) for item in content["localisations"]),
+        maps=tuple(localization_of(item) for item in content["localizations"]),
         errors={
             item["query"]: ItemError(
                 item["error"]["type"], item["error"]["title"], item["error"]["detail"]

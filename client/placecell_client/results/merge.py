@@ -72,13 +72,13 @@ class MapLoop:
 
     Attributes:
         maps: Names of the maps in order.
-        metres: Translation error of the loop, meters.
+        meters: Translation error of the loop, meters.
         degrees: Rotation error of the loop, degrees.
         closes: Whether both errors are within the tolerance.
     """
 
     maps: tuple[str, ...]
-    metres: float
+    meters: float
     degrees: float
     closes: bool
 
@@ -133,7 +133,7 @@ def merge_of(content: dict[str, Any]) -> Merge:
         parts=tuple(_part(item) for item in content["parts"]),
         alignments=tuple(_pair(item) for item in content["alignments"]),
         loops=tuple(
-            MapLoop(tuple(item["maps"]), item["metres"], item["degrees"], item["closes"])
+            MapLoop(tuple(item["maps"]), item["meters"], item["degrees"], item["closes"])
             for item in content["loops"]
         ),
     )

@@ -91,7 +91,7 @@ def _response(result: LocalizationResult) -> dict[str, Any]:
     """Return the same as a `LocalizeResponse`, without its checks: the values are our own."""
     return {
         "model_id": result.model_id,
-        "localisations": [_localization(each) for each in result.maps],
+        "localizations": [_localization(each) for each in result.maps],
         "unusable": [
             {"query": index, **segment_error(error)} for index, error in result.errors.items()
         ],
@@ -118,7 +118,7 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
     return {
         "map": stored.name,
         "frame": stored.frame,
-        "localised": pose is not None,
+        "localized": pose is not None,
         "reason": found.reason,
         "detail": found.detail,
         "probability": found.probability,

@@ -129,7 +129,7 @@ class LoopOut(BaseModel):
     """Loop of alignments: from map to map, back to the first one."""
 
     maps: list[str]
-    metres: float = Field(description="Translation error of the loop, meters.")
+    meters: float = Field(description="Translation error of the loop, meters.")
     degrees: float = Field(description="Rotation error of the loop, degrees.")
     closes: bool
 

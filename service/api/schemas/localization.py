@@ -94,7 +94,7 @@ class LocalizationOut(BaseModel):
 
     map: str
     frame: str = Field(description="Name of the frame of the map.")
-    localised: bool
+    localized: bool
     reason: Reason | None = Field(
         description="Reason why the robot is not localized. Null if it is."
     )
@@ -139,7 +139,7 @@ class LocalizeResponse(BaseModel):
     """Results of all searched maps: most probable first, then by score."""
 
     model_id: str
-    localisations: list[LocalizationOut]
+    localizations: list[LocalizationOut]
     unusable: list[UnusableOut]
     dropped_points: int = Field(
         default=0, description="Number of non-finite points (msgpack only) that were left out."

@@ -133,7 +133,7 @@ def test_a_new_site_holds_all_in_the_first_map_s_frame(
     (loop,) = told["loops"]
     assert loop["closes"]
     assert sorted(loop["maps"]) == sorted(maps)
-    assert loop["metres"] < 1.0
+    assert loop["meters"] < 1.0
 
     site = content(stocked)
     assert site.frame == "east's odometry"

@@ -78,7 +78,7 @@ def body(manifest: Manifest, content: CompactMap) -> dict[str, Any]:
 
 
 def assert_found(told: dict[str, Any]) -> None:
-    assert told["localised"], told
+    assert told["localized"], told
     assert told["reason"] is None
     assert told["detail"] == ""
     np.testing.assert_allclose(told["pose"]["translation"], TRUTH.translation, atol=0.05)
@@ -94,7 +94,7 @@ def test_a_robot_is_told_where_it_is(stocked: Any, manifest: Manifest, body: Any
     answer = response.json()
     assert answer["model_id"] == manifest.model_id
     assert answer["unusable"] == answer["skipped"] == []
-    (told,) = answer["localisations"]
+    (told,) = answer["localizations"]
     assert (told["map"], told["frame"]) == ("street", "town")
     assert_found(told)
     assert told["probability"] > 0.9
@@ -120,16 +120,16 @@ def test_both_encodings_say_the_same(stocked: Any, body: Any) -> None:
 
 
 def test_all_six_degrees_on_demand(stocked: Any, body: Any, content: CompactMap) -> None:
-    (told,) = stocked.post("/localize", json=body | {"motion": "se3"}).json()["localisations"]
-    assert told["localised"]
+    (told,) = stocked.post("/localize", json=body | {"motion": "se3"}).json()["localizations"]
+    assert told["localized"]
     assert np.array(told["covariance"]).shape == (6, 6)
     # A robot on its side.
     tilt = Pose(Rotation.from_euler("x", 80, degrees=True).as_matrix(), np.zeros(3))
     lying = tilt.apply(np.array(body["centroids"])).tolist()
     asked = body | {"centroids": lying}
-    assert not stocked.post("/localize", json=asked).json()["localisations"][0]["localised"]
+    assert not stocked.post("/localize", json=asked).json()["localizations"][0]["localized"]
     asked |= {"motion": "se3"}
-    (told,) = stocked.post("/localize", json=asked).json()["localisations"]
+    (told,) = stocked.post("/localize", json=asked).json()["localizations"]
     pose = told["pose"]
     turned = Rotation.from_quat(pose["rotation"]).apply(lying) + pose["translation"]
     np.testing.assert_allclose(turned, content.centroids[:40], atol=0.2)
@@ -138,8 +138,8 @@ def test_all_six_degrees_on_demand(stocked: Any, body: Any, content: CompactMap)
 def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
     random = np.random.default_rng(9)
     strange = by_codes(manifest, random_codes(40, 9), random.uniform(-30, 30, (40, 3)))
-    (told,) = stocked.post("/localize", json=strange).json()["localisations"]
-    assert not told["localised"]
+    (told,) = stocked.post("/localize", json=strange).json()["localizations"]
+    assert not told["localized"]
     assert told["reason"] == "too-few-segments"
     assert told["detail"]
     assert told["pose"] is told["covariance"] is None
@@ -148,7 +148,7 @@ def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
 
 def test_too_few_segments_are_told(stocked: Any, manifest: Manifest, content: CompactMap) -> None:
     few = by_codes(manifest, *seen_in(content, np.arange(2)))
-    (told,) = stocked.post("/localize", json=few).json()["localisations"]
+    (told,) = stocked.post("/localize", json=few).json()["localizations"]
     assert told["reason"] == "too-few-segments"
     assert told["probability"] == told["score"] == 0
     assert told["others"] == []
@@ -171,7 +171,7 @@ def test_two_equal_places_are_ambiguous_and_both_are_told(
     service: Any, content: CompactMap, body: Any
 ) -> None:
     assert service.put("/maps/both", content=encode(twice(content))).status_code == 201
-    (told,) = service.post("/localize", json=body).json()["localisations"]
+    (told,) = service.post("/localize", json=body).json()["localizations"]
     assert told["reason"] == "ambiguous"
     assert told["pose"] is None
     first, second = (np.array(each["pose"]["translation"]) for each in told["others"])
@@ -204,7 +204,7 @@ def test_requests_of_a_session_support_each_other(
     ]
 
     def place(asked: dict[str, Any]) -> Any:
-        (told,) = service.post("/localize", json=asked).json()["localisations"]
+        (told,) = service.post("/localize", json=asked).json()["localizations"]
         return told["pose"] and round(told["pose"]["translation"][1], 0)
 
     assert place(body | {"session": "ann-1"}) is None
@@ -275,11 +275,11 @@ def test_what_was_found_before_counts_while_the_map_lies_where_it_lay(
     for first in range(6):
         rows = np.arange(400 + first, 420)
         asked = by_codes(manifest, *seen_in(landmarks, rows), session="ann")
-        (told,) = service.post("/localize", json=asked).json()["localisations"]
-        assert told["localised"]
+        (told,) = service.post("/localize", json=asked).json()["localizations"]
+        assert told["localized"]
     act(service, landmarks)
-    (told,) = service.post("/localize", json=body | {"session": "ann"}).json()["localisations"]
-    assert told["localised"] is counts, told
+    (told,) = service.post("/localize", json=body | {"session": "ann"}).json()["localizations"]
+    assert told["localized"] is counts, told
     assert told["reason"] == (None if counts else "ambiguous")
 
 
@@ -290,20 +290,20 @@ def test_each_map_says_where_the_robot_is_in_it(
     for name, each in (("a-other", other), ("b-street", content), ("c-empty", None)):
         stored = map_of(random_codes(0), manifest.model_id) if each is None else each
         assert service.put(f"/maps/{name}", content=encode(stored)).status_code == 201
-    told = service.post("/localize", json=body).json()["localisations"]
+    told = service.post("/localize", json=body).json()["localizations"]
     assert [each["map"] for each in told] == ["b-street", "a-other", "c-empty"]
-    assert [each["localised"] for each in told] == [True, False, False]
+    assert [each["localized"] for each in told] == [True, False, False]
     assert_found(told[0])
     assert told[2]["reason"] == "too-few-segments"
-    told = service.post("/localize", json=body | {"maps": ["a-other"]}).json()["localisations"]
+    told = service.post("/localize", json=body | {"maps": ["a-other"]}).json()["localizations"]
     assert [each["map"] for each in told] == ["a-other"]
 
 
 def test_without_maps_nothing_is_said(service: Any, body: Any) -> None:
-    assert service.post("/localize", json=body).json()["localisations"] == []
+    assert service.post("/localize", json=body).json()["localizations"] == []
     clouds = [cloud(0), cloud(1)[:3]]
     answer = service.post("/localize", json=request_of(clouds)).json()
-    assert answer["localisations"] == []
+    assert answer["localizations"] == []
     assert [each["query"] for each in answer["unusable"]] == [1]
     assert answer["unusable"][0]["error"]["type"].endswith("too-few-points")
 
@@ -319,15 +319,15 @@ def test_segments_are_localized_as_their_codes_are(service: Any, manifest: Manif
     stored = replace(stored, centroids=TRUTH.apply(centroids).round(2))
     assert service.put("/maps/own", content=encode(stored)).status_code == 201
     answer = service.post("/localize", json=request_of(clouds)).json()
-    (by_segments,) = answer["localisations"]
+    (by_segments,) = answer["localizations"]
     assert [each["query"] for each in answer["unusable"]] == [4]
     # Twenty metres of segments tell the pose; inliers are numbered as the request's segments.
-    assert by_segments["localised"], by_segments
+    assert by_segments["localized"], by_segments
     assert {each["query"] for each in by_segments["inliers"]} <= set(good)
     for each in by_segments["inliers"]:
         assert good[each["id"] - 100] == each["query"]
     (told,) = service.post("/localize", json=by_codes(manifest, codes, centroids)).json()[
-        "localisations"
+        "localizations"
     ]
     np.testing.assert_allclose(
         told["pose"]["translation"], by_segments["pose"]["translation"], atol=1e-6
@@ -344,7 +344,7 @@ def test_another_model_s_map_is_skipped_or_refused(
     with start(model="tiny") as service:
         assert service.put("/maps/street", content=encode(content)).status_code == 201
         answer = service.post("/localize", json=body).json()
-        assert [each["map"] for each in answer["localisations"]] == ["street"]
+        assert [each["map"] for each in answer["localizations"]] == ["street"]
         assert answer["skipped"] == [{"map": "old", "model_id": other_manifest.model_id}]
         refused = service.post("/localize", json=body | {"maps": ["old"]})
         assert_problem(refused, 409, "other-model", other_manifest.model_id)
@@ -414,7 +414,7 @@ def test_a_key_sees_its_own_maps_and_sessions(
         put = service.put("/maps/street", content=encode(content), headers=everything)
         assert put.status_code == 201
         assert_problem(service.post("/localize", json=body), 401, "unauthorized")
-        assert service.post("/localize", json=body, headers=halls).json()["localisations"] == []
+        assert service.post("/localize", json=body, headers=halls).json()["localizations"] == []
         named = body | {"maps": ["street"]}
         assert_problem(service.post("/localize", json=named, headers=halls), 403, "forbidden")
         sessions = service.app.state.placecell.engine.sessions
@@ -442,7 +442,7 @@ def test_many_robots_at_once_do_not_disturb_each_other(stocked: Any, body: Any) 
     assert len(answers) == 30
     for answer in answers:
         np.testing.assert_allclose(
-            answer["localisations"][0]["pose"]["translation"],
-            expected["localisations"][0]["pose"]["translation"],
+            answer["localizations"][0]["pose"]["translation"],
+            expected["localizations"][0]["pose"]["translation"],
             atol=1e-6,
         )

@@ -62,7 +62,7 @@ def put(service: Any, name: str, content: CompactMap, **headers: str) -> None:
 def ask(service: Any, body: dict[str, Any], **more: Any) -> list[dict[str, Any]]:
     answer = service.post("/localize", json=body | more)
     assert answer.status_code == 200, answer.text
-    told: list[dict[str, Any]] = answer.json()["localisations"]
+    told: list[dict[str, Any]] = answer.json()["localizations"]
     return told
 
 
@@ -85,7 +85,7 @@ def test_B1_equal_floors_are_ambiguous_and_the_rival_is_named(
     put(service, names[1], seen_again(floor, 2, "bob"))
     told = ask(service, body)
     for one, other in (told, told[::-1]):
-        assert not one["localised"]
+        assert not one["localized"]
         assert one["reason"] == "ambiguous"
         assert one["pose"] is None
         assert one["probability"] < 0.6
@@ -97,7 +97,7 @@ def test_B1_equal_floors_are_ambiguous_and_the_rival_is_named(
         assert "/merge" in one["detail"]
     # Within one of them the robot is where it is.
     (alone,) = ask(service, body, maps=[names[1]])
-    assert alone["localised"]
+    assert alone["localized"]
     assert alone["rival"] is None
 
 
@@ -109,11 +109,11 @@ def test_B1_where_the_difference_decides_the_right_floor_is_told(
     put(service, names[1], seen_again(changed(floor, 0.6, 3), 2, "bob"))
     right, wrong = ask(service, body)
     assert (right["map"], wrong["map"]) == names
-    assert right["localised"]
+    assert right["localized"]
     assert right["probability"] >= 0.9
     assert right["rival"]["map"] == names[1]
     assert right["rival"]["score"] < right["score"]
-    assert not wrong["localised"]
+    assert not wrong["localized"]
     assert wrong["probability"] < 0.5
     assert wrong["rival"]["map"] == names[0]
     assert "fits better" in wrong["detail"]
@@ -125,7 +125,7 @@ def test_B1_both_encodings_name_the_rival(service: Any, floor: CompactMap, body:
     put(service, "a", seen_again(floor, 1, "ann"))
     put(service, "b", seen_again(floor, 2, "bob"))
     told = msgpack.unpackb(post_packed(service, "/localize", packed(body)).content)
-    assert told["localisations"] == ask(service, body)
+    assert told["localizations"] == ask(service, body)
 
 
 def merged_from(one: CompactMap, name: str) -> CompactMap:
@@ -145,7 +145,7 @@ def test_B1_a_merged_map_and_its_source_are_one_place(
     put(service, "a", source)
     put(service, "site", merged_from(source, "a"))
     told = ask(service, body)
-    assert [each["localised"] for each in told] == [True, True]
+    assert [each["localized"] for each in told] == [True, True]
     assert [each["rival"] for each in told] == [None, None]
     # A look-alike beside them is a rival of both, and of no other name.
     put(service, "b", seen_again(floor, 2, "bob"))
@@ -178,7 +178,7 @@ def test_B1_a_map_stored_twice_is_one_place(service: Any, floor: CompactMap, bod
     put(service, "yard", content)
     put(service, "yard-copy", content)
     told = ask(service, body)
-    assert [each["localised"] for each in told] == [True, True]
+    assert [each["localized"] for each in told] == [True, True]
     # Where one segment differs, nothing proves that it is a copy.
     put(service, "yard-copy", take(content, np.arange(199)), **{"If-Match": "*"})
     assert {each["reason"] for each in ask(service, body)} == {"ambiguous"}
@@ -193,11 +193,11 @@ def test_B1_a_rival_that_the_key_does_not_open_is_neither_searched_nor_named(
         put(service, "hall-1", seen_again(floor, 1), **everything)
         put(service, "yard", seen_again(floor, 2), **everything)
         answer = service.post("/localize", json=body, headers=halls)
-        (told,) = answer.json()["localisations"]
-        assert told["localised"]
+        (told,) = answer.json()["localizations"]
+        assert told["localized"]
         assert told["rival"] is None
         assert "yard" not in answer.text
-        told = service.post("/localize", json=body, headers=everything).json()["localisations"]
+        told = service.post("/localize", json=body, headers=everything).json()["localizations"]
         assert {each["reason"] for each in told} == {"ambiguous"}
 
 
@@ -218,7 +218,7 @@ def test_B1_evidence_against_a_wrong_floor_adds_up(
         assert ask(service, each)[0]["map"] == "a"
     first = ask(service, same, session="ann")[0]
     assert first["map"] == "a"
-    assert first["localised"], first
+    assert first["localized"], first
     assert {each["reason"] for each in ask(service, same)} == {"ambiguous"}
 
 
@@ -252,8 +252,8 @@ def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_told(
         told = ask(stocked, by_codes(manifest, *seen_in(many(manifest)[name])))
         assert len(told) == 40
         assert told[0]["map"] == name
-        assert told[0]["localised"]
-        assert not any(each["localised"] for each in told[1:])
+        assert told[0]["localized"]
+        assert not any(each["localized"] for each in told[1:])
         assert name in searched
         assert len(searched) <= FULL
         # As alone, for nothing else fits.
@@ -268,7 +268,7 @@ def test_B13_forty_equal_floors_are_ambiguous_and_the_work_is_bounded(
         put(service, f"floor-{number:02}", seen_again(floor, number))
     told = ask(service, body)
     assert len(told) == 40
-    assert not any(each["localised"] for each in told)
+    assert not any(each["localized"] for each in told)
     assert sum(each["reason"] == "ambiguous" for each in told) <= FULL
     assert told[0]["reason"] == "ambiguous"
     assert "searched in full" in told[-1]["detail"]
