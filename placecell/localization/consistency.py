@@ -8,8 +8,9 @@ distances as seen from above.
 
 import numpy as np
 
-from placecell.core.jit import compiled
-from placecell.core.types import Bool, Float64, Int64
+from placecell.core.cancellation import is_cancelled
+from placecell.core.jit import compiled, compiled_part
+from placecell.core.types import Bool, Float32, Float64, Int32, Int64
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.parameters import LocalizationParameters
 
@@ -21,11 +22,56 @@ def consistent(found: Correspondences, parameters: LocalizationParameters) -> Bo
     """
     graph = np.zeros((len(found), len(found)), dtype=bool)
     _compare(
-        *(found.queries, found.places, found.source, found.target, parameters.model == "yaw"),
-        *(parameters.distance_tolerance, parameters.height_tolerance),
-        *(float(np.tan(np.radians(parameters.tilt))), graph),
+        queries=found.queries,
+        places=found.places,
+        source=found.source,
+        target=found.target,
+        level=parameters.model == "yaw",
+        tolerance=parameters.distance_tolerance,
+        height_tolerance=parameters.height_tolerance,
+        slope=slope_of(parameters),
+        graph=graph,
     )
     return graph
+
+
+def slope_of(parameters: LocalizationParameters) -> float:
+    """Return the height tolerance per meter of horizontal distance that the tilt allows."""
+    return float(np.tan(np.radians(parameters.tilt)))
+
+
+@compiled_part
+def agree(
+    here: float,
+    there: float,
+    rise: float,
+    other_rise: float,
+    level: bool,
+    tolerance: float,
+    height_tolerance: float,
+    slope: float,
+) -> bool:
+    """Return whether two correspondences are consistent.
+
+    Args:
+        here: squared horizontal distance between the two query segments, square meters.
+        there: squared horizontal distance between the two map segments, square meters.
+        rise: height difference of the query segments, meters.
+        other_rise: height difference of the map segments, meters.
+        level: whether gravity is known, so that heights are kept.
+        tolerance: largest difference of the distances, meters.
+        height_tolerance: largest difference of the height differences, meters; and
+        slope: its increase per meter of distance.
+    """
+    squared, other_squared = here, there
+    if not level:
+        squared += rise**2
+        other_squared += other_rise**2
+    # |sqrt(squared) - sqrt(other_squared)| <= tolerance, without the roots.
+    excess = squared + other_squared - tolerance**2
+    if excess > 0.0 and excess**2 > 4.0 * squared * other_squared:
+        return False
+    return not (level and abs(rise - other_rise) > height_tolerance + slope * np.sqrt(squared))
 
 
 @compiled
@@ -48,14 +94,65 @@ def _compare(
             there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
             rise = source[i, 2] - source[j, 2]
             other_rise = target[i, 2] - target[j, 2]
-            if not level:
-                here += rise**2
-                there += other_rise**2
-            # |sqrt(here) - sqrt(there)| <= tolerance, without the roots.
-            excess = here + there - tolerance**2
-            if excess > 0.0 and excess**2 > 4.0 * here * there:
-                continue
-            if level and abs(rise - other_rise) > height_tolerance + slope * np.sqrt(here):
-                continue
-            graph[i, j] = True
-            graph[j, i] = True
+            if agree(here, there, rise, other_rise, level, tolerance, height_tolerance, slope):
+                graph[i, j] = True
+                graph[j, i] = True
+
+
+@compiled
+def count_votes(
+    starts: Int64,
+    queries: Int64,
+    source: Float64,
+    target: Float32,
+    share: float,
+    level: bool,
+    tolerance: float,
+    height_tolerance: float,
+    slope: float,
+    flag: Int32,
+    votes: Int64,
+) -> None:
+    """Count for each map the segments that agree about one pose, to rank many maps.
+
+    It stands here, since compiled functions call compiled functions of their own file only.
+
+    Args:
+        starts: where the candidates of each map begin, int64 (maps + 1,).
+        queries: query segment of each candidate, int64 (m,), ascending within a map.
+        source: centroids of the query segments, float64 (q, 3), meters.
+        target: centroids of the candidates, relative to a point in their map, float32 (m, 3).
+        share: share of each map's candidates that is compared.
+        level: as of `agree`; so are the next three.
+        tolerance: see `agree`.
+        height_tolerance: see `agree`.
+        slope: see `agree`.
+        flag: flag of a `CancelToken`.
+        votes: is filled with 1 plus the most segments that agree with one candidate, int64 (maps,).
+    """
+    for place in range(len(votes)):
+        if is_cancelled(flag):
+            return
+        begin, end = starts[place], starts[place + 1]
+        # Of too many candidates, an evenly chosen part is compared, in the order of the segments.
+        step = 1.0 / share
+        most = int((end - begin) * share)
+        best = 0
+        for one in range(most):
+            i = begin + int(one * step)
+            count = 1
+            last = -1
+            for another in range(most):
+                j = begin + int(another * step)
+                if queries[j] == queries[i] or queries[j] == last:
+                    continue
+                a, b = queries[i], queries[j]
+                here = (source[a, 0] - source[b, 0]) ** 2 + (source[a, 1] - source[b, 1]) ** 2
+                there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
+                rise = source[a, 2] - source[b, 2]
+                other_rise = float(target[i, 2]) - float(target[j, 2])
+                if agree(here, there, rise, other_rise, level, tolerance, height_tolerance, slope):
+                    count += 1
+                    last = queries[j]
+            best = max(best, count)
+        votes[place] = best

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from placecell.core.cancellation import current, is_cancelled
-from placecell.core.jit import compiled
+from placecell.core.cancellation import current
 from placecell.core.spatial import evenly
-from placecell.core.types import Float32, Float64, Int8, Int32, Int64
+from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalizationParameters
+from placecell.localization.consistency import count_votes, slope_of
 from service.maps.shared_index import IndexPart, centered
 from service.maps.snapshot import MapSnapshot
 
@@ -105,10 +105,10 @@ def votes_of(
     pairs = float((counts**2).sum() / 2)
     share = min(1.0, np.sqrt(PAIRS / max(pairs, 1.0)))
     seen = np.asarray(centroids, np.float64)
-    target, slope = np.ascontiguousarray(targets[order]), float(np.tan(np.radians(parameters.tilt)))
+    target, slope = np.ascontiguousarray(targets[order]), slope_of(parameters)
 
     def count(begin: int, end: int) -> None:
-        _count(
+        count_votes(
             starts=starts[begin : end + 1],
             queries=queries,
             source=seen,
@@ -147,7 +147,7 @@ def best_of(votes: Int64, least: int, always: Sequence[int] = (), most: int = FU
 def warm_up() -> None:
     """Compile the count of votes, so that the first request need not wait."""
     none, points = np.zeros(0, np.int64), np.zeros((0, 3))
-    _count(
+    count_votes(
         starts=np.zeros(1, np.int64),
         queries=none,
         source=points,
@@ -181,53 +181,3 @@ def _voters(codes: Int8, searched: Sequence[MapSnapshot], part: IndexPart) -> Vo
     places = part.places[members]
     kept = (flat >= 0) & (places >= 0)
     return Voters(places[kept], queries[kept], shared.centroids[flat[kept]], squared.ravel()[kept])
-
-
-@compiled
-def _count(
-    starts: Int64,
-    queries: Int64,
-    source: Float64,
-    target: Float32,
-    share: float,
-    level: bool,
-    tolerance: float,
-    height_tolerance: float,
-    slope: float,
-    flag: Int32,
-    votes: Int64,
-) -> None:
-    """Fill `votes`: 1 plus the most segments that agree with one candidate of a map."""
-    for place in range(len(votes)):
-        if is_cancelled(flag):
-            return
-        begin, end = starts[place], starts[place + 1]
-        # Of too many candidates, an evenly chosen part is compared, in the order of the segments.
-        step = 1.0 / share
-        most = int((end - begin) * share)
-        best = 0
-        for one in range(most):
-            i = begin + int(one * step)
-            count = 1
-            last = -1
-            for another in range(most):
-                j = begin + int(another * step)
-                if queries[j] == queries[i] or queries[j] == last:
-                    continue
-                a, b = queries[i], queries[j]
-                here = (source[a, 0] - source[b, 0]) ** 2 + (source[a, 1] - source[b, 1]) ** 2
-                there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
-                rise = source[a, 2] - source[b, 2]
-                other_rise = float(target[i, 2]) - float(target[j, 2])
-                if not level:
-                    here += rise**2
-                    there += other_rise**2
-                excess = here + there - tolerance**2
-                if excess > 0.0 and excess**2 > 4.0 * here * there:
-                    continue
-                if level and abs(rise - other_rise) > height_tolerance + slope * np.sqrt(here):
-                    continue
-                count += 1
-                last = queries[j]
-            best = max(best, count)
-        votes[place] = best

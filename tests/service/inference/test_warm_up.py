@@ -7,20 +7,19 @@ from placecell_client import encode
 
 from placecell.localization import clique, consistency, correspondences
 from service.api.body import json_arrays
-from service.search import ranking
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 
 def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: Any) -> None:
     loops = {
         each
-        for module in (json_arrays, ranking, clique, consistency, correspondences)
+        for module in (json_arrays, clique, consistency, correspondences)
         for each in vars(module).values()
         if hasattr(each, "nopython_signatures")
     }
     with start() as client:
         before = {each: len(each.nopython_signatures) for each in loops}
-        assert before[ranking._count]
+        assert before[consistency.count_votes]
         assert before[correspondences._lead]
         yard = encode(map_of(random_codes(50), manifest.model_id))
         for name in ("a", "b", "c"):
