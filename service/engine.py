@@ -51,7 +51,7 @@ from service.maps.store import Commit, StoreError, StoreLockedError
 from service.maps.sync import MapSync, SyncPage
 from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
-from service.maps.writes.writer import MapWriter, WriteResult
+from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import MapSide, align_maps, check_same_model
 from service.merging.merge import Merger, MergeResult
 from service.search.localization import LocalizationResult, localize
@@ -393,10 +393,7 @@ class Engine:
         return self.writer(holder, conditions).edit(
             name,
             file,
-            robot=robot,
-            create=create,
-            deduplicate=deduplicate,
-            only_new=only_new,
+            EditOptions(robot=robot, create=create, deduplicate=deduplicate, only_new=only_new),
         )
 
     def delete_map(

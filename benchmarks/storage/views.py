@@ -12,7 +12,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
-from service.maps.deduplication import RADIUS, SAME_STAND, SAME_VIEW, VIEWS, SameView, sighting
+from service.maps.deduplication import RADIUS, SAME_VIEWPOINT, SAME_VIEW, VIEWS, SameView, deduplicate
 
 MAX_VIEWS = (1, 2, 3, 4, 6, 8, 12)
 """Measured limits of the number of stored views per object."""
@@ -56,7 +56,7 @@ def measure_views(
         {"views": None, "kept": "all"} | asked.with_stored(np.ones(len(rows), dtype=bool))
     ]
     for most in MAX_VIEWS:
-        kept = sighting(content, nothing, same, views=most).changed.ids
+        kept = deduplicate(content, nothing, same, views=most).changed.ids
         stored = np.isin(np.arange(len(rows)), kept)
         drawn = random.permutation(stored)
         measured.append({"views": most, "kept": "views that differ"} | asked.with_stored(stored))
@@ -66,7 +66,7 @@ def measure_views(
         "default_views": VIEWS,
         "radius_m": RADIUS,
         "same_view": SAME_VIEW,
-        "same_stand_m": SAME_STAND,
+        "same_stand_m": SAME_VIEWPOINT,
         "queries": len(asked.queries),
         "model_id": manifest.model_id,
         "drive": recording.name,

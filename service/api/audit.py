@@ -1,4 +1,4 @@
-"""Audit log: one line per write, with key, operation, map and number of segments."""
+"""Audit log: one line for each write, with key, operation, map and number of segments."""
 
 import logging
 
@@ -10,24 +10,25 @@ from service.maps.writes.writer import WriteResult
 logger = logging.getLogger("placecell.audit")
 
 
-def tell_written(request: Request, state: State, operation: str, written: WriteResult) -> None:
-    """Log and count a write of a map's segments."""
-    what = f"{written.changed} segments changed, {written.removed} removed"
-    tell(request, state, operation, written.stored.name, what, written.changed + written.removed)
+def record_write(request: Request, state: State, operation: str, result: WriteResult) -> None:
+    """Record a write to a map's segments."""
+    effect = f"{result.changed} segments changed, {result.removed} removed"
+    segments = result.changed + result.removed
+    record(request, state, operation, result.snapshot.name, effect, segments)
 
 
-def tell(
-    request: Request, state: State, operation: str, name: str, what: str, segments: int = 0
+def record(
+    request: Request, state: State, operation: str, name: str, effect: str, segments: int = 0
 ) -> None:
-    """Log and count a write.
+    """Record a write.
 
     Args:
-        request: request of the write.
+        request: the HTTP request.
         state: state of the service.
-        operation: operation, such as `put`.
+        operation: name of the operation, such as `put`.
         name: name of the map.
-        what: result of the operation in words.
-        segments: number of segments that were changed or removed.
+        effect: what the operation did.
+        segments: number of segments changed or removed.
     """
     facts = request.scope["state"]
     state.metrics.writes.labels(operation).inc()
@@ -36,7 +37,7 @@ def tell(
         facts["key"],
         operation,
         name,
-        what,
+        effect,
         extra={
             "key": facts["key"],
             "operation": operation,

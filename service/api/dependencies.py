@@ -1,15 +1,24 @@
-"""Dependencies of the routes: the service's state, the key's holder, the writer, the stopwatch."""
+"""Dependencies of the routes: state, principal, preconditions, stopwatch, and writes of maps."""
 
-from typing import Annotated
+from collections.abc import AsyncIterator, Callable, Collection
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from typing import Annotated, ParamSpec, TypeVar
 
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
+from service.api.admission.admission import Lane
+from service.api.audit import record, record_write
+from service.api.path_parameters import Name
 from service.api.state import State
 from service.core.auth import Holder
 from service.core.preconditions import Preconditions
 from service.core.timing import Timing
-from service.maps.writes.writer import MapWriter
+from service.maps.writes.writer import MapWriter, WriteResult
+
+Result = TypeVar("Result")
+Parameters = ParamSpec("Parameters")
 
 BEARER = HTTPBearer(
     auto_error=False,
@@ -37,8 +46,7 @@ async def holder_of(
     return holder
 
 
-async def writer_of(
-    request: Request,
+async def preconditions_of(
     if_match: Annotated[
         str | None,
         Header(description="ETags of the versions that this request is for, or *."),
@@ -47,11 +55,9 @@ async def writer_of(
         str | None,
         Header(description="ETags of the versions that this request is not for, or *."),
     ] = None,
-) -> MapWriter:
-    """Return the writer of the request, with the rights of its key and its conditions."""
-    state = await state_of(request)
-    holder = await holder_of(request)
-    return state.engine.writer(holder, Preconditions(if_match, if_none_match))
+) -> Preconditions:
+    """Return the preconditions of the request."""
+    return Preconditions(if_match, if_none_match)
 
 
 async def timing_of(request: Request) -> Timing:
@@ -64,4 +70,86 @@ async def timing_of(request: Request) -> Timing:
 StateOf = Annotated[State, Depends(state_of)]
 HolderOf = Annotated[Holder, Depends(holder_of)]
 TimingOf = Annotated[Timing, Depends(timing_of)]
-WriterOf = Annotated[MapWriter, Depends(writer_of)]
+ConditionsOf = Annotated[Preconditions, Depends(preconditions_of)]
+
+
+@dataclass(frozen=True, slots=True)
+class MapWrite:
+    """Request that writes to a map: admission, the writer, and the audit log.
+
+    Attributes:
+        name: name of the map.
+        request: the HTTP request.
+        state: state of the service.
+        holder: principal of the request.
+        writer: writes under the principal's scope and the request's preconditions.
+        timing: stopwatch of the request.
+    """
+
+    name: str
+    request: Request
+    state: State
+    holder: Holder
+    writer: MapWriter
+    timing: Timing
+
+    @asynccontextmanager
+    async def receive(self, lane: Lane, media_types: Collection[str]) -> AsyncIterator[bytes]:
+        """Check the key's scope, enter a lane and receive the body."""
+        self.holder.check_write(self.name)
+        async with lane.admit(self.request, media_types, self.timing) as body:
+            yield body.content
+
+    @asynccontextmanager
+    async def enter(self, lane: Lane) -> AsyncIterator[None]:
+        """Check the key's scope and enter a lane, for a request without a body."""
+        self.holder.check_write(self.name)
+        async with lane.enter(self.request):
+            yield
+
+    async def run(
+        self,
+        work: Callable[Parameters, Result],
+        *args: Parameters.args,
+        **kwargs: Parameters.kwargs,
+    ) -> Result:
+        """Run a write in the threads of the lane."""
+        result = await self.state.run(work, *args, **kwargs)
+        self.timing.lap("commit")
+        return result
+
+    async def commit(
+        self,
+        operation: str,
+        work: Callable[Parameters, WriteResult],
+        *args: Parameters.args,
+        **kwargs: Parameters.kwargs,
+    ) -> WriteResult:
+        """Run a write of segments in the threads of the lane, and record it in the audit log."""
+        result = await self.run(work, *args, **kwargs)
+        self.record_result(operation, result)
+        return result
+
+    def record_result(self, operation: str, result: WriteResult) -> None:
+        """Record a write of segments in the audit log."""
+        record_write(self.request, self.state, operation, result)
+
+    def record(self, operation: str, effect: str, segments: int = 0) -> None:
+        """Record any other write in the audit log."""
+        record(self.request, self.state, operation, self.name, effect, segments)
+
+
+async def map_write_of(
+    name: Name,
+    request: Request,
+    state: StateOf,
+    holder: HolderOf,
+    conditions: ConditionsOf,
+    timing: TimingOf,
+) -> MapWrite:
+    """Return the write request to the map in the path."""
+    writer = state.engine.writer(holder, conditions)
+    return MapWrite(name, request, state, holder, writer, timing)
+
+
+MapWriteOf = Annotated[MapWrite, Depends(map_write_of)]

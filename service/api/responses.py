@@ -52,7 +52,7 @@ def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
 
 def outcome_of(written: WriteResult) -> WrittenOut:
     """Return the result of a write."""
-    stored = written.stored
+    stored = written.snapshot
     return WrittenOut(
         map=stored.name,
         sequence=stored.head.sequence,

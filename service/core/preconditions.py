@@ -1,4 +1,4 @@
-"""If-Match and If-None-Match (RFC 9110, 13.1): a write for one version is not done to another."""
+"""Preconditions If-Match and If-None-Match (RFC 9110, 13.1): bind a request to a version."""
 
 from dataclasses import dataclass
 
@@ -7,54 +7,60 @@ from service.core.problems import Problem
 
 @dataclass(frozen=True, slots=True)
 class Preconditions:
-    """The two headers of a request, as they came."""
+    """Precondition headers of a request.
+
+    Attributes:
+        if_match: value of If-Match; None if the request has none.
+        if_none_match: value of If-None-Match; None if the request has none.
+    """
 
     if_match: str | None = None
     if_none_match: str | None = None
 
     def check(self, tag: str | None) -> None:
-        """See that they hold.
+        """Check that the preconditions hold.
 
         Args:
-            tag: of the map as it is; None if there is none.
+            tag: tag of the map's newest version; None if there is no such map.
 
         Raises:
-            Problem: 412 if they do not.
+            Problem: 412 if a precondition fails.
         """
         if self.if_match is not None and not self._matches(tag):
-            raise self._failed(tag, "If-Match")
+            raise self._failed(tag, "If-Match", self.if_match)
         if self.is_known(tag):
-            raise self._failed(tag, "If-None-Match")
+            raise self._failed(tag, "If-None-Match", self.if_none_match)
 
     def check_replaces(self, tag: str) -> None:
-        """The same, and that the client says what it replaces; 428 if it does not."""
+        """Check the preconditions of a write that replaces content; 428 if If-Match is missing."""
         self.check(tag)
         if self.if_match is None:
             raise Problem(
                 428,
                 "precondition-required",
-                'There is such a map, with other content. To replace it say If-Match: "ETAG" of '
-                "the version that you have seen, or * for any.",
+                "The map exists and has other content. To replace it, send If-Match with the ETag "
+                f'of the version to replace (the newest is "{tag}"), or * for any version.',
                 headers={"ETag": f'"{tag}"'},
             )
 
     def is_known(self, tag: str | None) -> bool:
-        """Whether If-None-Match names the map as it is."""
+        """Return whether If-None-Match names the map's newest version."""
         if self.if_none_match is None or tag is None:
             return False
-        # Weak comparison, as is due here.
+        # RFC 9110 asks for weak comparison here.
         return bool({*_tags(self.if_none_match, weak=True)} & {"*", f'"{tag}"'})
 
     def _matches(self, tag: str | None) -> bool:
         assert self.if_match is not None
         return tag is not None and bool({*_tags(self.if_match)} & {"*", f'"{tag}"'})
 
-    def _failed(self, tag: str | None, header: str) -> Problem:
-        now = f'is at version "{tag}"' if tag is not None else "is not there"
-        headers = {"ETag": f'"{tag}"'} if tag is not None else None
-        return Problem(
-            412, "precondition-failed", f"The map {now}, which {header} rules out.", headers=headers
-        )
+    def _failed(self, tag: str | None, header: str, value: str | None) -> Problem:
+        if tag is None:
+            found, headers = "The map does not exist", None
+        else:
+            found, headers = f'The map is at version "{tag}"', {"ETag": f'"{tag}"'}
+        detail = f"{found}, but the request has {header}: {value:.200}. Read the map and try again."
+        return Problem(412, "precondition-failed", detail, headers=headers)
 
 
 def _tags(header: str, weak: bool = False) -> list[str]:

@@ -1,7 +1,7 @@
-"""Maps as they were when their layers were last folded, so that a start need not replay them.
+"""Cache of map versions, so that a start need not replay whole histories.
 
-A file a map, `DATA_DIR/cache/UID.cache`: a line that says which version, then the map's file.
-Nothing depends on it: what is missing, damaged or of another history is made from the store.
+Each map has a file `DATA_DIR/cache/UID.cache`: a line that names the version, then its map file.
+The service replaces files that are missing, damaged or of another history from the store.
 """
 
 import json
@@ -22,13 +22,13 @@ logger = logging.getLogger("placecell")
 
 
 class MapCache:
-    """The files of one data directory."""
+    """Cache files of one data directory."""
 
     def __init__(self, data_dir: Path) -> None:
         self._folder = data_dir / "cache"
 
     def load(self, history: MapHistory) -> tuple[CompactMap, int] | None:
-        """An earlier version of a map, and its sequence; None if there is none to be trusted."""
+        """Return the cached version of a map and its sequence; None if no valid one is cached."""
         head = history.head
         path = self._path(head.uid)
         try:
@@ -37,23 +37,23 @@ class MapCache:
             sequence = int(stated["sequence"])
             if not head.oldest <= sequence <= head.sequence:
                 raise ValueError(
-                    f"of version {sequence}; the store has {head.oldest} to {head.sequence}"
+                    f"it has version {sequence}; the store has {head.oldest} to {head.sequence}"
                 )
             if stated["mark"] != history.mark(sequence):
-                raise ValueError(f"its version {sequence} is not the store's")
+                raise ValueError(f"its version {sequence} differs from the store's")
             return decode(file), sequence
         except FileNotFoundError:
             return None
         except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-            logger.warning("map %r: its cache is left aside: %s", head.name, error)
+            logger.warning("map %r: its cache file is ignored: %s", head.name, error)
             return None
 
     def save(self, head: MapHead, content: CompactMap) -> None:
-        """Keep a version of a map; the file is whole, or as it was.
+        """Replace a map's cached version atomically.
 
         Args:
-            head: of the version.
-            content: its segments.
+            head: head of the map at that version.
+            content: segments of that version.
         """
         self._folder.mkdir(exist_ok=True)
         line = json.dumps({"name": head.name, "sequence": head.sequence, "mark": head.mark})
@@ -68,7 +68,7 @@ class MapCache:
         sync_folder(self._folder)
 
     def keep_only(self, uids: Collection[str]) -> None:
-        """Remove the files of other maps, and what was not finished."""
+        """Remove the files of all other maps, and unfinished files."""
         for path in self._folder.glob("*"):
             if path.suffix == _UNFINISHED or (path.suffix == _SUFFIX and path.stem not in uids):
                 path.unlink(missing_ok=True)

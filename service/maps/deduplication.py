@@ -1,9 +1,9 @@
-"""Segments that are seen again: not stored once more, but known to be still there.
+"""Deduplication: does not store a segment again that was seen before, and notes when it was seen.
 
-Things that stand still have their centroid in one place. What is seen there again, and looks as it
-did or is seen from where it was, adds little to the map. Anything else is another view, from
-another side or of more of the thing: kept, up to a number, for whoever comes that way
-(`docs/results/storage.md` shows what that gains).
+A static object has its centroid in one place. A new segment near a stored one adds little to the
+map if both look the same or were seen from the same viewpoint. Otherwise it is another view of the
+object. The map keeps a limited number of views of each object, for robots that come from other
+sides (`docs/results/storage.md` shows the gain).
 """
 
 from collections.abc import Mapping
@@ -23,17 +23,17 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
 
 RADIUS = 0.5
-"""Metres between centroids of one thing. Of pairs this near, seen at different times, 85% were
-tracked as one thing from frame to frame in `muehlburger_tor`; within 1 m, 76%."""
+"""Largest distance in meters between centroids of views of one object. In `muehlburger_tor`, 85% of
+pairs this near, seen at different times, were tracked as one object; within 1 m, 76%."""
 
 SAME_VIEW = 0.6
-"""Of the distance below which the model calls a pair a match: views that look the same."""
+"""Distance of views that look the same, as a share of the model's match threshold."""
 
-SAME_STAND = 5.0
-"""Metres between the sensor's positions: views from the same place."""
+SAME_VIEWPOINT = 5.0
+"""Largest distance in meters between sensor positions that count as one viewpoint."""
 
 VIEWS = 8
-"""Of a thing, at most."""
+"""Largest number of views of an object."""
 
 MOST_COMPARED = 1_024
 """Largest number of stored segments that a new one is compared with; the latest ones if more."""
@@ -48,11 +48,11 @@ NONE: UInt32 = np.zeros(0, dtype=np.uint32)
 
 @dataclass(frozen=True, slots=True)
 class SameView:
-    """When two segments show the same.
+    """Criterion for views that look the same.
 
     Attributes:
-        quantizer: of the model that described them.
-        steps: up to which their descriptors are apart, in the quantiser's steps.
+        quantizer: quantizer of the model that described the segments.
+        steps: largest distance of their descriptors, in the quantizer's steps.
     """
 
     quantizer: Quantizer
@@ -60,20 +60,20 @@ class SameView:
 
     @classmethod
     def of(cls, manifest: Manifest) -> "SameView":
-        """For the segments that a model described."""
+        """Return the criterion for segments that a model described."""
         quantizer = manifest.quantizer
         return cls(quantizer, SAME_VIEW * manifest.pair_threshold / quantizer.step)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sighting:
-    """What is left of an upload when its repeats are taken out.
+class Deduplicated:
+    """Upload without repeats.
 
     Attributes:
-        changed: what is to be stored: new segments, further views of known things, and known
+        changed: segments to store: new segments, further views of known objects, and known
             segments that were seen again, with a later `seen`.
-        refreshed: ids of the latter.
-        repeats: segments of the upload that are not stored.
+        refreshed: ids of the known segments among them.
+        repeats: number of segments of the upload that are not stored.
     """
 
     changed: CompactMap
@@ -81,100 +81,100 @@ class Sighting:
     repeats: int
 
 
-def sighting(
+def deduplicate(
     upload: CompactMap,
     stored: CompactMap,
     same: SameView,
     radius: float = RADIUS,
-    same_stand: float = SAME_STAND,
+    same_viewpoint: float = SAME_VIEWPOINT,
     views: int = VIEWS,
     itself: bool = True,
     compared: Bool | None = None,
     views_elsewhere: Mapping[int, int] = NO_VIEWS,
-) -> Sighting:
-    """Compare an upload with the stored segments around it and with itself, in order of time.
+) -> Deduplicated:
+    """Compare an upload with nearby stored segments and with itself, in order of time.
 
-    Memory is linear in the segments. So is time, but for a logarithm: a segment is compared with a
-    bounded number of those that were kept (`MOST_COMPARED`, `MOST_VISITED`).
+    Memory and time are linear in the segments, apart from a logarithm: a segment is compared with
+    a bounded number of kept ones (`MOST_COMPARED`, `MOST_VISITED`).
 
     Args:
-        upload: segments; those whose id is stored are replaced, whatever they look like.
+        upload: the segments. A segment whose id is stored replaces that segment in any case.
         stored: at least all segments of the map within `radius` of any of the upload, and those
             with an id of the upload.
-        same: when two views are the same.
-        radius: metres between centroids of one thing.
-        same_stand: metres between sensors up to which two views are the same.
-        views: of a thing, at most.
-        itself: whether to compare it with itself, too.
-        compared: of each stored segment whether it is compared, bool (stored,); the others count
-            as views of their things. None: all are.
-        views_elsewhere: segments of the map that are not in `stored`, by the thing (`views`) that
-            they are views of.
+        same: criterion for views that look the same.
+        radius: largest distance in meters between centroids of views of one object.
+        same_viewpoint: largest distance in meters between sensor positions of one viewpoint.
+        views: largest number of views of an object.
+        itself: whether to compare the upload with itself, too.
+        compared: which stored segments are compared, bool (stored,); the others only count as
+            views of their objects. None: all are compared.
+        views_elsewhere: number of segments of the map that are not in `stored`, by the object
+            (`views`) that they are views of.
 
     Raises:
-        Cancelled: nobody waits for it any longer.
+        Cancelled: the deadline passed, or the client disconnected.
     """
     stored, given = _filled(stored), _filled(upload)
-    # Those that replace others come in their turn, so that an upload that is sent again is told
-    # the same.
+    # A segment that replaces one is handled in order of time as well, so that a repeated upload
+    # has the same result.
     stays = ~np.isin(stored.ids, given.ids)
     known = take(stored, stays)
     is_compared = np.ones(len(known), dtype=bool) if compared is None else compared[stays]
-    given = take(given, np.lexsort((given.ids, _moments(given))))
+    given = take(given, np.lexsort((given.ids, _times_of(given))))
     given, replaces = _as_views_of(given, stored)
 
     both = [known, given]
     seen = np.concatenate([_column(each, "seen") for each in both])
-    names, things = np.unique(
+    names, objects = np.unique(
         np.concatenate([_column(each, "views") for each in both]), return_inverse=True
     )
-    count = np.bincount(things[: len(known)], minlength=len(names))
+    count = np.bincount(objects[: len(known)], minlength=len(names))
     count += np.array([views_elsewhere.get(name, 0) for name in names.tolist()], dtype=np.int64)
     centroids = np.concatenate([each.centroids for each in both])
     numbers, around = neighboring(centroids, radius)
     is_kept = np.arange(len(seen)) < len(known)
-    moments = np.concatenate([_moments(each) for each in both])
+    times = np.concatenate([_times_of(each) for each in both])
     token = current()
     _compare(
         centroids,
         numbers,
         around,
-        moments,
-        np.floor(moments).clip(0, np.iinfo(np.uint32).max).astype(np.uint32),
+        times,
+        np.floor(times).clip(0, np.iinfo(np.uint32).max).astype(np.uint32),
         _robots(known, given),
         np.concatenate([each.frame_positions[each.frame_index] for each in both]),
         same.quantizer.levels(np.concatenate([each.codes for each in both])),
         is_compared,
         replaces,
         itself,
-        (float(radius), float(np.float32(same.steps)), float(same_stand), int(views)),
+        (float(radius), float(np.float32(same.steps)), float(same_viewpoint), int(views)),
         (MOST_COMPARED, MOST_VISITED),
         token.flag,
-        things,
+        objects,
         count,
         seen,
         is_kept,
     )
     token.check()
-    views_of = names[things]
+    views_of = names[objects]
 
     of_known, of_given = slice(len(known)), slice(len(known), None)
     again = seen[of_known] > _column(known, "seen")
     refreshed = take(replace(known, seen=seen[of_known]), again)
     kept = take(replace(given, seen=seen[of_given], views=views_of[of_given]), is_kept[of_given])
     changed = apply(refreshed, Delta(canonical(kept), NONE))
-    return Sighting(changed, refreshed.ids, len(given) - len(kept))
+    return Deduplicated(changed, refreshed.ids, len(given) - len(kept))
 
 
 def count_elsewhere(content: CompactMap, stored: CompactMap) -> dict[int, int]:
-    """Count the views that a map has of its segments' things, without these segments, by thing."""
+    """Count a map's views of these segments' objects outside these segments, by object."""
     here, there = (_column(_filled(each), "views") for each in (stored, content))
-    things, counts = np.unique(here, return_counts=True)
-    if not len(things):
+    objects, counts = np.unique(here, return_counts=True)
+    if not len(objects):
         return {}
-    places = np.searchsorted(things, there).clip(max=len(things) - 1)
-    every = np.bincount(places[things[places] == there], minlength=len(things))
-    return dict(zip(things.tolist(), (every - counts).tolist(), strict=True))
+    places = np.searchsorted(objects, there).clip(max=len(objects) - 1)
+    every = np.bincount(places[objects[places] == there], minlength=len(objects))
+    return dict(zip(objects.tolist(), (every - counts).tolist(), strict=True))
 
 
 def _filled(content: CompactMap) -> CompactMap:
@@ -182,10 +182,10 @@ def _filled(content: CompactMap) -> CompactMap:
 
 
 def _as_views_of(given: CompactMap, stored: CompactMap) -> tuple[CompactMap, Bool]:
-    """Segments as given, but those that replace stored ones are views of what those are views of.
+    """Give segments that replace stored ones the `views` of those and the later `seen`.
 
     Returns:
-        The segments, and of each whether it replaces one.
+        The segments, and which of them replace a stored one.
     """
     if not len(stored):
         return given, np.zeros(len(given), dtype=bool)
@@ -212,7 +212,7 @@ def _robots(known: CompactMap, given: CompactMap) -> Int64:
     )
 
 
-def _moments(content: CompactMap) -> Float64:
+def _times_of(content: CompactMap) -> Float64:
     return content.frame_times[content.frame_index]
 
 
@@ -221,10 +221,10 @@ def _compare(
     centroids: Float64,
     numbers: Int64,
     around: Int64,
-    moments: Float64,
+    times: Float64,
     captured: UInt32,
     robots: Int64,
-    stands: Float64,
+    viewpoints: Float64,
     levels: Int8,
     is_compared: Bool,
     replaces: Bool,
@@ -232,26 +232,26 @@ def _compare(
     limits: tuple[float, float, float, int],
     most: tuple[int, int],
     flag: Int32,
-    things: Int64,
+    objects: Int64,
     count: Int64,
     seen: UInt32,
     is_kept: Bool,
 ) -> None:
     """Decide for each given segment, in order, whether it is kept.
 
-    Rows are the known segments, then the given ones. What is kept stands in a list of its cell,
+    Rows are the known segments, then the given ones. Each cell has a linked list of its kept rows,
     the latest first.
 
     Args:
-        numbers: the cell of each row.
-        around: of each cell, see `neighboring`.
-        captured: moments in whole seconds.
-        robots: whose each row is, by number.
-        limits: radius, steps of the same look, meters of the same stand, views of a thing.
-        most: how many are compared and visited.
-        things, count, seen, is_kept: are filled; `count` by thing.
+        numbers: cell of each row.
+        around: neighbors of each cell, see `neighboring`.
+        captured: times of capture in whole seconds.
+        robots: robot of each row, by number.
+        limits: radius, steps of the same look, meters of the same viewpoint, views of an object.
+        most: largest numbers of rows compared and visited.
+        objects, count, seen, is_kept: are filled; `count` by object.
     """
-    radius, steps, same_stand, views = limits
+    radius, steps, same_viewpoint, views = limits
     first_given = len(is_compared)
     heads = np.full(len(around), -1, dtype=np.int64)
     following = np.empty(len(numbers), dtype=np.int64)
@@ -266,30 +266,30 @@ def _compare(
         found = 0
         if not replaces[row - first_given]:
             found = _comparable(
-                row, centroids, around[numbers[row]], heads, following, moments, stands, radius,
+                row, centroids, around[numbers[row]], heads, following, times, viewpoints, radius,
                 most[1], others,
             )  # fmt: skip
         if found:
             nearest, distance = _most_alike(row, others[:found], levels)
-            thing = things[nearest]
+            object_ = objects[nearest]
             away = np.inf
             for place in range(found):
                 other = others[place]
-                if things[other] == thing:
+                if objects[other] == object_:
                     squared = 0.0
                     for axis in range(3):
-                        squared += (stands[other, axis] - stands[row, axis]) ** 2
+                        squared += (viewpoints[other, axis] - viewpoints[row, axis]) ** 2
                     away = min(away, np.sqrt(squared))
-            if distance <= steps or away <= same_stand or count[thing] >= views:
+            if distance <= steps or away <= same_viewpoint or count[object_] >= views:
                 when = seen[row]
                 if robots[nearest] != robots[row]:
-                    # For another robot's segment it speaks of its own capture alone.
+                    # A robot confirms another robot's segment only for its own time of capture.
                     when = min(when, captured[row])
                 seen[nearest] = max(seen[nearest], when)
                 continue
-            things[row] = thing
+            objects[row] = object_
         is_kept[row] = True
-        count[things[row]] += 1
+        count[objects[row]] += 1
         if itself:
             following[row] = heads[numbers[row]]
             heads[numbers[row]] = row
@@ -302,18 +302,18 @@ def _comparable(
     around: Int64,
     heads: Int64,
     following: Int64,
-    moments: Float64,
-    stands: Float64,
+    times: Float64,
+    viewpoints: Float64,
     radius: float,
     most_visited: int,
     others: Int64,
 ) -> int:
-    """Fill `others` with what was kept near a row; return their number.
+    """Fill `others` with kept rows near a row; return their number.
 
-    What was seen at the same moment, by the same sensor, is something else.
+    Rows seen at the same time by the same sensor are other objects and left out.
     """
     found = visited = 0
-    # The row's own cell comes first: what is nearest is compared where there is too much.
+    # The row's own cell comes first, so that the nearest rows are compared if there are many.
     for cell in around:
         if cell < 0:
             break
@@ -326,10 +326,10 @@ def _comparable(
             for axis in range(3):
                 squared += (centroids[other, axis] - centroids[row, axis]) ** 2
             if squared <= radius * radius and (
-                moments[other] != moments[row]
-                or stands[other, 0] != stands[row, 0]
-                or stands[other, 1] != stands[row, 1]
-                or stands[other, 2] != stands[row, 2]
+                times[other] != times[row]
+                or viewpoints[other, 0] != viewpoints[row, 0]
+                or viewpoints[other, 1] != viewpoints[row, 1]
+                or viewpoints[other, 2] != viewpoints[row, 2]
             ):
                 others[found] = other
                 found += 1
@@ -339,9 +339,9 @@ def _comparable(
 
 @compiled
 def _most_alike(row: int, others: Int64, levels: Int8) -> tuple[int, float]:
-    """Return the segment of `others` most similar to a row, the first of equals, and its distance.
+    """Return the row of `others` most similar to a row, the first of equals, and its distance.
 
-    Distances are float32, as those of descriptors are; squares of levels are whole numbers.
+    Distances are float32, as those of descriptors are; squares of levels are integers.
     """
     nearest, least = -1, np.float32(np.inf)
     for other in others:

@@ -1,9 +1,10 @@
-"""Nearest descriptors among many: exact, whatever the size of the map.
+"""Index: exact nearest descriptors in maps of any size.
 
-Two dimensions of two bits fill a nibble, as does one of four: that is a product quantiser whose
+Two dimensions of two bits fill a nibble, as does one of four: that is a product quantizer whose
 codebook needs no training. FAISS scans such codes 32 at a time in registers (André et al., *Cache
-locality is not enough*, VLDB 2015). What it rounds on the way has a bound: distances of what it
-finds are computed anew from the codes, and where the bound leaves a doubt it is asked for more.
+locality is not enough*, VLDB 2015). FAISS rounds the distances, by at most a known bound. The index
+computes exact distances of the rows that FAISS returns. If a missing row could be nearer within the
+bound, the index asks FAISS for more rows.
 """
 
 from abc import ABC, abstractmethod
@@ -19,23 +20,23 @@ from placecell.descriptors.quantizer import LEVELS, Quantizer
 from service.maps.layers import MapLayers
 
 MARGIN = 12
-"""Rows that are fetched beyond those wanted, at first; few queries must be asked again."""
+"""Number of rows fetched beyond k at first, so that few queries need a second search."""
 
 MOST = 1 << 13
-"""Rows fetched for the sake of ties: of more that are equally near, some are left out."""
+"""Largest number of rows fetched to resolve ties; the index drops some of more equal rows."""
 
 ROWS = 1 << 14
-"""Rows of codes converted to levels per step: as floats they are 4 to 16 times as large."""
+"""Number of codes converted to levels per step; as floats they take 4 to 16 times the bytes."""
 
 BLOCK = 1 << 21
-"""Bytes of codes that are compared at once: of many ties it would be gigabytes."""
+"""Bytes of codes compared per step; many ties would otherwise take gigabytes."""
 
 
 class MapIndex(ABC):
-    """Searches stored descriptors by Euclidean distance."""
+    """Index over stored descriptors by Euclidean distance."""
 
     def __init__(self, codes: Int8) -> None:
-        """Of int8 (n, code bytes)."""
+        """Index codes, int8 (n, code bytes)."""
         self._codes = codes
 
     def __len__(self) -> int:
@@ -44,22 +45,22 @@ class MapIndex(ABC):
     def search(
         self, codes: Int8, k: int, gone: Bool | None = None, margin: int = MARGIN
     ) -> tuple[Float64, Int64]:
-        """The nearest rows to each query; the same whatever the other queries are.
+        """Return the k nearest rows to each query, independent of the other queries.
 
         Args:
-            codes: int8 (q, code bytes).
-            k: so many, or all if there are fewer.
-            gone: of each row, whether it is not to be found.
-            margin: rows to fetch beyond k.
+            codes: queries, int8 (q, code bytes).
+            k: number of rows; all rows if there are fewer.
+            gone: rows to exclude, bool (n,); None: none.
+            margin: number of rows to fetch beyond k.
 
         Returns:
-            Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows,
+            Distances in steps of the quantizer, float64 (q, min(k, n)), ascending; and rows,
             int64, of the same shape, ascending among equal distances.
         """
         k = min(k, len(self) - (0 if gone is None else int(np.count_nonzero(gone))))
         if not k or not len(codes):
             return np.zeros((len(codes), k)), np.zeros((len(codes), k), dtype=np.int64)
-        # Requests are searched side by side: a thread each wastes less than all threads for each.
+        # Requests are searched in parallel, so each search uses one thread.
         faiss.omp_set_num_threads(1)
         fetch = min(k + margin, len(self))
         squared, rows, complete = self._nearest(codes, fetch)
@@ -81,8 +82,8 @@ class MapIndex(ABC):
         """Return about the k nearest rows to each query, for choosing maps to search exactly.
 
         Args:
-            codes: int8 (q, code bytes).
-            k: at most as many as there are rows.
+            codes: queries, int8 (q, code bytes).
+            k: number of rows, at most n.
 
         Returns:
             Squared distances in steps, rounded, float32 (q, k), ascending; and rows, int64 (q, k);
@@ -91,19 +92,19 @@ class MapIndex(ABC):
 
     @abstractmethod
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
-        """Rows near to each query.
+        """Return rows near each query.
 
         Returns:
-            Squared distances in steps, float64 (q, fetch), exact; their rows, int64 (q, fetch); and
-            the squared distance below which none is missing, float64 (q,).
+            Exact squared distances in steps, float64 (q, fetch); their rows, int64 (q, fetch); and
+            the squared distance below which no row is missing, float64 (q,).
         """
 
 
 class FlatIndex(MapIndex):
-    """Compares with every row, dimension by dimension.
+    """Index that compares a query with every row, dimension by dimension.
 
-    Levels are whole numbers, and squared distances of up to 258 dimensions stay below 2^24: exact
-    in float32, so a distance depends neither on the batch nor on the order of summation.
+    Levels are integers, and squared distances of up to 258 dimensions stay below 2^24, so they are
+    exact in float32: they depend neither on the batch nor on the order of summation.
     """
 
     def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
@@ -132,10 +133,10 @@ class Nibbles:
     """Product quantizer tables over nibbles, one set for all indexes of a code.
 
     Attributes:
-        apart: uint16 (65,536,), squared distance of two bytes, at 256 times the one plus the other.
+        apart: uint16 (65,536,), squared distance of bytes a and b at index 256 a + b.
         faiss_bytes: uint8 (256,), the byte that FAISS reads in place of a code's byte.
-        codebook: float32 (16, dimensions of a nibble), the levels that a nibble stands for.
-        per_nibble: dimensions of a nibble.
+        codebook: float32 (16, dimensions of a nibble), the levels of each nibble.
+        per_nibble: number of dimensions of a nibble.
         widest: the largest squared distance of two nibbles.
     """
 
@@ -150,14 +151,14 @@ class Nibbles:
     def of(cls, per_byte: int) -> "Nibbles":
         """Return the tables of codes with 2 or 4 dimensions per byte, for any step.
 
-        A table of 128 kB for each index would be a megabyte for each map, however empty.
+        A table of 128 kB per index would take a megabyte per map, even for empty maps.
         """
         quantizer = Quantizer(1.0, per_byte)
         every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None]
         levels = quantizer.levels(every).astype(np.int32)
         apart = ((levels[:, None] - levels[None]) ** 2).sum(axis=2).ravel()
         per_nibble = per_byte // 2
-        # A nibble's value: its dimensions' digits, as the quantiser counts them.
+        # A nibble's value has its dimensions' digits in the quantizer's order.
         places = LEVELS[per_byte] ** np.arange(per_nibble)
         digits = (levels + quantizer.highest) // quantizer.spacing
         low, high = digits[:, :per_nibble] @ places, digits[:, per_nibble:] @ places
@@ -175,7 +176,7 @@ class Nibbles:
         plain.is_trained = True
         plain.codes.resize(codes.size)
         room = faiss.rev_swig_ptr(plain.codes.data(), codes.size).reshape(codes.shape)
-        for start in range(0, len(codes), ROWS):  # as indices they take eight times as much
+        for start in range(0, len(codes), ROWS):  # as indices they take eight times the bytes
             some = slice(start, start + ROWS)
             room[some] = self.faiss_bytes[codes[some].view(np.uint8)]
         plain.ntotal = len(codes)
@@ -185,7 +186,7 @@ class Nibbles:
 class NibbleIndex(MapIndex):
     """Index that adds up the distances of nibbles.
 
-    Takes the codes' own bytes a segment in memory, beside the codes. An empty one takes nothing.
+    It takes as much memory as the codes themselves. An empty index takes none.
     """
 
     def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
@@ -194,13 +195,13 @@ class NibbleIndex(MapIndex):
         self._quantizer = quantizer
         self._tables = Nibbles.of(quantizer.per_byte)
         self._index = self._tables.index(codes) if len(codes) else None
-        # FAISS rounds each nibble's part to 1/255 of the widest, and the sum to 16 bits.
+        # FAISS rounds each nibble's distance to 1/255 of the largest, and the sum to 16 bits.
         nibbles = 2 * codes.shape[1]
         self._bound = nibbles * self._tables.widest / 2 * max(1 / 255, nibbles / 65_535)
 
     def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
-        """Return about the k nearest rows, by distances as FAISS rounds them."""
-        assert self._index is not None  # nothing is fetched of an empty one
+        """Return about the k nearest rows, by distances that FAISS rounded."""
+        assert self._index is not None  # an empty index fetches nothing
         faiss.omp_set_num_threads(1)
         levels = self._quantizer.levels(codes).astype(np.float32)
         squared, rows = self._index.search(levels, k)
@@ -208,7 +209,7 @@ class NibbleIndex(MapIndex):
 
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantizer.levels(codes).astype(np.float32)
-        assert self._index is not None  # nothing is fetched of an empty one
+        assert self._index is not None  # an empty index fetches nothing
         told, rows = self._index.search(levels, fetch)
         asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
         stored = self._codes.view(np.uint8)
@@ -221,14 +222,14 @@ class NibbleIndex(MapIndex):
 
 
 def index_of(codes: Int8, quantizer: Quantizer) -> MapIndex:
-    """The index that suits the codes: the quickest by far, where they are made of nibbles."""
+    """Return the fastest index for codes of this quantizer."""
     kind = NibbleIndex if quantizer.per_byte in {2, 4} else FlatIndex
     return kind(codes, quantizer)
 
 
 @dataclass(frozen=True, slots=True)
 class LayeredIndex:
-    """An index over each layer of a map."""
+    """Index over both layers of a map."""
 
     base: MapIndex
     recent: MapIndex
@@ -237,26 +238,26 @@ class LayeredIndex:
     def of(
         cls, layers: MapLayers, quantizer: Quantizer, base: MapIndex | None = None
     ) -> "LayeredIndex":
-        """Over both layers.
+        """Index both layers.
 
         Args:
-            layers: of the map.
-            quantizer: of the model that made it.
-            base: the base's, if it is there already.
+            layers: layers of the map.
+            quantizer: quantizer of the map's model.
+            base: index of the base, if there is one already.
         """
         recent = index_of(layers.recent.codes, quantizer)
         return cls(base or index_of(layers.base.codes, quantizer), recent)
 
     def search(self, layers: MapLayers, codes: Int8, k: int) -> tuple[Float64, Int64]:
-        """The nearest segments to each query, over both layers.
+        """Return the k nearest segments to each query, over both layers.
 
         Args:
-            layers: that it was made of.
-            codes: int8 (q, code bytes).
-            k: so many, or all if the map has fewer.
+            layers: the indexed layers.
+            codes: queries, int8 (q, code bytes).
+            k: number of segments; all segments if the map has fewer.
 
         Returns:
-            Distances in steps of the quantiser, float64 (q, min(k, n)), ascending; and rows of
+            Distances in steps of the quantizer, float64 (q, min(k, n)), ascending; and rows of
             `layers`, int64, of the same shape, by id among equal distances.
         """
         distances, rows = self.base.search(codes, k, layers.gone if layers.gone_count else None)

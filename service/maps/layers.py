@@ -1,6 +1,6 @@
-"""A map in memory, such that a write copies little of it: a large layer, and a small one above it.
+"""Layers of a map in memory: a large base, and a small layer above it that writes copy.
 
-As in a log-structured merge tree (O'Neil et al., 1996), but of two levels, for all is in memory.
+This is a log-structured merge tree (O'Neil et al., 1996) with two levels, both in memory.
 """
 
 from collections import Counter
@@ -11,24 +11,47 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from placecell_client import CompactMap, Delta
-from placecell_client.maps.edit import apply, difference, empty, take, with_optional
+from placecell_client.maps.edit import (
+    apply,
+    canonical_difference,
+    delta_between,
+    difference,
+    empty,
+    take,
+    with_optional,
+)
 
 from placecell.core.spatial import within
 from placecell.core.types import Bool, Float64, Int64, UInt32
 
 
-@dataclass(frozen=True, eq=False)
-class MapLayers:
-    """All segments of one version of a map; nothing in it ever changes.
-
-    The segments are the rows of `base` that are not gone, and those of `recent`. A *row* of the map
-    is one of `base`, or len(base) plus one of `recent`.
+@dataclass(frozen=True, slots=True, eq=False)
+class MapChange:
+    """Change of a map, without entries that change nothing.
 
     Attributes:
-        base: in canonical form.
-        recent: in canonical form; what was added or replaced since the base was made.
-        gone: bool (len(base),), rows of the base that were removed, or are replaced in `recent`.
-        base_robots: how many segments of each robot the base has, those that are gone among them.
+        before: the segments that are replaced or removed, as they are.
+        delta: segments that are added or replaced, and ids that are removed.
+        is_empty: the map stays as it is.
+    """
+
+    before: CompactMap
+    delta: Delta
+    is_empty: bool
+
+
+@dataclass(frozen=True, eq=False)
+class MapLayers:
+    """All segments of one version of a map; immutable.
+
+    The segments are the rows of `base` that are not gone, and the rows of `recent`. A *row* of the
+    map is a row of `base`, or len(base) plus a row of `recent`.
+
+    Attributes:
+        base: segments in canonical form.
+        recent: segments added or replaced since the base was made, in canonical form.
+        gone: bool (len(base),), rows of the base that were removed, or replaced in `recent`.
+        base_robots: number of segments of each robot in the base, gone ones included.
     """
 
     base: CompactMap
@@ -38,7 +61,7 @@ class MapLayers:
 
     @classmethod
     def of(cls, content: CompactMap) -> "MapLayers":
-        """Of a map in canonical form."""
+        """Return the layers of a map in canonical form."""
         none = empty(
             content.model_id,
             content.preprocessing,
@@ -53,28 +76,28 @@ class MapLayers:
 
     @cached_property
     def gone_count(self) -> int:
-        """Rows of the base that are gone."""
+        """Number of rows of the base that are gone."""
         return int(np.count_nonzero(self.gone))
 
     @cached_property
     def ids(self) -> UInt32:
-        """Of all segments, uint32 (n,), ascending."""
+        """Ids of all segments, uint32 (n,), ascending."""
         return np.sort(np.concatenate([self.base.ids[~self.gone], self.recent.ids]))
 
     @cached_property
     def robots(self) -> Counter[str]:
-        """How many segments each robot has."""
+        """Number of segments of each robot."""
         buried = self.base.robot[np.flatnonzero(self.gone)]
         return self.base_robots - _counted(self.base.robots, buried) + robots_of(self.recent)
 
     @cached_property
     def sources(self) -> Counter[str]:
-        """How many segments were merged from each map, as far as that is known."""
+        """Number of segments that were merged from each map, as far as that is known."""
         return _sources_of(self.base, ~self.gone) + _sources_of(self.recent)
 
     @cached_property
     def time_span(self) -> tuple[float, float] | None:
-        """Earliest and latest time of frames that segments name, seconds; None without segments."""
+        """Earliest and latest time of the segments' frames, seconds; None without segments."""
         times = np.concatenate(
             [
                 self.base.frame_times[np.unique(self.base.frame_index[~self.gone])],
@@ -89,13 +112,13 @@ class MapLayers:
         return {*self.base.optional, *self.recent.optional}
 
     def content(self) -> CompactMap:
-        """The map in one piece, in canonical form."""
+        """Return the map in one piece, in canonical form."""
         if not self.gone_count and not len(self.recent) and self.optional == {*self.base.optional}:
             return self.base
         return apply(self.base, self._above())
 
     def take(self, ids: UInt32) -> CompactMap:
-        """The segments that have one of these ids, in canonical form."""
+        """Return the segments that have one of these ids, in canonical form."""
         base = _rows_of(self.base, ids)
         recent = take(self.recent, _rows_of(self.recent, ids))
         return apply(
@@ -103,20 +126,20 @@ class MapLayers:
         )
 
     def near(self, places: Float64, meters: float) -> CompactMap:
-        """The segments about these places, (p, 3): all that are so near to one, and some around."""
+        """Return all segments within a distance of any place, (p, 3), and some farther ones."""
         if not len(places):
             return self.take(self.recent.ids[:0])
         return self.take(self.column("ids", self.rows_near(places, meters)))
 
     def rows_near(self, places: Float64, meters: float) -> Int64:
-        """Rows of the map about these places, (p, 3), at least one; see `within`."""
+        """Return rows of the map near these places, (p, 3), one place or more; see `within`."""
         base, recent = (
             within(layer.centroids, places, meters) for layer in (self.base, self.recent)
         )
         return np.concatenate([base[~self.gone[base]], recent + len(self.base)])
 
     def column(self, name: str, rows: Int64) -> NDArray[Any]:
-        """Values of a column that every map has, at rows of the map, of any shape."""
+        """Return a required column's values at rows of the map, an array of any shape."""
         base, recent = getattr(self.base, name), getattr(self.recent, name)
         above = rows >= len(self.base)
         if not above.any():
@@ -127,20 +150,20 @@ class MapLayers:
         return values
 
     def robot_names(self, rows: Int64) -> NDArray[np.object_]:
-        """Whose segments these rows are, of any shape."""
+        """Return the robots of rows, an array of any shape."""
         names = np.array([*self.base.robots, *self.recent.robots], dtype=object)
         places = self.column("robot", rows).astype(np.int64)
         return np.asarray(names[places + (rows >= len(self.base)) * len(self.base.robots)])
 
     def last_seen(self) -> tuple[UInt32, UInt32]:
-        """Ids of all segments, and when each was last seen, whole seconds; in no order."""
+        """Return all ids, and when each segment was last seen, whole seconds; unordered."""
         kept = take(self.base, ~self.gone)
         layers = [with_optional(layer, ["seen"]) for layer in (kept, self.recent)]
         ids, seen = zip(*((layer.ids, layer.seen) for layer in layers), strict=True)
         return np.concatenate(ids), np.concatenate(seen)
 
     def after(self, delta: Delta) -> "MapLayers":
-        """The map after a delta."""
+        """Return the map after a delta."""
         if delta.is_whole:
             return MapLayers.of(delta.changed)
         gone = self.gone.copy()
@@ -148,31 +171,48 @@ class MapLayers:
         gone[_rows_of(self.base, delta.removed)] = True
         return replace(self, recent=apply(self.recent, delta), gone=gone)
 
-    def effect_of(self, delta: Delta) -> tuple[CompactMap, Delta]:
-        """What a delta does to this map.
+    def effect_of(self, delta: Delta) -> "MapChange":
+        """Return the effect of a delta on this map.
 
-        Returns:
-            The segments that it replaces or removes, as they are; and the delta without what
-            changes nothing: segments that are there already, ids of none.
+        Args:
+            delta: the delta; its segments are in canonical form.
         """
         if delta.is_whole:
-            return self.content(), delta
+            return MapChange(self.content(), delta, is_empty=False)
         before = self.take(np.union1d(delta.changed.ids, delta.removed))
         after = with_optional(delta.changed, before.optional)
-        changed, removed = difference(before, after)
-        touched = np.isin(before.ids, np.concatenate([changed.ids, removed]))
-        return take(before, touched), replace(delta, changed=changed, removed=removed)
+        before = with_optional(before, after.optional)
+        changed, removed = canonical_difference(before, after)
+        return self._change(before, replace(delta, changed=changed, removed=removed))
 
-    def is_changed_by(self, delta: Delta) -> bool:
-        """Whether a delta, as `effect_of` gives it, makes another map of this one."""
-        return bool(delta.is_whole or len(delta) or {*delta.changed.optional} - self.optional)
+    def change_to(
+        self, content: CompactMap, sequence: int, present: CompactMap | None = None
+    ) -> "MapChange":
+        """Return the change that turns this map into another content.
+
+        Args:
+            content: the other content, in canonical form.
+            sequence: sequence of this version.
+            present: `self.content()`, if the caller has it already.
+        """
+        present = self.content() if present is None else present
+        delta = delta_between(present, content, sequence, sequence + 1)
+        if delta.is_whole:
+            return MapChange(present, delta, is_empty=False)
+        return self._change(present, delta)
+
+    def _change(self, content: CompactMap, delta: Delta) -> "MapChange":
+        """Return a change, given this map's content at least where the delta changes it."""
+        touched = np.isin(content.ids, np.concatenate([delta.changed.ids, delta.removed]))
+        is_empty = not len(delta) and not {*delta.changed.optional} - self.optional
+        return MapChange(take(content, touched), delta, is_empty)
 
     def rebased(self, base: CompactMap, before: "MapLayers") -> "MapLayers":
-        """The same segments above a new base.
+        """Return the same segments as layers above a new base.
 
         Args:
             base: `before.content()`.
-            before: an earlier version, whose own base is this one's.
+            before: an earlier version, with the same base as this one.
         """
         changed, removed = difference(before.recent, self.recent)
         buried = self.base.ids[self.gone & ~before.gone]
@@ -180,13 +220,13 @@ class MapLayers:
         return MapLayers.of(base).after(Delta(changed, removed))
 
     def _above(self) -> Delta:
-        """From the base to the map."""
+        """Return the delta from the base to the map."""
         removed = np.setdiff1d(self.base.ids[self.gone], self.recent.ids)
         return Delta(self.recent, removed)
 
 
 def robots_of(content: CompactMap) -> Counter[str]:
-    """How many segments each robot has."""
+    """Return the number of segments of each robot."""
     return _counted(content.robots, content.robot)
 
 
@@ -203,7 +243,7 @@ def _counted(names: tuple[str, ...], indices: NDArray[np.uint16]) -> Counter[str
 
 
 def _rows_of(content: CompactMap, ids: UInt32) -> Int64:
-    """The rows of those ids that a map in canonical form has."""
+    """Return the rows of these ids in a map in canonical form; ids it lacks are left out."""
     rows = np.searchsorted(content.ids, ids)
     inside = rows < len(content)
     return np.asarray(rows[inside][content.ids[rows[inside]] == ids[inside]])

@@ -8,18 +8,18 @@ from service.core.settings import Limits
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import MapHead
 
-CURE = (
+ADVICE = (
     "Delete maps, or drop old versions (POST /maps/MAP/compact); both are always possible. "
     "The service also drops old versions by itself within seconds."
 )
 
 
 class OverQuotaError(Problem):
-    """Write would exceed a quota.
+    """The write would exceed a quota.
 
     Attributes:
-        whole: the detail for a key that opens all maps; the detail of the problem itself tells
-            nothing of maps that a key may not open.
+        whole: the detail for a key that opens all maps; the detail of the problem itself reveals
+            nothing about maps that the key does not open.
     """
 
     def __init__(self, detail: str, whole: str | None = None) -> None:
@@ -28,19 +28,19 @@ class OverQuotaError(Problem):
 
 
 class NoRoomError(OverQuotaError):
-    """Write would make a map, or all maps, exceed the bytes of the store."""
+    """The write would exceed the stored bytes of a map or of all maps."""
 
 
 @dataclass(slots=True)
 class Usage:
-    """Usage counters that follow each write, so that no write reads all maps.
+    """Usage counters, updated by each write, so that no write reads all maps.
 
     Attributes:
-        maps: how many there are.
-        bytes: of all maps in the store, with their old versions.
-        by_key: how many maps the keys have made, by the key's name. A map counts for the key that
-            wrote the oldest version that is kept.
-        robots: how many live segments each robot has in all maps.
+        maps: number of maps.
+        bytes: bytes of all maps in the store, with their old versions.
+        by_key: number of maps that each key has created, by the key's name. A map counts for the
+            key that wrote its oldest kept version.
+        robots: number of segments that each robot has in the newest versions of all maps.
     """
 
     maps: int = 0
@@ -48,19 +48,19 @@ class Usage:
     by_key: Counter[str] = field(default_factory=Counter)
     robots: Counter[str] = field(default_factory=Counter)
 
-    def add(self, head: MapHead, stored: MapSnapshot | None = None) -> None:
-        """Count a map; one that is damaged has a head alone."""
-        self._count(head, stored, 1)
+    def add(self, head: MapHead, snapshot: MapSnapshot | None = None) -> None:
+        """Count a map; a damaged map has a head only."""
+        self._count(head, snapshot, 1)
 
-    def remove(self, head: MapHead, stored: MapSnapshot | None = None) -> None:
+    def remove(self, head: MapHead, snapshot: MapSnapshot | None = None) -> None:
         """Stop counting a map."""
-        self._count(head, stored, -1)
+        self._count(head, snapshot, -1)
 
-    def _count(self, head: MapHead, stored: MapSnapshot | None, sign: int) -> None:
+    def _count(self, head: MapHead, snapshot: MapSnapshot | None, sign: int) -> None:
         self.maps += sign
         self.bytes += sign * head.bytes
         _add(self.by_key, head.author, sign)
-        for robot, segments in (stored.layers.robots if stored is not None else {}).items():
+        for robot, segments in (snapshot.layers.robots if snapshot is not None else {}).items():
             _add(self.robots, robot, sign * segments)
 
 
@@ -69,7 +69,7 @@ class Quotas:
     """Quotas from the settings.
 
     Attributes:
-        limits: of the settings.
+        limits: limits of the settings.
     """
 
     limits: Limits
@@ -78,10 +78,10 @@ class Quotas:
         """Check that a map may be created.
 
         Args:
-            usage: before the write.
-            author: name of the key that makes it.
-            robots: how many segments each robot will have in it.
-            size: bytes of its file.
+            usage: usage before the write.
+            author: name of the key that creates the map.
+            robots: number of segments that each robot will have in the map.
+            size: bytes of the map file.
 
         Raises:
             OverQuotaError: a quota would be exceeded.
@@ -105,10 +105,10 @@ class Quotas:
         """Check that a version may be added; removal of segments is never refused.
 
         Args:
-            usage: before the write.
-            old: the map before it.
-            robots: how many segments each robot will have in the map.
-            sources: how many names of other maps the map will hold.
+            usage: usage before the write.
+            old: the map before the write.
+            robots: number of segments that each robot will have in the map.
+            sources: number of source maps that the map will name.
             size: bytes of the commit; 0 if it only removes segments.
 
         Raises:
@@ -123,7 +123,8 @@ class Quotas:
         limits = self.limits
         if new.total() > max(limits.map_segments, before.total()):
             raise OverQuotaError(
-                f"The map would have {new.total()} segments; the limit is {limits.map_segments}."
+                f"The map would have {new.total()} segments; the limit is {limits.map_segments}. "
+                "Remove segments, or write to another map."
             )
         self._check_names("robots", len(before), len(new))
         for robot in new:
@@ -131,26 +132,28 @@ class Quotas:
                 continue
             total = usage.robots[robot] - before[robot] + new[robot]
             if total > limits.robot_segments:
-                limit = f"the limit is {limits.robot_segments}."
+                limit = f"the limit is {limits.robot_segments}. Remove segments of this robot."
                 raise OverQuotaError(
-                    f"{robot!r:.80} would have too many segments in all maps; {limit}",
-                    f"{robot!r:.80} would have {total} segments in all maps; {limit}",
+                    f"Robot {robot!r:.80} would have too many segments in all maps; {limit}",
+                    f"Robot {robot!r:.80} would have {total} segments in all maps; {limit}",
                 )
 
-    def _check_names(self, what: str, before: int, new: int) -> None:
+    def _check_names(self, kind: str, before: int, new: int) -> None:
         limit = self.limits.map_robots
         if new > max(limit, before):
-            raise OverQuotaError(f"The map would have {new} {what}; the limit is {limit}.")
+            raise OverQuotaError(
+                f"The map would name {new} {kind}; the limit is {limit}. Write to another map."
+            )
 
     def _check_bytes(self, usage: Usage, before: int, size: int) -> None:
         limits = self.limits
         if before + size > limits.map_stored_bytes:
             raise NoRoomError(
                 f"The map would take {before + size} bytes in the store, with its old versions; "
-                f"the limit is {limits.map_stored_bytes}. {CURE}"
+                f"the limit is {limits.map_stored_bytes}. {ADVICE}"
             )
         if usage.bytes + size > limits.stored_bytes:
-            limit = f"the limit is {limits.stored_bytes} bytes. {CURE}"
+            limit = f"the limit is {limits.stored_bytes} bytes. {ADVICE}"
             raise NoRoomError(
                 f"The store would hold too much, with old versions; {limit}",
                 f"The store would hold {usage.bytes + size} bytes, with old versions; {limit}",

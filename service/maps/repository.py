@@ -1,4 +1,4 @@
-"""The maps that the service knows: stored, and searchable if the model that made them is loaded."""
+"""Map repository: the stored maps in memory, searchable if their model is loaded."""
 
 import logging
 import time
@@ -9,7 +9,7 @@ from threading import Lock
 from weakref import WeakValueDictionary
 
 import numpy as np
-from placecell_client import CompactMap, Delta, MapFileError, encode, encode_delta
+from placecell_client import CompactMap, Delta, MapFileError, encode_delta
 
 from placecell.core.cancellation import holding
 from placecell.core.types import UInt32
@@ -34,7 +34,9 @@ class MapRepository:
     `writing(name)` from reading the snapshot until `commit` returns.
 
     Attributes:
-        copied_segments: segments that writes have copied.
+        store: the store on disk.
+        shared: indexes that several small maps share.
+        copied_segments: number of segments that writes have copied.
     """
 
     def __init__(
@@ -45,8 +47,9 @@ class MapRepository:
         cache: MapCache,
         clock: Callable[[], float] = time.time,
     ) -> None:
-        """Load what is stored. A damaged map is left out, with a line in the log."""
+        """Load the stored maps. A damaged map is logged and not served."""
         self.store = store
+        self.shared = SharedIndexes()
         self.copied_segments = 0
         self._models = models
         self._quotas = quotas
@@ -56,38 +59,43 @@ class MapRepository:
         self._committing = Lock()
         self._damaged: dict[str, MapHead] = {}
         self._by_name: dict[str, MapSnapshot] = {}
-        self.shared = SharedIndexes()
         self._usage = Usage()
         self._refused: set[str] = set()
         loaded = {}
         for head in store.heads():
             try:
-                layers, base_sequence = load_newest(store, head, cache)
+                layers, base = load_newest(store, head, cache)
             except (StoreError, MapFileError) as error:
                 logger.error("map %r is damaged and not served: %s", head.name, error)
                 self._damaged[head.name] = head
                 self._usage.add(head)
             else:
-                loaded[head.name] = MapSnapshot(head, layers, base_sequence, head.sequence, None)
-        self._models.want({stored.model_id for stored in loaded.values()})
-        # Shown at once: a new dictionary for each map would take a time that grows with its square.
+                loaded[head.name] = MapSnapshot(
+                    head=head,
+                    layers=layers,
+                    base_sequence=base,
+                    frame_since=head.sequence,
+                    index=None,
+                )
+        self._models.want({snapshot.model_id for snapshot in loaded.values()})
+        # Published at once: a new dictionary for each map would take quadratic time.
         self._by_name = {
-            name: replace(stored, index=self._index(stored.layers))
-            for name, stored in loaded.items()
+            name: replace(snapshot, index=self._index(snapshot.layers))
+            for name, snapshot in loaded.items()
         }
-        for stored in self._by_name.values():
-            self._usage.add(stored.head, stored)
+        for snapshot in self._by_name.values():
+            self._usage.add(snapshot.head, snapshot)
 
     def index_all(self) -> None:
-        """Make those maps searchable whose models can be had by now."""
-        self._models.want({stored.model_id for stored in self.all()})
+        """Index the maps whose models have been loaded since."""
+        self._models.want({snapshot.model_id for snapshot in self.all()})
         for name in self._by_name:
             with self.writing(name):
-                stored = self._by_name.get(name)
-                if stored is not None and stored.index is None:
-                    index = self._index(stored.layers)
+                snapshot = self._by_name.get(name)
+                if snapshot is not None and snapshot.index is None:
+                    index = self._index(snapshot.layers)
                     with self._committing:
-                        self._swap(replace(stored, index=index))
+                        self._publish(replace(snapshot, index=index))
 
     def __len__(self) -> int:
         return len(self._by_name)
@@ -104,59 +112,68 @@ class MapRepository:
         return self._usage.bytes
 
     def trouble(self) -> str | None:
-        """Return why no map can be stored; None if maps can be."""
+        """Return why no map can be stored; None if maps can be stored."""
         return self.store.trouble()
 
     def all(self) -> list[MapSnapshot]:
-        """Sorted by name."""
-        return sorted(self._by_name.values(), key=lambda stored: stored.name)
+        """Return all maps, sorted by name."""
+        return sorted(self._by_name.values(), key=lambda snapshot: snapshot.name)
 
     def damaged(self) -> list[str]:
-        """Names of the maps that are stored, but cannot be read."""
+        """Return the names of the maps that are stored but cannot be read."""
         return sorted(self._damaged)
 
     def find(self, name: str) -> MapSnapshot | None:
-        """One map, if there is one.
+        """Return the map of this name; None if there is none.
 
         Raises:
-            Problem: 500 if it is damaged.
+            Problem: 500 if the map is damaged.
         """
         if name in self._damaged:
             raise Problem(
                 500,
                 "map-damaged",
-                f"Map {name!r} is damaged on disk; the log says how. Bring the data directory back "
-                "from a backup, or delete the map and put it again.",
+                f"Map {name!r} is damaged on disk; the log has the reason. Restore the data "
+                "directory from a backup, or delete the map and upload it again.",
             )
         return self._by_name.get(name)
 
     def get(self, name: str) -> MapSnapshot:
-        """One map; 404 if there is none."""
-        stored = self.find(name)
-        if stored is None:
-            raise unknown(name)
-        return stored
+        """Return the map of this name; 404 if there is none."""
+        snapshot = self.find(name)
+        if snapshot is None:
+            raise unknown_map(name)
+        return snapshot
 
     @contextmanager
     def writing(self, name: str) -> Iterator[None]:
         """Hold the write lock of the map of this name.
 
         Raises:
-            Cancelled: the request became late, or its client left, before its turn.
+            Cancelled: the deadline passed, or the client disconnected, before the lock was free.
         """
         with self._guard:
             lock = self._locks.setdefault(name, Lock())
         with holding(lock):
             yield
 
-    def create(self, name: str, content: CompactMap, author: str, operation: str) -> MapSnapshot:
-        """Store a map under a new name; on return it is safely on disk.
+    def create(
+        self, name: str, content: CompactMap, file: bytes, author: str, operation: str
+    ) -> MapSnapshot:
+        """Store a map under a new name; on return it is durable.
+
+        Args:
+            name: name of the map.
+            content: its segments, in canonical form.
+            file: the map file of this content.
+            author: name of the key.
+            operation: name of the operation in the history.
 
         Raises:
-            Problem: 507 if it is more than a quota allows.
-            StoreError: nothing was changed.
+            Problem: 507 if a quota would be exceeded.
+            StoreError: the store failed; nothing was changed.
         """
-        layers, file = MapLayers.of(content), encode(content)
+        layers = MapLayers.of(content)
         robots, index = layers.robots, self._index(layers)
         note = Note(self._clock(), author, operation, len(content), 0)
         with self._committing:
@@ -164,11 +181,13 @@ class MapRepository:
             self.copied_segments += len(content)
             runs = runs_of(content.ids)
             head = self.store.create(name, file, note, 0, Ids(runs, runs))
-            return self._swap(MapSnapshot(head, layers, 1, 1, index))
+            return self._publish(
+                MapSnapshot(head=head, layers=layers, base_sequence=1, frame_since=1, index=index)
+            )
 
     def commit(
         self,
-        stored: MapSnapshot,
+        snapshot: MapSnapshot,
         delta: Delta,
         author: str,
         operation: str,
@@ -177,111 +196,115 @@ class MapRepository:
         """Store the map's next version; on return it is durable. Raises as `create` does.
 
         Args:
-            stored: the map as it is.
-            delta: as `MapLayers.effect_of` gives it.
+            snapshot: the map as it is.
+            delta: the delta of a `MapChange`.
             author: name of the key.
-            operation: for the history.
-            written: ids of the segments that are the author's from now on.
+            operation: name of the operation in the history.
+            written: ids of the segments that become the author's; None: owners stay.
         """
-        since, until = stored.head.sequence, stored.head.sequence + 1
+        since, until = snapshot.head.sequence, snapshot.head.sequence + 1
         blob = encode_delta(replace(delta, since=0 if delta.is_whole else since, until=until))
-        layers = stored.layers.after(delta)
-        kept = stored.index if layers.base is stored.layers.base else None
+        layers = snapshot.layers.after(delta)
+        kept = snapshot.index if layers.base is snapshot.layers.base else None
         robots, sources = layers.robots, len(layers.sources)
         index = self._index(layers, kept.base if kept is not None else None)
-        # What only removes is stored even where there is no room for more.
+        # A write that only removes segments is stored even if there is no room for more.
         size = len(blob) if delta.is_whole or len(delta.changed) else 0
-        base_sequence = until if delta.is_whole else stored.base_sequence
-        # One without segments takes the frame of whatever comes next.
-        keeps = operation in KEEPS_FRAME and len(stored)
-        frame_since = stored.frame_since if keeps else until
+        # An empty map takes the frame of what is written next.
+        keeps = operation in KEEPS_FRAME and len(snapshot)
         note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
         with self._committing:
             try:
-                self._quotas.check_write(self._usage, stored, robots, sources, size)
+                self._quotas.check_write(self._usage, snapshot, robots, sources, size)
             except NoRoomError:
-                self._refused.add(stored.name)
+                self._refused.add(snapshot.name)
                 raise
             self.copied_segments += len(delta.changed) + len(layers.recent)
-            self.copied_segments += len(stored) if delta.is_whole else 0
+            self.copied_segments += len(snapshot) if delta.is_whole else 0
             own = runs_of(written) if written is not None else ()
             ids = Ids(runs_of(delta.changed.ids), own)
             frees = not len(delta.changed) and not delta.is_whole
-            head = self.store.append(stored.head, blob, note, 0, ids, frees)
-            return self._swap(MapSnapshot(head, layers, base_sequence, frame_since, index))
+            head = self.store.append(snapshot.head, blob, note, 0, ids, frees)
+            return self._publish(
+                MapSnapshot(
+                    head=head,
+                    layers=layers,
+                    base_sequence=until if delta.is_whole else snapshot.base_sequence,
+                    frame_since=snapshot.frame_since if keeps else until,
+                    index=index,
+                )
+            )
 
-    def free_ids(self, stored: MapSnapshot) -> MapHead:
+    def free_ids(self, snapshot: MapSnapshot) -> MapHead:
         """Free all ids that no kept version has; the caller holds `writing`."""
-        used = ids_ever(self.store, stored)
+        used = ids_ever(self.store, snapshot)
         with self._committing:
-            head = self.store.free_ids(stored.head.uid, used.tolist())
-            self._swap(replace(self._by_name[stored.name], head=head))
+            head = self.store.free_ids(snapshot.head.uid, used.tolist())
+            self._publish(replace(self._by_name[snapshot.name], head=head))
             return head
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
         with self._committing:
-            stored = self._by_name.get(name)
+            snapshot = self._by_name.get(name)
             head = self._damaged.get(name) or self.get(name).head
             self.store.delete(head.uid)
-            self._usage.remove(head, stored)
-            self.copied_segments += len(stored) if stored is not None else 0
+            self._usage.remove(head, snapshot)
+            self.copied_segments += len(snapshot) if snapshot is not None else 0
             self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
 
     def compact(self, head: MapHead, sequence: int, file: bytes) -> MapSnapshot:
-        """Let go of the versions before one.
+        """Drop the versions before one.
 
         Args:
-            head: of the map at some time; 404 if it was removed since.
-            sequence: of the version.
-            file: of the version.
+            head: an earlier or the present head of the map; 404 if the map was removed since.
+            sequence: sequence of the oldest version to keep.
+            file: the map file of that version.
         """
         with self.writing(head.name):
-            stored = self.get(head.name)
-            if stored.head.uid != head.uid:
-                raise unknown(head.name)
-            if stored.head.oldest >= sequence:
-                return stored
+            snapshot = self.get(head.name)
+            if snapshot.head.uid != head.uid:
+                raise unknown_map(head.name)
+            if snapshot.head.oldest >= sequence:
+                return snapshot
             with self._committing:
                 kept = self.store.compact(head.uid, sequence, file)
-                return self._swap(replace(stored, head=kept))
+                return self._publish(replace(snapshot, head=kept))
 
-    def flatten(self, stored: MapSnapshot) -> CompactMap | None:
-        """Make one layer of a map's two. Nobody waits for it, and what is written meanwhile stays.
+    def flatten(self, snapshot: MapSnapshot) -> CompactMap | None:
+        """Turn a map's two layers into one; writers wait only for the exchange.
 
         Returns:
-            All segments of that version; None if the map has become another meanwhile.
+            The segments of that version; None if the map has another base by now.
         """
-        content = stored.layers.content()
+        content = snapshot.layers.content()
         index = self._index(MapLayers.of(content))
-        with self.writing(stored.name):
-            now = self._by_name.get(stored.name)
-            if now is None or now.layers.base is not stored.layers.base:
+        with self.writing(snapshot.name):
+            now = self._by_name.get(snapshot.name)
+            if now is None or now.layers.base is not snapshot.layers.base:
                 return None
-            layers = now.layers.rebased(content, stored.layers)
+            layers = now.layers.rebased(content, snapshot.layers)
             both = self._index(layers, index.base if index is not None else None)
+            base = snapshot.head.sequence
             with self._committing:
-                self._swap(
-                    replace(now, layers=layers, base_sequence=stored.head.sequence, index=both)
-                )
+                self._publish(replace(now, layers=layers, base_sequence=base, index=both))
         return content
 
-    def _swap(self, stored: MapSnapshot) -> MapSnapshot:
+    def _publish(self, snapshot: MapSnapshot) -> MapSnapshot:
         """Publish a map in a new dictionary, so that readers of the old one are undisturbed.
 
         `_committing` is held.
         """
-        before = self._by_name.get(stored.name)
+        before = self._by_name.get(snapshot.name)
         if before is not None:
             self._usage.remove(before.head, before)
-        self._usage.add(stored.head, stored)
-        self._by_name = self._by_name | {stored.name: stored}
-        return stored
+        self._usage.add(snapshot.head, snapshot)
+        self._by_name = self._by_name | {snapshot.name: snapshot}
+        return snapshot
 
     def _index(self, layers: MapLayers, base: MapIndex | None = None) -> LayeredIndex | None:
-        made_by = layers.base.model_id
-        model = self._models.find(made_by)
+        model = self._models.find(layers.base.model_id)
         if model is None or layers.base.code_bytes != model.manifest.code_bytes:
             return None
         return LayeredIndex.of(layers, model.manifest.quantizer, base)
@@ -298,6 +321,8 @@ def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:
     return tuple(zip(starts.tolist(), ends.tolist(), strict=True))
 
 
-def unknown(name: str) -> Problem:
-    """The problem of a name that no map has."""
-    return Problem(404, "unknown-map", f"No map is named {name!r:.80}.")
+def unknown_map(name: str) -> Problem:
+    """Return the problem of a name that no map has."""
+    return Problem(
+        404, "unknown-map", f"No map is named {name!r:.80}. GET /maps lists the maps that exist."
+    )

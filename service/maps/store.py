@@ -1,7 +1,7 @@
-"""Where maps are kept: what was written is there after a crash.
+"""Map store: interface of the durable log of each map.
 
-The store knows nothing of segments. To it a map is a log: the file of its oldest version that is
-still kept, and after it the commits, each a blob (a delta) that leads from one version to the next.
+The store knows nothing about segments. A map is a log: the file of its oldest kept version, and the
+commits after it. Each commit has a blob (a delta) that leads from one version to the next.
 """
 
 import hashlib
@@ -14,18 +14,18 @@ from typing import Literal, Protocol
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 
 IDS = 1 << 32
-"""Of segments: 0 to this, exclusive."""
+"""Number of ids of a map: 0 to this, exclusive."""
 
 Trouble = Literal["full", "read-only", "failing", "busy", "damaged", "moved"]
 
 
 class StoreError(Exception):
-    """Store could not carry out an operation; nothing was changed.
+    """The store could not carry out an operation; nothing was changed.
 
     Attributes:
-        kind: what is in the way: a full disk, one that takes no writes, one that fails, another
-            process that holds the database, bytes that are not those once written, or files that
-            were moved, removed or replaced under the service.
+        kind: the cause: a full disk (`full`), a read-only disk (`read-only`), a failing disk
+            (`failing`), another process that locks the database (`busy`), altered bytes
+            (`damaged`), or files moved, removed or replaced while the service ran (`moved`).
     """
 
     def __init__(self, kind: Trouble, message: str) -> None:
@@ -38,23 +38,23 @@ class StoreLockedError(Exception):
 
 
 class OutOfIdsError(Exception):
-    """A map has not so many ids left."""
+    """The map has too few free ids."""
 
 
 class TooManyIdsError(Exception):
-    """Key has reserved more ids than it may hold unwritten."""
+    """The key would hold too many reserved, unwritten ids."""
 
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """What a commit did.
+    """Description of a commit.
 
     Attributes:
-        time: of the service's clock, Unix seconds; told, never relied on.
+        time: time of the service's clock, Unix seconds; for display only.
         author: name of the key.
-        operation: such as `put`, `edit`, `restore`, `age`.
-        changed: segments added or replaced.
-        removed: segments removed.
+        operation: name of the operation, such as `put`, `edit`, `restore`, `age`.
+        changed: number of segments added or replaced.
+        removed: number of segments removed.
     """
 
     time: float
@@ -69,12 +69,12 @@ class Commit:
     """Stored write to a map.
 
     Attributes:
-        sequence: of the version that it led to; they grow by one.
-        note: what it did.
-        bytes: of its blob; 0 if the version was folded into the base.
-        mark: names the version together with all that led to it, 64 hex digits.
-        link: hash of the previous mark and the blob, from which the mark is made together with the
-            note; empty in commits of databases of version 1, whose notes no mark covers.
+        sequence: sequence of the version that it led to; sequences grow by one.
+        note: description of the commit.
+        bytes: bytes of its blob; 0 for the commit of the oldest kept version.
+        mark: hash of the version and its whole history, 64 hex digits.
+        link: hash of the previous mark and the blob; the mark is the hash of link and note. Empty
+            in commits of databases of version 1, whose marks do not cover notes.
     """
 
     sequence: int
@@ -89,18 +89,16 @@ class MapHead:
     """Present state of a map in the store.
 
     Attributes:
-        name: of the map.
-        uid: of the map under this name; another one when the name is deleted and taken again.
-        sequence: of its newest version.
-        mark: of that version.
-        oldest: sequence of the oldest version that is kept: the base.
-        next_id: the first of the free ids: no segment ever had them, and nobody has reserved them.
-        base_bytes: of the base.
-        log_bytes: of the commits after it.
-        author: name of the key that wrote the oldest version that is kept.
-        end_id: the end of the free ids, exclusive. Ids from there on may be taken.
-        commits: after the base.
-        bytes: of base and commits.
+        name: name of the map.
+        uid: unique id of the map; a map that is deleted and created again has another one.
+        sequence: sequence of the newest version.
+        mark: mark of the newest version.
+        oldest: sequence of the oldest kept version, the base.
+        next_id: first free id: no segment ever had it, and no key has reserved it.
+        base_bytes: bytes of the base.
+        log_bytes: bytes of the commits after the base.
+        author: name of the key that wrote the base.
+        end_id: end of the free ids, exclusive; ids from there on may be in use.
     """
 
     name: str
@@ -116,12 +114,12 @@ class MapHead:
 
     @property
     def bytes(self) -> int:
-        """Return the bytes that the map takes in the store, with its old versions."""
+        """Bytes of the map in the store, with its old versions."""
         return self.base_bytes + self.log_bytes
 
     @property
     def commits(self) -> int:
-        """How many there are after the base."""
+        """Number of commits after the base."""
         return self.sequence - self.oldest
 
 
@@ -131,7 +129,7 @@ class Owner:
 
     Attributes:
         author: name of the key; empty if it is not known.
-        is_reserved: the id was reserved, and not written since.
+        is_reserved: whether the id was reserved and not written since.
     """
 
     author: str
@@ -143,17 +141,17 @@ class Ids:
     """Effect of a commit on ids, in ascending runs of first id and exclusive end.
 
     Attributes:
-        taken: by segments that are added or replaced.
-        written: those of them that are the author's from now on.
+        taken: ids of segments that are added or replaced.
+        written: those of them that become the author's.
     """
 
     taken: tuple[tuple[int, int], ...] = ()
     written: tuple[tuple[int, int], ...] = ()
 
     def leave(self, next_id: int, end_id: int) -> tuple[int, int]:
-        """Return the largest remaining run of free ids; of equal ones the later.
+        """Return the largest remaining run of free ids; the later one of equal runs.
 
-        So one id that somebody chose far from all others takes no others with it.
+        So a single id far from all others does not use up the ids in between.
         """
         best, at = (next_id, next_id), next_id
         for first, until in (*self.taken, (end_id, end_id)):
@@ -168,46 +166,46 @@ NO_IDS = Ids()
 
 
 class MapHistory(Protocol):
-    """One map's log as it stood at one moment, whatever is written meanwhile."""
+    """Log of one map at one moment, unaffected by later writes."""
 
     @property
     def head(self) -> MapHead:
-        """Where the map stood."""
+        """Head of the map at that moment."""
 
     def commits(self) -> list[Commit]:
-        """From the base's own to the newest."""
+        """Return the commits from the base to the newest version."""
 
     def mark(self, sequence: int) -> str:
-        """Of one version; KeyError if it is not kept."""
+        """Return the mark of one version; KeyError if it is not kept."""
 
     def base(self) -> bytes:
-        """The oldest version's file; StoreError if it is damaged."""
+        """Return the file of the oldest version; StoreError if it is damaged."""
 
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
-        """The commits from `after`, exclusive, to `until`.
+        """Yield the commits from `after`, exclusive, to `until`.
 
         Raises:
-            KeyError: `after` is not kept.
+            KeyError: the version `after` is not kept.
             StoreError: a commit is damaged.
         """
 
 
 class MapStore(Protocol):
-    """The logs of all maps. A write that has returned survives SIGKILL and power loss.
+    """Logs of all maps. A write that has returned survives SIGKILL and power loss.
 
-    Each call is one transaction. Any may raise a StoreError; then nothing has changed.
+    Each call is one transaction. If it raises a StoreError, nothing has changed.
     """
 
     def heads(self) -> list[MapHead]:
-        """Of the maps, by name."""
+        """Return the heads of all maps, by name."""
 
     def read(self, uid: str) -> AbstractContextManager[MapHistory]:
-        """A map's log; KeyError if there is none."""
+        """Read a map's log; KeyError if there is no such map."""
 
     def create(
         self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
     ) -> MapHead:
-        """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
+        """Create a map with its first version, sequence 1; ValueError if the name is in use."""
 
     def append(
         self,
@@ -221,26 +219,26 @@ class MapStore(Protocol):
         """Add a commit.
 
         Args:
-            head: that it follows; KeyError if the map stands elsewhere.
-            blob: a delta.
-            note: what it does.
-            next_id: raises the map's to at least this.
-            ids: that it takes.
-            frees: whether it makes the map smaller, so that it may be done on a full disk.
+            head: head that the commit follows; KeyError if the map has another head.
+            blob: the delta.
+            note: description of the commit.
+            next_id: smallest `next_id` of the map after the commit.
+            ids: ids that the commit takes.
+            frees: whether the commit makes the map smaller, so that a full disk accepts it.
         """
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
         """Reserve ids that no segment ever had; return the first of them.
 
         Args:
-            uid: of the map; KeyError if there is none.
-            count: how many.
+            uid: uid of the map; KeyError if there is no such map.
+            count: number of ids.
             author: name of the key.
-            most: ids that the author may have reserved lately and not written.
+            most: largest number of ids that the author may hold reserved and unwritten.
 
         Raises:
-            OutOfIdsError: the map has not so many free ids.
-            TooManyIdsError: the author has reserved too many.
+            OutOfIdsError: the map has too few free ids.
+            TooManyIdsError: the author would hold too many.
         """
 
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
@@ -250,21 +248,21 @@ class MapStore(Protocol):
         """Forget the owners of unused ids; free ids begin after the used ones.
 
         Args:
-            uid: of the map; KeyError if there is none.
-            used: ids that are used, ascending.
+            uid: uid of the map; KeyError if there is no such map.
+            used: ids in use, ascending.
         """
 
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
-        """Let go of the versions before one, whose file is given; KeyError if it is not there."""
+        """Drop the versions before one, whose file is given; KeyError if it is not kept."""
 
     def delete(self, uid: str) -> None:
-        """Remove a map with all its versions; KeyError if there is none."""
+        """Remove a map with all its versions; KeyError if there is no such map."""
 
     def release_space(self) -> None:
-        """Return the room of what was removed to the disk, if it is much."""
+        """Return the space of removed data to the disk, if it is large."""
 
     def trouble(self) -> str | None:
-        """Return why the store cannot take a write; None if it can."""
+        """Return why the store accepts no writes; None if it accepts them."""
 
 
 def link_of(before: str, sequence: int, blob: bytes) -> str:
@@ -277,9 +275,9 @@ def link_of(before: str, sequence: int, blob: bytes) -> str:
 def mark_of(link: str, note: Note) -> str:
     """Return the mark of a commit: a chain of SHA-256 over all commits that led to it.
 
-    Two maps of one name, or a database and its backup after both were written to, count the same
-    sequences, but never come to the same mark. The mark covers the note, so an altered author or
-    time is noticed. In databases of version 1 the mark is the link itself.
+    Two maps of one name, or a database and its backup after both were written to, have the same
+    sequences but never the same mark. The mark covers the note, so an altered author or time is
+    noticed. In databases of version 1 the mark is the link itself.
     """
     told = [float(note.time), note.author, note.operation, note.changed, note.removed]
     return hashlib.sha256(f"{link}\n{json.dumps(told)}".encode()).hexdigest()

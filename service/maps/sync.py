@@ -1,4 +1,4 @@
-"""What changed in a map since a version that a client has, in pages."""
+"""Sync: the changes of a map since a version that a client has, in pages."""
 
 import re
 import time
@@ -17,10 +17,10 @@ from service.maps.snapshot import MapSnapshot, tag_of
 from service.maps.store import IDS, MapHistory, MapStore
 
 PINNED = 8
-"""Syncs at work whose version is kept in memory; of others it is made anew for each page."""
+"""Number of running syncs whose version stays in memory; others rebuild it for each page."""
 
 PIN_SECONDS = 60.0
-"""After its last page that a sync is kept so."""
+"""Seconds after its last page for which a sync stays in memory."""
 
 _SINCE = re.compile(r"(?:([0-9a-f]{16})-)?([0-9]{1,16})")
 _CURSOR = re.compile(r"([0-9]{1,16})\.([0-9a-f]{16}-([0-9]{1,16}))\.([0-9]{1,10})")
@@ -28,12 +28,12 @@ _CURSOR = re.compile(r"([0-9]{1,16})\.([0-9a-f]{16}-([0-9]{1,16}))\.([0-9]{1,10}
 
 @dataclass(frozen=True, slots=True)
 class SyncPage:
-    """A part of what changed.
+    """One part of the changes.
 
     Attributes:
-        delta: of the segments of this part; `since` and `until` are those of the whole.
-        tag: of the version that all parts lead to.
-        next: for the part after this one; None: it is the last.
+        delta: changes of the segments of this part; `since` and `until` are those of all parts.
+        tag: tag of the version that all parts lead to.
+        next: cursor of the part after this one; None: this is the last part.
     """
 
     delta: Delta
@@ -43,14 +43,14 @@ class SyncPage:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Sync:
-    """From one version to another.
+    """The way from one version to another.
 
     Attributes:
-        since: sequence of the one; 0: from nothing.
-        until: sequence of the other.
-        tag: of the other.
-        layers: the other.
-        ids: of all segments that may differ, ascending.
+        since: sequence of the earlier version; 0: a full sync.
+        until: sequence of the later version.
+        tag: tag of the later version.
+        layers: segments of the later version.
+        ids: ids of all segments that may differ, ascending.
     """
 
     since: int
@@ -61,78 +61,86 @@ class _Sync:
 
 
 class MapSync:
-    """Answers the syncs of all maps. For use from many threads."""
+    """Answers the syncs of all maps. Safe to use from many threads."""
 
     def __init__(self, store: MapStore) -> None:
         self._store = store
         self._guard = Lock()
         self._pinned: OrderedDict[tuple[str, int, str], tuple[_Sync, float]] = OrderedDict()
 
-    def first_page(self, stored: MapSnapshot, since: str, limit: int) -> SyncPage:
-        """The first page from a version to the newest.
+    def first_page(self, snapshot: MapSnapshot, since: str, limit: int) -> SyncPage:
+        """Return the first page from a version to the newest one.
 
         Args:
-            stored: the map.
-            since: the version's sequence or, safer, its tag; 0: from nothing.
-            limit: segments in it, at most.
+            snapshot: the map.
+            since: the version's tag or, less safe, its sequence; 0: a full sync.
+            limit: largest number of segments in the page.
 
         Raises:
-            Problem: 422 if `since` is neither, 410 if the way from there is not known.
+            Problem: 422 if `since` is invalid, 410 if the changes since then are not known.
         """
         match = _SINCE.fullmatch(since)
         if match is None:
             raise Problem(
-                422, "invalid-request", f"since is {since!r:.80}; a sequence or an ETag is due."
+                422,
+                "invalid-request",
+                f"Invalid since {since!r:.80}: expected an ETag without quotes, a sequence, or 0 "
+                "for a full sync.",
             )
         mark, sequence = match[1], int(match[2])
-        if mark and since != stored.tag:
-            with history_of(self._store, stored) as history:
+        if mark and since != snapshot.tag:
+            with history_of(self._store, snapshot) as history:
                 _check_known(history, sequence, since)
-        return self._page(stored, sequence, stored.tag, stored.head.sequence, 0, limit)
+        return self._page(snapshot, sequence, snapshot.tag, snapshot.head.sequence, 0, limit)
 
-    def next_page(self, stored: MapSnapshot, cursor: str, limit: int) -> SyncPage:
-        """A further page; 422 if the cursor is none, 410 if its version is no longer known."""
+    def next_page(self, snapshot: MapSnapshot, cursor: str, limit: int) -> SyncPage:
+        """Return the page of a cursor; 422 if it is invalid, 410 if its version is not known."""
         match = _CURSOR.fullmatch(cursor)
         if match is None:
-            raise Problem(422, "invalid-request", f"cursor: {cursor!r:.80} is none.")
-        return self._page(stored, int(match[1]), match[2], int(match[3]), int(match[4]), limit)
+            raise Problem(
+                422,
+                "invalid-request",
+                f"Invalid cursor {cursor!r:.80}. Use the value of Placecell-Next, or request a "
+                "full sync with since=0.",
+            )
+        return self._page(snapshot, int(match[1]), match[2], int(match[3]), int(match[4]), limit)
 
     def expire(self) -> None:
-        """Let go of versions that nobody has asked for in a while."""
+        """Drop versions from memory whose sync has not asked for a page in a while."""
         with self._guard:
             for key, (_, asked) in list(self._pinned.items()):
                 if time.monotonic() - asked > PIN_SECONDS:
                     del self._pinned[key]
 
     def _page(
-        self, stored: MapSnapshot, since: int, tag: str, until: int, first: int, limit: int
+        self, snapshot: MapSnapshot, since: int, tag: str, until: int, first: int, limit: int
     ) -> SyncPage:
-        sync = self._sync(stored, since, until, tag)
+        sync = self._sync(snapshot, since, until, tag)
         place = int(np.searchsorted(sync.ids, np.uint32(min(first, IDS - 1))))
         ids = sync.ids[place : place + limit]
         changed = sync.layers.take(ids)
         removed = np.setdiff1d(ids, changed.ids) if since else ids[:0]
         rest = sync.ids[place + limit :]
         following = f"{since}.{tag}.{rest[0]}" if len(rest) else None
-        self._pin(stored, sync, wanted=following is not None)
+        self._pin(snapshot, sync, wanted=following is not None)
         return SyncPage(Delta(changed, removed, since, until), tag, following)
 
-    def _sync(self, stored: MapSnapshot, since: int, until: int, tag: str) -> _Sync:
+    def _sync(self, snapshot: MapSnapshot, since: int, until: int, tag: str) -> _Sync:
         with self._guard:
-            pinned = self._pinned.get((stored.head.uid, since, tag))
+            pinned = self._pinned.get((snapshot.head.uid, since, tag))
         if pinned is not None:
             return pinned[0]
-        if tag == stored.tag and since in {0, until}:
-            ids = stored.layers.ids if since == 0 else stored.layers.ids[:0]
-            return _Sync(since, until, tag, stored.layers, ids)
-        with history_of(self._store, stored) as history:
+        if tag == snapshot.tag and since in {0, until}:
+            ids = snapshot.layers.ids if since == 0 else snapshot.layers.ids[:0]
+            return _Sync(since, until, tag, snapshot.layers, ids)
+        with history_of(self._store, snapshot) as history:
             _check_known(history, until, tag)
-            layers = stored.layers if tag == stored.tag else replay(history, until)
+            layers = snapshot.layers if tag == snapshot.tag else replay(history, until)
             ids = _touched(history, since, until) if since else layers.ids
         return _Sync(since, until, tag, layers, ids)
 
-    def _pin(self, stored: MapSnapshot, sync: _Sync, wanted: bool) -> None:
-        key = stored.head.uid, sync.since, sync.tag
+    def _pin(self, snapshot: MapSnapshot, sync: _Sync, wanted: bool) -> None:
+        key = snapshot.head.uid, sync.since, sync.tag
         with self._guard:
             self._pinned.pop(key, None)
             if wanted:
@@ -151,7 +159,7 @@ def _check_known(history: MapHistory, sequence: int, tag: str) -> None:
 
 
 def _touched(history: MapHistory, since: int, until: int) -> UInt32:
-    """Ids of the segments that the commits between two versions changed or removed, ascending."""
+    """Return the ids of the segments that commits between two versions changed, ascending."""
     touched = [np.zeros(0, np.uint32)]
     if not history.head.oldest <= since <= until:
         raise _gone(history, str(since))
@@ -167,6 +175,6 @@ def _gone(history: MapHistory, version: str) -> Problem:
     return Problem(
         410,
         "version-gone",
-        f"Map {history.head.name!r:.80} no longer knows, or never knew, how it was at {version}; "
-        "get it whole (since=0).",
+        f"Map {history.head.name!r:.80} has no version {version}, or dropped it. "
+        "Request a full sync with since=0.",
     )

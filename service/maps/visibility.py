@@ -1,8 +1,8 @@
 """Visibility: hides names of maps and keys that a key may not know.
 
-A merged map keeps of each segment the name of the map that it came from. A key that does not open
-that map sees a pseudonym in its place: always the same one within a map, so that copies and changes
-fit each other, and turned back into the name when the key writes what it read.
+A merged map keeps the name of the map that each segment came from. A key that does not open that
+map sees a pseudonym instead of the name. Within a map the pseudonym is always the same, so that
+copies and changes match. When the key writes what it read, the service restores the name.
 """
 
 import hashlib
@@ -25,7 +25,7 @@ PSEUDONYM = "hidden:"
 
 
 def author_for(holder: Holder, author: str) -> str:
-    """Return a version's author as a key may see it: its own name, or any if it opens all maps."""
+    """Return a version's author, or a text that hides it from a key of other maps."""
     return author if holder.opens_all or author == holder.name else HIDDEN_AUTHOR
 
 
@@ -39,13 +39,13 @@ def is_hidden_from(holder: Holder, layers: MapLayers) -> bool:
     return not holder.opens_all and not all(map(holder.opens, layers.sources))
 
 
-def content_for(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
+def hide_names(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
     """Replace names that a key may not see by pseudonyms in a map's segments.
 
     Args:
-        holder: of the key.
-        uid: of the map; no client knows it, so nobody can try names until a pseudonym fits.
-        content: in canonical form; so is what is returned.
+        holder: principal of the request.
+        uid: uid of the map; no client knows it, so nobody can guess names by their pseudonyms.
+        content: segments in canonical form; so is the result.
     """
     if holder.opens_all:
         return content
@@ -53,22 +53,22 @@ def content_for(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
     return _renamed(content, {name: _pseudonym(uid, name) for name in hidden})
 
 
-def delta_for(holder: Holder, uid: str, delta: Delta) -> Delta:
-    """Replace names by pseudonyms in a map's delta; see `content_for`."""
-    return replace(delta, changed=content_for(holder, uid, delta.changed))
+def hide_names_in_delta(holder: Holder, uid: str, delta: Delta) -> Delta:
+    """Replace names by pseudonyms in a map's delta; see `hide_names`."""
+    return replace(delta, changed=hide_names(holder, uid, delta.changed))
 
 
-def written_by(holder: Holder, stored: MapSnapshot | None, content: CompactMap) -> CompactMap:
-    """Replace pseudonyms by names in what a key writes.
+def restore_names(holder: Holder, snapshot: MapSnapshot | None, content: CompactMap) -> CompactMap:
+    """Replace pseudonyms by names in segments that a key writes.
 
     Args:
-        holder: of the key.
-        stored: the map as it is; None if there is none yet.
+        holder: principal of the request.
+        snapshot: the map as it is; None if it is new.
         content: the segments.
 
     Raises:
-        Problem: 403 if segments name a source that the key does not open. Whether a name that was
-            tried is one of the map's would show in the pseudonym that comes back.
+        Problem: 403 if segments name a source that the key does not open. Otherwise a key could
+            write a guessed name and learn from the pseudonym whether the map has it.
     """
     if holder.opens_all or not content.sources:
         return content
@@ -77,11 +77,12 @@ def written_by(holder: Holder, stored: MapSnapshot | None, content: CompactMap) 
             raise Problem(
                 403,
                 "forbidden",
-                f"Segments name the source map {name!r:.80}, which this key does not open.",
+                f"Segments name the source map {name!r:.80}, which this key does not open. Remove "
+                "the name, or write with a key that opens that map.",
             )
-    if stored is None:
+    if snapshot is None:
         return content
-    layers, uid = stored.layers, stored.head.uid
+    layers, uid = snapshot.layers, snapshot.head.uid
     names = {*layers.base.sources, *layers.recent.sources}
     known = {_pseudonym(uid, name): name for name in names}
     return _renamed(content, {name: known[name] for name in content.sources if name in known})

@@ -13,7 +13,7 @@ from placecell.core.types import Int64, UInt32
 from placecell.localization import Pose
 from placecell.localization.registration import register
 from placecell.map_alignment import AlignmentParameters
-from service.maps.deduplication import NONE, RADIUS, SameView, count_elsewhere, sighting
+from service.maps.deduplication import NONE, RADIUS, SameView, count_elsewhere, deduplicate
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, OutOfIdsError
@@ -143,7 +143,7 @@ def join(
             # views count, or what had no room in a thing would have it the next time.
             there = take(site, ~gone)
             about = MapLayers.of(there).near(added.centroids, RADIUS)
-            seen = sighting(
+            seen = deduplicate(
                 added,
                 about,
                 same,

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from placecell_client import MapFileError
+from placecell_client import MapFileError, encode
 
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
@@ -11,7 +11,7 @@ from service.core.problems import Problem
 from service.maps.deduplication import RADIUS, SameView
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
-from service.maps.writes.writer import MapWriter, WriteResult, delta_to, out_of_ids
+from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
 from service.merging.alignment import Check, check_same_model
 from service.merging.join import (
     ROUNDED,
@@ -156,14 +156,15 @@ class Merger:
         shares = dict(zip(joining, found, strict=True))
         previous = stored.head.sequence if stored is not None else None
         if stored is None:
-            written = None if self.dry_run else writer.create(name, content, "merge")
+            written = None
+            if not self.dry_run:
+                written = writer.create(name, content, encode(content), "merge")
             return MergeResult(plan, shares, len(content), written, previous, len(content), 0)
-        delta = delta_to(stored, content, present)
+        change = stored.layers.change_to(content, stored.head.sequence, present)
         if self.dry_run:
-            _, delta = stored.layers.effect_of(delta)
-            changed, removed = len(delta.changed), len(delta.removed)
+            changed, removed = len(change.delta.changed), len(change.delta.removed)
             return MergeResult(plan, shares, len(content), None, previous, changed, removed)
-        written = writer.commit(stored, delta, "merge")
+        written = writer.commit(stored, change, "merge")
         return MergeResult(
             plan, shares, len(content), written, previous, written.changed, written.removed
         )

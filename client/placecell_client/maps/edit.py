@@ -20,6 +20,7 @@ from placecell_client.maps.union import (
 
 __all__ = [
     "apply",
+    "canonical_difference",
     "compose",
     "delta_between",
     "difference",
@@ -67,8 +68,14 @@ def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np
     lost = set(old.optional) - set(new.optional)
     if lost:
         raise MapFileError(f"{min(lost)}: a difference cannot remove a column")
-    check_same_kind([old, new])
-    before, after = canonical(with_optional(old, new.optional)), canonical(new)
+    return canonical_difference(canonical(with_optional(old, new.optional)), canonical(new))
+
+
+def canonical_difference(
+    before: CompactMap, after: CompactMap
+) -> tuple[CompactMap, NDArray[np.uint32]]:
+    """Return `difference` of two maps in canonical form, with the same optional columns."""
+    check_same_kind([before, after])
     places = np.searchsorted(before.ids, after.ids)
     is_known = _at(before.ids, places, after.ids)
     rows, places = np.flatnonzero(is_known), places[is_known]

@@ -1,4 +1,4 @@
-"""`/maps/{map}/align/{other}` and `/maps/{map}/merge`: how maps lie, and a site of them all."""
+"""Routes of `/maps/{map}/align/{other}` and `/maps/{map}/merge`: align and merge maps."""
 
 from typing import Annotated, Any, Literal
 
@@ -10,17 +10,16 @@ from placecell.core.cancellation import current
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
 from service.api.alignment_responses import alignment_of, merged_of
-from service.api.audit import tell_written
 from service.api.body.body import JSON
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
+from service.api.dependencies import HolderOf, MapWriteOf, StateOf, TimingOf
 from service.api.openapi import json_body
 from service.api.path_parameters import Name, OtherName
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import State
 from service.core.auth import Holder
 from service.core.cost import check_cost, cost_of_aligning
-from service.core.problems import invalid, invalid_value
+from service.core.problems import Problem, invalid, invalid_value
 from service.inference.model_registry import Model
 from service.maps.snapshot import MapSnapshot
 from service.merging.alignment import K, MapSide, align_maps, check_same_model
@@ -29,7 +28,7 @@ from service.merging.merge import Merger
 router = APIRouter(tags=["sharing"])
 
 _NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
-    201: {"model": MergedOut, "description": "There was no such site, and now there is."}
+    201: {"model": MergedOut, "description": "The merged map is new."}
 }
 
 PARAMETERS = AlignmentParameters()
@@ -38,13 +37,16 @@ SMALLER = "Align smaller maps, such as parts of these."
 
 Motion = Annotated[
     Literal["yaw", "se3"],
-    Query(description="Yaw and translation, for both frames are level; or all six degrees."),
+    Query(
+        description="Degrees of freedom of the transform: `yaw` (yaw and translation, for level "
+        "frames) or `se3` (all six)."
+    ),
 ]
 
 
 @router.post(
     "/maps/{map}/align/{other}",
-    summary="How another map lies to this one",
+    summary="Align another map with this one",
     responses=documented(400, 401, 403, 404, 408, 409, 413, 415, 422, 429, 500, 503, 504),
 )
 async def align(
@@ -55,21 +57,22 @@ async def align(
     holder: HolderOf,
     timing: TimingOf,
     motion: Motion = "yaw",
-    pairs: Annotated[bool, Query(description="Tell the segments that agree, too.")] = False,
+    pairs: Annotated[
+        bool, Query(description="Also return the pairs of segments that agree.")
+    ] = False,
 ) -> AlignmentOut:
-    """The transform between their frames, or why none is told.
+    """Return the transform from the other map's frame into this one's, or why there is none.
 
-    From descriptors and centroids alone: parts of the other map are localised in this one; where
-    many put all of it in the same place, that is held against everything that both robots should
-    have seen. Nothing is written.
+    The service uses descriptors and centroids only. It localizes parts of the other map in this
+    one. If many parts agree on a transform, it checks the transform against all segments that both
+    robots should have seen. Nothing is written.
     """
     for each in (name, other):
         holder.check_map(each)
     async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
-        if body.content:  # options, as `merge` takes them there; they would be ignored
-            raise invalid_value(
-                "", "align takes its options in the query: ?motion=se3, not a body."
-            )
+        if body.content:  # merge takes options in its body; here they would be ignored
+            detail = "Align takes its options in the query (?motion=se3), not in a body."
+            raise Problem(422, "invalid-request", detail)
         one, another = state.engine.maps.get(name), state.engine.maps.get(other)
         check_same_model(one, another)
         model = state.engine.models.named(one.model_id)
@@ -95,43 +98,41 @@ def _aligned(
 
 @router.post(
     "/maps/{map}/merge",
-    summary="Merge maps into a site",
+    summary="Merge maps",
     response_model=MergedOut,
     responses=_NEW_RESPONSE
-    | documented(*(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507)),
+    | documented(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507),
     openapi_extra=json_body(MergeRequest),
 )
-async def merge(
-    name: Name,
-    request: Request,
-    state: StateOf,
-    holder: HolderOf,
-    writer: WriterOf,
-    timing: TimingOf,
-) -> JSONResponse:
-    """Lay stored maps on each other and put their segments into one map, with where they come from.
+async def merge(write: MapWriteOf) -> JSONResponse:
+    """Align stored maps and merge their segments into this map, the merged map.
 
-    All pairs are aligned, and alignments that do not close a loop are rejected. Maps that cannot be
-    laid on the site are left out. Each segment keeps its robot, its moment, and the map and id that
-    it had. The site is written in one version: `dry_run` tells before what it would be, and
-    restoring the version before undoes it. A map that has grown can be merged again.
+    The service aligns every pair of maps and rejects alignments that do not close a loop. It leaves
+    out maps that it cannot align with the merged map. Each segment keeps its robot and its time,
+    and the name of the map and the id that it comes from. The merge is written as one version:
+    `dry_run` returns what it would change, and restoring the version before undoes it. A map that
+    has grown can be merged again.
     """
-    holder.check_write(name)
-    async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
-        asked = await state.run(_read, body.content, name, state, holder)
+    state = write.state
+    async with write.receive(state.lanes.alignments, (JSON,)) as body:
+        asked = await state.run(_read, body, write.name, state, write.holder)
         parameters = AlignmentParameters(local=LocalizationParameters(model=asked.motion))
-        check = current().check
         check_cost(
-            cost_of_aligning(_sizes(name, asked, state), K, PARAMETERS),
+            cost_of_aligning(_sizes(write.name, asked, state), K, PARAMETERS),
             state.settings.limits.alignment_seconds,
             "Merge fewer or smaller maps at once.",
         )
-        merger = Merger(writer, parameters, asked.deduplicate, asked.dry_run, check)
-        merged = await state.run(merger.merge, name, asked.maps)
-    timing.lap("commit")
+        merger = Merger(
+            writer=write.writer,
+            parameters=parameters,
+            deduplicate=asked.deduplicate,
+            dry_run=asked.dry_run,
+            check=current().check,
+        )
+        merged = await write.run(merger.merge, write.name, asked.maps)
     if merged.written is not None:
-        tell_written(request, state, "merge", merged.written)
-    answer = merged_of(merged, name, asked.maps)
+        write.record_result("merge", merged.written)
+    answer = merged_of(merged, write.name, asked.maps)
     return JSONResponse(
         answer.model_dump(mode="json"),
         status_code=201 if merged.written is not None and merged.written.is_new else 200,
@@ -141,23 +142,31 @@ async def merge(
 
 def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
     """Return the numbers of segments of a merge's maps, in the order of their alignment."""
-    stored = [state.engine.maps.find(name), *map(state.engine.maps.get, asked.maps)]
-    return [len(each) for each in stored if each is not None]
+    snapshots = [state.engine.maps.find(name), *map(state.engine.maps.get, asked.maps)]
+    return [len(each) for each in snapshots if each is not None]
 
 
 def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeRequest:
-    """What is asked, if it can be done."""
+    """Parse a merge request and check that it can be carried out."""
     try:
         asked = MergeRequest.model_validate_json(content)
     except ValidationError as error:
         raise invalid(error) from error
     most = state.settings.limits.merged_maps
     if len(asked.maps) > most:
-        raise invalid_value("/maps", f"{len(asked.maps)} of them; the limit is {most}.")
+        raise invalid_value(
+            "/maps", f"The request names {len(asked.maps)} maps; the limit is {most}."
+        )
     for index, each in enumerate(asked.maps):
-        if each == name or each in asked.maps[:index]:
-            raise invalid_value(f"/maps/{index}", f"{each!r} is the site, or stands twice.")
+        if each == name:
+            raise invalid_value(
+                f"/maps/{index}", f"{each!r} is the merged map itself. Name the other maps only."
+            )
+        if each in asked.maps[:index]:
+            raise invalid_value(f"/maps/{index}", f"{each!r} is named twice. Name each map once.")
         holder.check_map(each)
     if len(asked.maps) < 2 and state.engine.maps.find(name) is None:
-        raise invalid_value("/maps", f"{name!r} is a new site; it takes two maps or more.")
+        raise invalid_value(
+            "/maps", f"Map {name!r} does not exist yet; a new merged map needs two maps or more."
+        )
     return asked

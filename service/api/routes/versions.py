@@ -1,14 +1,13 @@
-"""`/maps/{map}/versions`: what a map was, and back to it."""
+"""Routes of `/maps/{map}/versions`: list, restore and compact the versions of a map."""
 
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
 
 from service.api.admission.admission import client_of
-from service.api.audit import tell, tell_written
 from service.api.body.body import JSON, render
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf, TimingOf, WriterOf
+from service.api.dependencies import HolderOf, MapWriteOf, StateOf
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of, version_of
 from service.api.schemas.maps import CompactOut, VersionsResponse, WrittenOut
@@ -22,7 +21,7 @@ router = APIRouter(tags=["versions"])
 
 @router.get(
     "/maps/{map}/versions",
-    summary="The versions of a map",
+    summary="List the versions of a map",
     response_model=VersionsResponse,
     responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504),
 )
@@ -31,69 +30,63 @@ async def list_versions(
     request: Request,
     state: StateOf,
     holder: HolderOf,
-    limit: Annotated[int, Query(ge=1, le=10_000, description="So many, at most.")] = 100,
+    limit: Annotated[
+        int, Query(ge=1, le=10_000, description="Largest number of versions in the answer.")
+    ] = 100,
 ) -> Response:
-    """The newest first: who made it when, by what, and how much it changed."""
+    """Return the versions, newest first: author, time, operation, and number of changes."""
     holder.check_map(name)
-    stored = state.engine.maps.get(name)
+    snapshot = state.engine.maps.get(name)
     async with state.lanes.reads.enter(request):
-        content = await state.run(_listed, state, holder, stored, limit)
+        content = await state.run(_listed, state, holder, snapshot, limit)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
 @router.post(
     "/maps/{map}/versions/{version}/restore",
-    summary="Make a map again what it was",
+    summary="Restore a version",
     responses=documented(400, 401, 403, 404, 410, 412, 422, 429, 500, 503, 504, 507),
 )
 async def restore_version(
-    name: Name,
-    version: Annotated[int, Path(ge=1, le=1 << 53, description="Its sequence.", examples=[1])],
-    request: Request,
+    write: MapWriteOf,
+    version: Annotated[
+        int, Path(ge=1, le=1 << 53, description="Sequence of the version.", examples=[1])
+    ],
     response: Response,
-    state: StateOf,
-    holder: HolderOf,
-    writer: WriterOf,
-    timing: TimingOf,
 ) -> WrittenOut:
-    """A new version with the content of an old one; so this can be undone too."""
-    holder.check_write(name)
-    async with state.lanes.edits.enter(request):
-        written = await state.run(writer.restore, name, version)
-    timing.lap("commit")
-    tell_written(request, state, "restore", written)
-    response.headers["ETag"] = f'"{written.stored.tag}"'
-    return outcome_of(written)
+    """Write the content of an earlier version as a new version; a restore can be undone too."""
+    async with write.enter(write.state.lanes.edits):
+        result = await write.commit("restore", write.writer.restore, write.name, version)
+    response.headers["ETag"] = f'"{result.snapshot.tag}"'
+    return outcome_of(result)
 
 
 @router.post(
     "/maps/{map}/compact",
-    summary="Let go of old versions",
+    summary="Drop old versions",
     responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504, 507),
 )
 async def compact_map(
-    name: Name,
-    request: Request,
-    state: StateOf,
-    holder: HolderOf,
-    writer: WriterOf,
-    timing: TimingOf,
-    keep: Annotated[int, Query(ge=1, le=1 << 53, description="Of the newest, so many.")] = 1,
+    write: MapWriteOf,
+    keep: Annotated[
+        int, Query(ge=1, le=1 << 53, description="Number of newest versions to keep.")
+    ] = 1,
 ) -> CompactOut:
-    """What they alone hold is given back to the disk. The service does so by itself, in time."""
-    holder.check_write(name)
-    async with state.lanes.edits.enter(request):
-        stored = await state.run(writer.compact, name, keep)
-    timing.lap("commit")
-    head = stored.head
-    tell(request, state, "compact", name, f"versions from {head.oldest} on are kept")
+    """Drop old versions and free their disk space.
+
+    The service also drops the oldest versions of a long history by itself.
+    """
+    async with write.enter(write.state.lanes.edits):
+        snapshot = await write.run(write.writer.compact, write.name, keep)
+    head = snapshot.head
+    write.record("compact", f"versions from {head.oldest} on are kept")
     return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)
 
 
-def _listed(state: State, holder: Holder, stored: MapSnapshot, limit: int) -> bytes:
-    commits = commits_of(state.engine.maps.store, stored)
+def _listed(state: State, holder: Holder, snapshot: MapSnapshot, limit: int) -> bytes:
+    commits = commits_of(state.engine.maps.store, snapshot)
     response = VersionsResponse(
-        map=stored.name,
+        map=snapshot.name,
         oldest=commits[0].sequence,
         versions=[version_of(commit, holder) for commit in commits[: -limit - 1 : -1]],
     )

@@ -1,6 +1,7 @@
-"""Rules about the ids that a key may write: its own or reserved ones, and new ones near them."""
+"""Rules for ids: which ids a key may write, and which segments it may replace or remove."""
 
 import numpy as np
+from placecell_client import CompactMap, Delta
 
 from placecell.core.types import UInt32
 from service.core.auth import Holder
@@ -15,10 +16,10 @@ def check_new(store: MapStore, holder: Holder, head: MapHead | None, ids: UInt32
     """Check that new ids are reserved by this key, or near those in use; 409 if not.
 
     Args:
-        store: of the map.
-        holder: of the key; one that may administer the service is not asked.
-        head: where the map stands; None if it is new.
-        ids: of segments that the map does not have, ascending.
+        store: store of the map.
+        holder: principal of the request; an administrator may write any id.
+        head: head of the map; None if the map is new.
+        ids: ids of segments that the map does not have, ascending.
     """
     first = head.next_id if head is not None else 0
     limit = first + len(ids) + SLACK
@@ -42,12 +43,12 @@ def check_new(store: MapStore, holder: Holder, head: MapHead | None, ids: UInt32
 def check_authors(store: MapStore, holder: Holder, head: MapHead, old: UInt32, new: UInt32) -> None:
     """Check that no other key wrote or reserved these ids; 409 if one did.
 
-    Two robots may have one name; their keys tell them apart.
+    Two robots may have the same name; their keys distinguish them.
 
     Args:
-        store: of the map.
-        holder: of the key.
-        head: where the map stands.
+        store: store of the map.
+        holder: principal of the request.
+        head: head of the map.
         old: ids of segments that are replaced or removed, ascending.
         new: ids of segments that are added, ascending.
     """
@@ -66,13 +67,38 @@ def check_authors(store: MapStore, holder: Holder, head: MapHead, old: UInt32, n
             409,
             "id-taken",
             f"{len(taken)} ids were written or reserved by another key. Use other ids (POST "
-            '/maps/MAP/ids), or send If-Match: "ETAG" (or *) if you mean to write these.',
+            '/maps/MAP/ids), or send If-Match: "ETAG" (or *) to write these.',
             ids=taken,
         )
 
 
-def check_added(replaced: UInt32) -> None:
-    """Check that an edit which may only add replaces nothing; 409 if it does."""
+def check_own(before: CompactMap, delta: Delta, owners: set[str | None]) -> None:
+    """Check that an edit takes over or removes no other robot's segment; 409 if it does.
+
+    Args:
+        before: the segments that the edit replaces or removes, as they are.
+        delta: the edit.
+        owners: robots whose segments the edit may remove.
+    """
+    after = dict(zip(delta.changed.ids.tolist(), _robot_names(delta.changed), strict=True))
+    taken = {
+        id_: robot
+        for id_, robot in zip(before.ids.tolist(), _robot_names(before), strict=True)
+        if (after[id_] != robot if id_ in after else robot not in owners)
+    }
+    if taken:
+        robots = ", ".join(sorted(set(taken.values())))
+        raise Problem(
+            409,
+            "id-taken",
+            f"{len(taken)} ids belong to segments of other robots: {robots:.200}. Use other ids "
+            '(POST /maps/MAP/ids), or send If-Match: "ETAG" (or *) to replace or remove these.',
+            ids=list(taken),
+        )
+
+
+def check_only_new(replaced: UInt32) -> None:
+    """Check that an edit with `only_new` replaces no segment; 409 if it does."""
     if len(replaced):
         raise Problem(
             409,
@@ -81,3 +107,8 @@ def check_added(replaced: UInt32) -> None:
             "Use other ids (POST /maps/MAP/ids), or omit only_new to replace these segments.",
             ids=replaced.tolist(),
         )
+
+
+def _robot_names(content: CompactMap) -> list[str]:
+    """Return the robot of each segment."""
+    return [content.robots[index] for index in content.robot.tolist()]

@@ -1,7 +1,7 @@
-"""What maps need now and then, in a thread of its own: nobody waits for it.
+"""Maintenance of maps in a background thread.
 
-Layers are folded, the cache is renewed, long histories are shortened, and what was freed is given
-back to the disk. At whatever point it is killed, nothing of it is missed.
+It flattens layers, renews the cache, compacts long histories, and returns freed space to the disk.
+A kill at any point loses nothing.
 """
 
 import logging
@@ -24,10 +24,10 @@ from service.maps.writes.partial_uploads import PartialUploads
 logger = logging.getLogger("placecell")
 
 ALL_SHARE = 0.75
-"""Share of the quota of all maps above which histories are shortened, the longest first."""
+"""Share of the quota of all maps above which histories are compacted, the longest first."""
 
 WORTH = 0.25
-"""Smallest history that is shortened for this, as a share of the oldest version's bytes."""
+"""Smallest history that is compacted for this, as a share of the oldest version's bytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,16 +35,16 @@ class MaintenanceThresholds:
     """Thresholds of maintenance work.
 
     Attributes:
-        recent: segments above the base, or gone from it, that are folded in; or
-        share: of the base, whichever is more.
-        commits: since the last fold, after which a start would take long.
-        log_bytes: of a map's history; or
-        log_share: times its base, whichever is more.
-        log_commits: in a map's history.
-        map_bytes: the quota of a map, with its history.
-        all_bytes: the quota of all maps, with their histories.
-        handled: segments that writes copied, after which free memory goes back to the system.
-        seconds: between two looks.
+        recent: number of segments above the base, or gone from it, that triggers flattening; or
+        share: this share of the base, whichever is more.
+        commits: number of commits since the base that triggers flattening, for a fast start.
+        log_bytes: bytes of a map's history that trigger compaction; or
+        log_share: this multiple of its base, whichever is more.
+        log_commits: number of commits in a map's history that triggers compaction.
+        map_bytes: quota of a map, with its history.
+        all_bytes: quota of all maps, with their histories.
+        handled: number of copied segments after which free memory returns to the system.
+        seconds: seconds between two runs.
     """
 
     recent: int = 4_096
@@ -60,7 +60,7 @@ class MaintenanceThresholds:
 
 
 class Maintenance:
-    """Looks after all maps."""
+    """Background maintenance of all maps."""
 
     def __init__(
         self,
@@ -76,13 +76,13 @@ class Maintenance:
         self._bounds = bounds
         self._partial_uploads = partial_uploads
         self._released = 0
-        self._good: dict[str, MapHead] = {}
+        self._done: dict[str, MapHead] = {}
         self._stopped = Event()
 
     @contextmanager
     def running(self) -> Iterator[None]:
-        """At work until the context ends."""
-        thread = Thread(target=self._work, name="housekeeping", daemon=True)
+        """Run in a thread until the context ends."""
+        thread = Thread(target=self._work, name="maintenance", daemon=True)
         thread.start()
         try:
             yield
@@ -91,27 +91,27 @@ class Maintenance:
             thread.join()
 
     def run_once(self) -> None:
-        """Do what is due, map by map; what fails is told in the log, and tried again."""
-        # By name: who holds all maps holds the memory of what is folded meanwhile.
+        """Do the work that is due, map by map; log failures, and retry them in the next run."""
+        # By name: references to all snapshots would keep flattened ones in memory.
         due = {
             stored.name: stored.head
             for stored in self._maps.all()
-            if self._good.get(stored.name) is not stored.head
+            if self._done.get(stored.name) is not stored.head
         }
         for name, head in due.items():
             if self._stopped.is_set():
                 return
-            with _told(f"map {name!r}"):
-                self._care(name)
-                # Until it is written to again: of many maps few change between two looks.
-                self._good[name] = head
-        if len(self._good) > 2 * len(self._maps) + 1_000:
-            self._good.clear()
-        with _told("histories"):
-            self._make_room()
+            with _logged(f"map {name!r}"):
+                self._maintain(name)
+                # Until the next write: few of many maps change between two runs.
+                self._done[name] = head
+        if len(self._done) > 2 * len(self._maps) + 1_000:
+            self._done.clear()
+        with _logged("histories"):
+            self._free_space()
         if self._maps.copied_segments - self._released > self._bounds.handled:
             self._release()
-        with _told("the data directory"):
+        with _logged("the data directory"):
             self._sync.expire()
             if self._partial_uploads is not None:
                 self._partial_uploads.forget_old()
@@ -122,41 +122,41 @@ class Maintenance:
         while not self._stopped.wait(self._bounds.seconds):
             self.run_once()
 
-    def _care(self, name: str) -> None:
+    def _maintain(self, name: str) -> None:
         stored = self._maps.find(name)
-        if stored is not None and self._is_to_fold(stored):
+        if stored is not None and self._needs_flattening(stored):
             head, content = stored.head, self._maps.flatten(stored)
-            stored = None  # what it was before need not be in memory while the file is made
+            stored = None  # free the old layers before the file is made
             if content is not None:
                 self._cache.save(head, content)
             del content
             self._release()
             stored = self._maps.find(name)
         if stored is not None and self._has_long_log(stored):
-            self._shorten(stored, self._log_bytes(stored.head))
+            self._compact(stored, self._log_bytes(stored.head))
 
     def _release(self) -> None:
         self._released = self._maps.copied_segments
         release()
 
-    def _make_room(self) -> None:
-        """Drop history if a write was refused for lack of space, or all maps together are large."""
+    def _free_space(self) -> None:
+        """Drop history if a write was refused for lack of space, or all maps are large together."""
         for name in self._maps.take_refused():
             stored = self._maps.find(name)
             if stored is not None and stored.head.commits:
-                self._shorten(stored, stored.head.log_bytes)
+                self._compact(stored, stored.head.log_bytes)
         enough = ALL_SHARE * self._bounds.all_bytes
         if self._maps.stored_bytes <= enough:
             return
         for stored in sorted(self._maps.all(), key=lambda stored: -stored.head.log_bytes):
             head = stored.head
-            # To shorten a history the oldest version is written anew: not for a few bytes.
+            # Compaction writes the oldest version anew, which does not pay for a few bytes.
             if self._maps.stored_bytes <= enough or head.log_bytes <= WORTH * head.base_bytes:
                 break
-            with _told(f"map {stored.name!r}"):
-                self._shorten(stored, head.log_bytes)
+            with _logged(f"map {stored.name!r}"):
+                self._compact(stored, head.log_bytes)
 
-    def _is_to_fold(self, stored: MapSnapshot) -> bool:
+    def _needs_flattening(self, stored: MapSnapshot) -> bool:
         layers, bounds = stored.layers, self._bounds
         most = max(bounds.recent, bounds.share * len(layers.base))
         above = max(len(layers.recent), layers.gone_count)
@@ -170,11 +170,8 @@ class Maintenance:
         wanted = max(self._bounds.log_bytes, self._bounds.log_share * head.base_bytes)
         return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
-    def _shorten(self, stored: MapSnapshot, most: float) -> None:
-        """Drop old versions until half of the allowed bytes are left.
-
-        So this is not due again at once.
-        """
+    def _compact(self, stored: MapSnapshot, most: float) -> None:
+        """Drop old versions until half of the allowed bytes are left, so that it lasts a while."""
         with history_of(self._maps.store, stored) as history:
             head = history.head
             left = most / 2
@@ -187,13 +184,13 @@ class Maintenance:
             oldest = max(oldest, head.oldest)
             file = encode(replay(history, oldest).content())
         self._maps.compact(head, oldest, file)
-        logger.info("map %r: versions before %d were let go", head.name, oldest)
+        logger.info("map %r: dropped the versions before %d", head.name, oldest)
 
 
 @contextmanager
-def _told(where: str) -> Iterator[None]:
-    """What fails is told; a thread that ended would be missed by nobody until the disk is full."""
+def _logged(where: str) -> Iterator[None]:
+    """Log an exception; it must not end the thread, or the disk would fill up unnoticed."""
     try:
         yield
     except Exception:
-        logger.exception("housekeeping failed at %s", where)
+        logger.exception("maintenance failed at %s", where)

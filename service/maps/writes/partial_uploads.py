@@ -1,8 +1,8 @@
-"""Map files that are uploaded in parts: kept on disk until they are whole, and then written.
+"""Partial uploads: map files that arrive in parts and stay on disk until they are complete.
 
-A part of a file is not a map: no reader sees it. An upload is named by the key that sends it, the
-map that it is for and the SHA-256 of the whole file, so the same file sent again goes on where it
-was cut.
+Readers do not see an incomplete upload. Its name consists of the key that sends it, the map that it
+is for and the SHA-256 of the whole file, so a client that sends the same file again continues where
+it stopped.
 """
 
 import hashlib
@@ -25,7 +25,7 @@ from service.maps.store import StoreError
 FOLDER = "uploads"
 
 KEEP_SECONDS = 86_400.0
-"""After its last part an upload that was not completed is removed."""
+"""Seconds after its last part when an incomplete upload is removed."""
 
 KEY_UPLOADS = 64
 """Largest number of incomplete uploads of one key."""
@@ -35,12 +35,12 @@ logger = logging.getLogger("placecell")
 
 @dataclass(frozen=True, slots=True)
 class PartialUpload:
-    """An upload that is not completed.
+    """Incomplete upload.
 
     Attributes:
         digest: SHA-256 of the whole file, 64 hex digits.
-        bytes: that were received and are on the disk.
-        time: of the last part, Unix seconds of the service's clock.
+        bytes: number of bytes received and on disk.
+        time: time of the last part, Unix seconds of the service's clock.
     """
 
     digest: str
@@ -49,12 +49,12 @@ class PartialUpload:
 
 
 class PartialUploads:
-    """The uploads of all keys, in a folder of the data directory. For use from many threads.
+    """Incomplete uploads of all keys, in a folder of the data directory. Safe for many threads.
 
     Args:
         data_dir: the data directory.
-        limits: of the settings.
-        clock: Unix seconds, as the disk has them.
+        limits: limits of the settings.
+        clock: returns Unix seconds of the disk's clock.
     """
 
     def __init__(
@@ -76,23 +76,23 @@ class PartialUploads:
         ]
 
     def add(self, author: str, name: str, digest: str, offset: int, part: bytes) -> int:
-        """Keep a part of a file; on return it is safely on disk.
+        """Store a part of a file; on return it is durable.
 
-        What was received before is not written again, so a part may be sent twice.
+        Bytes that were received before are not written again, so a client may repeat a part.
 
         Args:
             author: name of the key.
-            name: of the map.
+            name: name of the map.
             digest: SHA-256 of the whole file.
-            offset: where in the file the part begins.
-            part: its bytes.
+            offset: byte of the file at which the part begins.
+            part: bytes of the part.
 
         Returns:
-            How many bytes of the file are there.
+            Number of bytes of the file on disk.
 
         Raises:
-            Problem: 409 if the bytes before the part are missing, 413 if the file is too large, 507
-                if the uploads take too much room.
+            Problem: 409 if bytes before the part are missing, 413 if the file is too large, 507 if
+                the uploads exceed a quota.
         """
         path = self._path(author, name, digest)
         with holding(self._files):
@@ -112,14 +112,14 @@ class PartialUploads:
 
     @contextmanager
     def whole(self, author: str, name: str, digest: str) -> Iterator[bytes]:
-        """The file of an upload, while it is written to the map; at the end of it the upload goes.
+        """Read the file of an upload for a block that writes it to the map, then remove the upload.
 
-        One at a time, for each is held in memory. If the block raises, the upload stays, unless it
-        is no map file.
+        One upload at a time, because each is held in memory. If the block raises, the upload stays,
+        unless it is not a valid map file.
 
         Raises:
-            Problem: 404 if there is no such upload, 422 if its bytes are not those of the digest;
-                these are removed then.
+            Problem: 404 if there is no such upload, 422 if its bytes have another digest; the
+                upload is removed then.
         """
         path = self._path(author, name, digest)
         with holding(self._completing):
@@ -132,8 +132,8 @@ class PartialUploads:
                 raise Problem(
                     422,
                     "upload-damaged",
-                    f"The {len(content)} bytes that were received have another SHA-256 than "
-                    f"{digest}. They were removed; send the file again from offset=0.",
+                    f"The {len(content)} received bytes do not have SHA-256 {digest}. The service "
+                    "removed them. Send the file again from offset=0.",
                 )
             try:
                 yield content
@@ -151,11 +151,11 @@ class PartialUploads:
             raise unknown_upload(name, digest) from error
 
     def forget_old(self) -> None:
-        """Remove uploads whose last part came a day ago."""
+        """Remove uploads whose last part arrived more than a day ago."""
         for path, size, changed in self._listed():
             if self._clock() - changed > KEEP_SECONDS:
                 path.unlink(missing_ok=True)
-                logger.info("an upload of %d bytes was not completed and is removed", size)
+                logger.info("removed an incomplete upload of %d bytes", size)
 
     def _check_room(self, author: str, path: Path, size: int, added: int) -> None:
         limits = self._limits
@@ -163,33 +163,36 @@ class PartialUploads:
             raise Problem(
                 413,
                 "upload-too-large",
-                f"The file has more than {limits.upload_bytes} bytes, the limit; see /info.",
+                f"The file has more than {limits.upload_bytes} bytes, the limit in GET /info. "
+                "Split the map into several maps.",
             )
         listed = self._listed()
         own = [each for each in listed if each[0].name.startswith(_hash(author))]
-        cure = "Complete them or delete them (GET and DELETE /maps/MAP/uploads); they go by"
-        cure += " themselves a day after their last part."
+        advice = (
+            "Complete or delete them (GET and DELETE /maps/MAP/uploads). The service removes an "
+            "upload a day after its last part."
+        )
         if not path.exists() and len(own) >= KEY_UPLOADS:
             raise OverQuotaError(
-                f"This key has {KEY_UPLOADS} uploads that are not complete, the limit. {cure}"
+                f"This key has {KEY_UPLOADS} uploads that are incomplete; the limit is "
+                f"{KEY_UPLOADS}. {advice}"
             )
         most = limits.unfinished_bytes
         if sum(each[1] for each in own) + added > most // 2:
             raise OverQuotaError(
-                f"This key's uploads that are not complete would have more than {most // 2} "
-                f"bytes, the limit. {cure}"
+                f"This key's incomplete uploads would have more than {most // 2} bytes, the limit. "
+                f"{advice}"
             )
         if sum(each[1] for each in listed) + added > most:
             raise OverQuotaError(
-                f"All uploads that are not complete would have more than {most} bytes, the "
-                f"limit. {cure}"
+                f"All incomplete uploads would have more than {most} bytes, the limit. {advice}"
             )
 
     def _append(self, path: Path, there: int, rest: bytes) -> None:
-        """Write at the end of a file; it is as it was if that fails."""
+        """Append to a file durably; restore its length if that fails."""
         if not self._folder.exists():
             try:
-                # Without parents: no other data directory is made in its place.
+                # Without parents, so that no new data directory replaces one that was moved.
                 self._folder.mkdir(mode=0o700)
             except FileNotFoundError as error:
                 folder = self._folder.parent
@@ -208,7 +211,7 @@ class PartialUploads:
             sync_folder(self._folder)
 
     def _listed(self) -> list[tuple[Path, int, float]]:
-        """All files with their size and their last change, sorted."""
+        """Return all files with their size and the time of their last change, sorted."""
         found = []
         for path in sorted(self._folder.glob("*")):
             try:
@@ -223,12 +226,12 @@ class PartialUploads:
 
 
 def unknown_upload(name: str, digest: str) -> Problem:
-    """The problem of an upload that is not there."""
+    """Return the problem of an upload that does not exist."""
     return Problem(
         404,
         "unknown-upload",
-        f"This key has no upload {digest:.64} for map {name!r:.80}. It was completed or deleted, "
-        "or its last part came a day ago. Send the file again from offset=0.",
+        f"This key has no upload {digest:.64} for map {name!r:.80}. It was completed, deleted, or "
+        "removed a day after its last part. Send the file again from offset=0.",
     )
 
 

@@ -1,4 +1,4 @@
-"""Uploaded files, read and held against the models."""
+"""Validation of uploaded map and delta files against the loaded models."""
 
 from placecell_client import CompactMap, Delta, MapFileError, decode, decode_delta
 
@@ -6,59 +6,69 @@ from service.core.problems import Problem
 from service.inference.model_registry import Models
 
 
-def map_of(data: bytes, models: Models) -> CompactMap:
-    """The map of a file that was uploaded.
+def read_map_file(data: bytes, models: Models) -> CompactMap:
+    """Decode an uploaded map file.
 
     Raises:
-        Problem: 422 if it is none, 409 if its model is not loaded.
+        Problem: 422 if the bytes are not a valid map file, 409 if its model is not loaded.
     """
     try:
         content = decode(data)
     except MapFileError as error:
-        raise Problem(422, "invalid-map-file", f"Not a whole map file: {error}.") from error
+        raise Problem(
+            422,
+            "invalid-map-file",
+            f"The body is not a complete map file: {error}. Encode the map again and resend it.",
+        ) from error
     _check_model(content, models, "invalid-map-file")
     return content
 
 
-def edit_of(data: bytes, models: Models) -> Delta:
-    """The delta of a file that was uploaded, for whatever is there.
+def read_delta_file(data: bytes, models: Models) -> Delta:
+    """Decode an uploaded delta file that applies to any version.
 
     Raises:
-        Problem: 422 if it is none, 409 if its model is not loaded.
+        Problem: 422 if the bytes are not a valid delta file, 409 if its model is not loaded.
     """
     try:
         delta = decode_delta(data)
     except MapFileError as error:
-        raise Problem(422, "invalid-delta-file", f"Not a whole delta file: {error}.") from error
+        raise Problem(
+            422,
+            "invalid-delta-file",
+            f"The body is not a complete delta file: {error}. "
+            "Encode the delta again and resend it.",
+        ) from error
     if delta.since or delta.until:
         raise Problem(
             422,
             "invalid-delta-file",
-            f"The delta leads from version {delta.since} to {delta.until}; of an edit both are 0, "
-            "and If-Match says which version it is for.",
+            f"The delta leads from version {delta.since} to version {delta.until}; in an edit, "
+            "both must be 0. Name the version that the edit is for with If-Match.",
         )
     _check_model(delta.changed, models, "invalid-delta-file")
     return delta
 
 
 def check_joins(content: CompactMap, name: str, other: CompactMap) -> None:
-    """See that segments may stand in a map.
+    """Check that segments can be added to a map.
 
     Args:
         content: the segments.
-        name: of the map.
-        other: segments of it.
+        name: name of the map.
+        other: segments of the map.
 
     Raises:
-        Problem: 409 if they are of another model or frame.
+        Problem: 409 if they have another model or frame than the map.
     """
-    for what, kind in (("model_id", "other-model"), ("frame", "other-frame")):
-        given, there = getattr(content, what), getattr(other, what)
-        if given != there:
+    for attribute, kind in (("model_id", "other-model"), ("frame", "other-frame")):
+        given, expected = getattr(content, attribute), getattr(other, attribute)
+        if given != expected:
             raise Problem(
                 409,
                 kind,
-                f"The segments' {what} is {given!r:.100}; that of map {name!r} is {there!r:.100}.",
+                f"The segments have {attribute} {given!r:.100}; map {name!r} has {expected!r:.100}."
+                " Write them to another map.",
             )
 
 
@@ -71,13 +81,13 @@ def _check_model(content: CompactMap, models: Models, kind: str) -> None:
         raise Problem(
             422,
             kind,
-            f"The codes have {content.code_bytes} bytes a segment; the model's have "
-            f"{manifest.code_bytes}.",
+            f"The codes have {content.code_bytes} bytes per segment; model {manifest.model_id!r} "
+            f"has {manifest.code_bytes}.",
         )
     if content.preprocessing != manifest.preprocessing["version"]:
         raise Problem(
             422,
             kind,
-            f"The segments were prepared by version {content.preprocessing}; the model's are by "
-            f"version {manifest.preprocessing['version']}.",
+            f"The segments have preprocessing version {content.preprocessing}; model "
+            f"{manifest.model_id!r} has version {manifest.preprocessing['version']}.",
         )

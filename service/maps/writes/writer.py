@@ -1,69 +1,83 @@
-"""Writes to maps, each for one request: what is asked, whether it may be, and what it did."""
+"""Map writer: carries out the writes of one request under its key and its preconditions."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
 from placecell_client import CompactMap, Delta, encode
-from placecell_client.maps.edit import apply, delta_between, take
+from placecell_client.maps.edit import apply, take
 
 from placecell.core.types import UInt32
 from service.core.auth import Holder
 from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.inference.model_registry import Models
-from service.maps.deduplication import NONE, RADIUS, VIEWS, SameView, Sighting, sighting
+from service.maps.deduplication import NONE, RADIUS, VIEWS, Deduplicated, SameView, deduplicate
 from service.maps.history import load_version, robots_ever
-from service.maps.layers import MapLayers, robots_of
+from service.maps.layers import MapChange, MapLayers, robots_of
 from service.maps.quotas import OverQuotaError
-from service.maps.repository import MapRepository, unknown
+from service.maps.repository import MapRepository, unknown_map
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, MapHead, OutOfIdsError, TooManyIdsError
-from service.maps.visibility import written_by
+from service.maps.visibility import restore_names
 from service.maps.writes.clock_check import check_times
-from service.maps.writes.id_rules import check_added, check_authors, check_new
-from service.maps.writes.validation import check_joins, edit_of, map_of
+from service.maps.writes.id_rules import check_authors, check_new, check_only_new, check_own
+from service.maps.writes.validation import check_joins, read_delta_file, read_map_file
 
 
 @dataclass(frozen=True, slots=True)
 class WriteResult:
-    """What a write did.
+    """Result of a write.
 
     Attributes:
-        stored: the map after it.
-        changed: segments added or replaced.
-        removed: segments removed.
-        is_new: whether there was no such map before.
-        repeats: segments that were not stored, for they were seen before.
+        snapshot: the map after the write.
+        changed: number of segments added or replaced.
+        removed: number of segments removed.
+        is_new: whether the write created the map.
+        repeats: number of segments that were not stored, because they had been seen before.
     """
 
-    stored: MapSnapshot
+    snapshot: MapSnapshot
     changed: int
     removed: int
     is_new: bool = False
     repeats: int = 0
 
 
-Check = Callable[[MapSnapshot, CompactMap, Delta], None]
-"""Check of an edit: takes the map, the segments that it replaces or removes, and the delta."""
+@dataclass(frozen=True, slots=True)
+class EditOptions:
+    """Options of an edit.
+
+    Attributes:
+        robot: robot whose segments may be removed, besides the key's robot and the robots of the
+            changed segments; None: no further robot.
+        create: create the map if it does not exist.
+        deduplicate: do not store segments that were seen before.
+        only_new: refuse to replace segments.
+    """
+
+    robot: str | None = None
+    create: bool = False
+    deduplicate: bool = False
+    only_new: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class MapWriter:
-    """Whoever sent a request, at work on the maps.
+    """Writes to maps for one request.
 
-    What leads to where the map is already is done, not refused, and makes no version: so a `put` or
-    an `edit` whose answer was lost can be sent again; at worst that brings back what others removed
-    since. Under If-Match: *, or if it is an `age`, a `restore`, a merge or a `delete`, it would
-    undo what others wrote since; under an ETag these are done to that version or not at all.
-    `compact` heeds no conditions: sent again, it may let go of more.
+    A write that leaves the map unchanged succeeds and creates no version. So a client can repeat a
+    `put` or an `edit` whose answer was lost; at worst that restores segments that other clients
+    removed in the meantime. A repeated `prune`, `restore`, merge or `delete` could undo writes of
+    other clients, and so could any write under `If-Match: *`; under an ETag the write applies to
+    that version or fails. `compact` ignores preconditions: a repeated call may drop more versions.
 
     Attributes:
-        maps: all.
-        models: loaded.
-        holder: of the key.
-        conditions: under which they write.
+        maps: the repository.
+        models: the loaded models.
+        holder: principal of the request.
+        conditions: preconditions of the request.
     """
 
     maps: MapRepository
@@ -72,135 +86,112 @@ class MapWriter:
     conditions: Preconditions
 
     def put(self, name: str, data: bytes) -> WriteResult:
-        """Make a map what a file says; what others wrote is replaced only if it was seen."""
-        content = map_of(data, self.models)
+        """Create a map from a file, or replace its content if the request names its version."""
+        content = read_map_file(data, self.models)
         with self.maps.writing(name):
-            stored = self.maps.find(name)
-            content = written_by(self.holder, stored, content)
-            if stored is None:
-                return self.create(name, content, "put")
-            delta = delta_to(stored, content)
-            return self.commit(stored, delta, "put", replaces=True)
+            snapshot = self.maps.find(name)
+            restored = restore_names(self.holder, snapshot, content)
+            if snapshot is None:
+                # The upload was proved canonical when it was read: it is stored as it came.
+                file = data if restored is content else encode(restored)
+                return self.create(name, restored, file, "put")
+            change = snapshot.layers.change_to(restored, snapshot.head.sequence)
+            return self.commit(snapshot, change, "put", replaces=True)
 
-    def edit(
-        self,
-        name: str,
-        data: bytes,
-        robot: str | None,
-        create: bool,
-        deduplicate: bool,
-        only_new: bool = False,
-    ) -> WriteResult:
+    def edit(self, name: str, data: bytes, options: EditOptions = EditOptions()) -> WriteResult:
         """Add, replace and remove segments, all or none.
 
         Args:
-            name: of the map.
+            name: name of the map.
             data: a delta file.
-            robot: whose segments may be removed, beside the key's and those of changed segments.
-            create: make the map if there is none.
-            deduplicate: do not store again what is seen again.
-            only_new: refuse to replace a segment, whoever wrote it.
+            options: options of the edit.
         """
-        edit = edit_of(data, self.models)
+        edit = read_delta_file(data, self.models)
         self.holder.check_robots(robots_of(edit.changed))
         check_times(edit.changed)
-        owners = {robot, self.holder.key.robot, *edit.changed.robots} - {None}
-        refreshed = NONE
-
-        def check(stored: MapSnapshot, before: CompactMap, delta: Delta) -> None:
-            written = np.setdiff1d(delta.changed.ids, refreshed)
-            replaced = np.intersect1d(before.ids, written)
-            if only_new:
-                check_added(replaced)
-            if self.conditions.if_match is not None:
-                return
-            _check_own(before, delta, owners)
-            # With `robot` the request says whose segments are removed.
-            old = replaced if robot is not None else np.union1d(replaced, delta.removed)
-            new = np.setdiff1d(written, before.ids)
-            check_authors(self.maps.store, self.holder, stored.head, old, new)
-
+        owners = {options.robot, self.holder.key.robot, *edit.changed.robots} - {None}
         with self.maps.writing(name):
-            stored = self.maps.find(name) if create else self.maps.get(name)
-            edit = replace(edit, changed=written_by(self.holder, stored, edit.changed))
-            layers = stored.layers if stored is not None else MapLayers.of(take(edit.changed, NONE))
+            snapshot = self.maps.find(name) if options.create else self.maps.get(name)
+            edit = replace(edit, changed=restore_names(self.holder, snapshot, edit.changed))
+            layers = MapLayers.of(take(edit.changed, NONE)) if snapshot is None else snapshot.layers
             check_joins(edit.changed, name, layers.base)
-            seen = self._sighting(edit, layers) if deduplicate else None
-            if seen is not None:
-                edit = replace(edit, changed=seen.changed)
-            if stored is None:
-                written = self.create(name, edit.changed, "edit")
-            else:
-                refreshed = seen.refreshed if seen is not None else NONE
-                written = self.commit(stored, edit, "edit", check, refreshed)
-            return replace(written, repeats=seen.repeats if seen is not None else 0)
+            refreshed, repeats = NONE, 0
+            if options.deduplicate:
+                unique = self._deduplicated(edit, layers)
+                edit = replace(edit, changed=unique.changed)
+                refreshed, repeats = unique.refreshed, unique.repeats
+            if snapshot is None:
+                result = self.create(name, edit.changed, encode(edit.changed), "edit")
+                return replace(result, repeats=repeats)
+            change = layers.effect_of(edit)
+            if change.is_empty:
+                return WriteResult(snapshot, 0, 0, repeats=repeats)
+            self._authorize(snapshot, change, refreshed=refreshed)
+            self._check_edit(snapshot, change, refreshed, owners, options)
+            return replace(self._store(snapshot, change, "edit", refreshed), repeats=repeats)
 
     def restore(self, name: str, sequence: int) -> WriteResult:
-        """Make a map again what it was."""
+        """Write the content of an earlier version as a new version."""
         with self.maps.writing(name):
-            stored = self.maps.get(name)
-            layers, _ = load_version(self.maps.store, stored, sequence)
-            return self.commit(stored, delta_to(stored, layers.content()), "restore")
+            snapshot = self.maps.get(name)
+            layers, _ = load_version(self.maps.store, snapshot, sequence)
+            change = snapshot.layers.change_to(layers.content(), snapshot.head.sequence)
+            return self.commit(snapshot, change, "restore")
 
     def prune(self, name: str, unseen_since: float, dry_run: bool) -> WriteResult:
-        """Remove what was last seen before a time, seconds of the frames' clock.
+        """Remove segments that were last seen before a time.
 
         Args:
-            name: of the map.
-            unseen_since: the time.
-            dry_run: only tell how many they are.
+            name: name of the map.
+            unseen_since: the time, seconds of the frames' clock.
+            dry_run: only count the segments.
         """
         with self.maps.writing(name):
-            stored = self.maps.get(name)
-            ids, seen = stored.layers.last_seen()
+            snapshot = self.maps.get(name)
+            ids, seen = snapshot.layers.last_seen()
             removed = np.sort(ids[seen < unseen_since])
             if dry_run:
-                return WriteResult(stored, 0, len(removed))
-            nothing = stored.layers.take(removed[:0])
-            return self.commit(stored, Delta(nothing, removed), "age")
+                return WriteResult(snapshot, 0, len(removed))
+            change = snapshot.layers.effect_of(Delta(snapshot.layers.take(NONE), removed))
+            return self.commit(snapshot, change, "age")
 
     def delete(self, name: str) -> int:
-        """Remove a map; how many segments it had, 0 if it was damaged."""
+        """Remove a map; return how many segments it had, 0 if it was damaged."""
         with self.maps.writing(name):
             if name in self.maps.damaged():
-                # Whose segments it had cannot be told.
+                # Nobody can tell which robots' segments a damaged map has.
                 self.holder.check_all()
                 self.maps.delete(name)
                 return 0
-            stored = self.maps.get(name)
-            self.holder.check_robots(stored.layers.robots)
+            snapshot = self.maps.get(name)
+            self.holder.check_robots(snapshot.layers.robots)
             if self.holder.key.robot is not None:
-                # What others wrote and removed can be restored as long as the map is there.
-                self.holder.check_robots(robots_ever(self.maps.store, stored))
-            self.conditions.check(stored.tag)
+                # Removed segments of other robots can be restored as long as the map exists.
+                self.holder.check_robots(robots_ever(self.maps.store, snapshot))
+            self.conditions.check(snapshot.tag)
             self.maps.delete(name)
-            return len(stored)
+            return len(snapshot)
 
     def compact(self, name: str, keep: int) -> MapSnapshot:
-        """Let go of all but the last versions.
-
-        Args:
-            name: of the map.
-            keep: so many, 1 or more.
-        """
+        """Drop all but the last `keep` versions; `keep` is 1 or more."""
         self.holder.check_all()
-        stored = self.maps.get(name)
-        sequence = max(stored.head.sequence - keep + 1, stored.head.oldest)
-        if sequence == stored.head.oldest:
-            return stored
-        layers, _ = load_version(self.maps.store, stored, sequence)
-        return self.maps.compact(stored.head, sequence, encode(layers.content()))
+        snapshot = self.maps.get(name)
+        sequence = max(snapshot.head.sequence - keep + 1, snapshot.head.oldest)
+        if sequence == snapshot.head.oldest:
+            return snapshot
+        layers, _ = load_version(self.maps.store, snapshot, sequence)
+        return self.maps.compact(snapshot.head, sequence, encode(layers.content()))
 
     def reserve(self, name: str, count: int, most: int = IDS) -> int:
         """Reserve `count` ids that no segment ever had and no other key holds; return the first.
 
         Args:
-            name: of the map.
-            count: how many.
-            most: ids that the key may have reserved lately and not written.
+            name: name of the map.
+            count: number of ids.
+            most: largest number of ids that the key may hold reserved and unwritten.
 
         Raises:
-            Problem: 409 if there are not so many, or the key has too many.
+            Problem: 409 if the map has too few free ids, or the key holds too many.
         """
         try:
             uid = self.maps.get(name).head.uid
@@ -213,81 +204,133 @@ class MapWriter:
                 "stop counting after a week; POST /maps/MAP/ids/reset frees all of them.",
             ) from error
         except KeyError as error:
-            raise unknown(name) from error
+            raise unknown_map(name) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
 
     def reset_ids(self, name: str) -> MapHead:
-        """Make all ids free that no version of the map has; for administrators."""
+        """Free all ids that no kept version of the map has; for administrators."""
         self.holder.check_admin()
         with self.maps.writing(name):
             return self.maps.free_ids(self.maps.get(name))
 
-    def _sighting(self, edit: Delta, layers: MapLayers) -> Sighting:
-        upload = edit.changed
-        # As far as the views of a thing reach, for all of them count.
-        there = layers.near(upload.centroids, VIEWS * RADIUS)
-        stored = apply(there, Delta(layers.take(upload.ids), NONE))
-        # What the edit removes was not seen again.
-        stored = take(stored, ~np.isin(stored.ids, edit.removed))
-        return sighting(upload, stored, SameView.of(self.models.named(upload.model_id).manifest))
+    def create(self, name: str, content: CompactMap, file: bytes, operation: str) -> WriteResult:
+        """Store a new map if the key and the preconditions allow it; `writing(name)` is held.
 
-    def create(self, name: str, content: CompactMap, operation: str) -> WriteResult:
-        """Store a new map, as far as the key and the conditions allow; `Maps.writing` is held."""
+        Args:
+            name: name of the map.
+            content: its segments, in canonical form.
+            file: the map file of this content.
+            operation: name of the operation in the history.
+        """
         self.holder.check_robots(robots_of(content))
         self.conditions.check(None)
         check_times(content)
         check_new(self.maps.store, self.holder, None, content.ids)
-        with self._told_quota():
-            stored = self.maps.create(name, content, self.holder.name, operation)
-        return WriteResult(stored, len(content), 0, is_new=True)
+        with self._quota_detail():
+            snapshot = self.maps.create(name, content, file, self.holder.name, operation)
+        return WriteResult(snapshot, len(content), 0, is_new=True)
 
     def commit(
-        self,
-        stored: MapSnapshot,
-        asked: Delta,
-        operation: str,
-        check: Check = lambda *_: None,
-        refreshed: UInt32 = NONE,
-        replaces: bool = False,
+        self, snapshot: MapSnapshot, change: MapChange, operation: str, replaces: bool = False
     ) -> WriteResult:
-        """Do what a delta asks, as far as the key and the conditions allow; `Maps.writing` is held.
+        """Store the next version if the key and the preconditions allow it; `writing` is held.
 
         Args:
-            stored: the map as it is.
-            asked: what to do; nothing is written if that changes nothing.
-            operation: for the history.
-            check: raises a problem if what is replaced or removed may not be.
-            refreshed: ids of segments that were only seen again.
-            replaces: whether other content is replaced, which needs If-Match.
+            snapshot: the map as it is.
+            change: what to change; an empty change succeeds and creates no version.
+            operation: name of the operation in the history.
+            replaces: the write replaces other content, so it needs If-Match.
         """
-        before, delta = stored.layers.effect_of(asked)
-        if not stored.layers.is_changed_by(delta):
-            return WriteResult(stored, 0, 0)
-        # To have seen another's segment again is not to write it.
-        for content in (before, delta.changed):
+        if change.is_empty:
+            return WriteResult(snapshot, 0, 0)
+        self._authorize(snapshot, change, replaces=replaces)
+        return self._store(snapshot, change, operation)
+
+    def _deduplicated(self, edit: Delta, layers: MapLayers) -> Deduplicated:
+        upload = edit.changed
+        # All views of an object count, so the search reaches as far as they can lie.
+        near = layers.near(upload.centroids, VIEWS * RADIUS)
+        stored = apply(near, Delta(layers.take(upload.ids), NONE))
+        # The robot did not see again what its edit removes.
+        stored = take(stored, ~np.isin(stored.ids, edit.removed))
+        manifest = self.models.named(upload.model_id).manifest
+        return deduplicate(upload, stored, SameView.of(manifest))
+
+    def _authorize(
+        self,
+        snapshot: MapSnapshot,
+        change: MapChange,
+        refreshed: UInt32 = NONE,
+        replaces: bool = False,
+    ) -> None:
+        """Check the key's scope and the preconditions.
+
+        Args:
+            snapshot: the map as it is.
+            change: what to change.
+            refreshed: ids of segments whose `seen` alone changes, which any robot may do.
+            replaces: the write replaces other content, so it needs If-Match.
+        """
+        for content in (change.before, change.delta.changed):
             self.holder.check_robots(robots_of(take(content, ~np.isin(content.ids, refreshed))))
         if replaces:
-            self.conditions.check_replaces(stored.tag)
+            self.conditions.check_replaces(snapshot.tag)
         else:
-            self.conditions.check(stored.tag)
-        check(stored, before, delta)
-        written = None
-        if operation not in {"restore", "age"}:
-            written = np.setdiff1d(delta.changed.ids, refreshed)
-            new = np.setdiff1d(written, before.ids)
-            check_times(delta.changed)
-            if operation == "merge":
-                written = new
-            else:
-                check_new(self.maps.store, self.holder, stored.head, new)
-        with self._told_quota():
-            stored = self.maps.commit(stored, delta, self.holder.name, operation, written)
-        return WriteResult(stored, len(delta.changed), len(delta.removed))
+            self.conditions.check(snapshot.tag)
+
+    def _check_edit(
+        self,
+        snapshot: MapSnapshot,
+        change: MapChange,
+        refreshed: UInt32,
+        owners: set[str | None],
+        options: EditOptions,
+    ) -> None:
+        """Check that an edit takes no segment or id of others, unless If-Match confirms it."""
+        before, delta = change.before, change.delta
+        written = np.setdiff1d(delta.changed.ids, refreshed)
+        replaced = np.intersect1d(before.ids, written)
+        if options.only_new:
+            check_only_new(replaced)
+        if self.conditions.if_match is not None:
+            return
+        check_own(before, delta, owners)
+        # An edit that names a robot states whose segments it removes.
+        named = options.robot is not None
+        old = replaced if named else np.union1d(replaced, delta.removed)
+        new = np.setdiff1d(written, before.ids)
+        check_authors(self.maps.store, self.holder, snapshot.head, old, new)
+
+    def _store(
+        self,
+        snapshot: MapSnapshot,
+        change: MapChange,
+        operation: str,
+        refreshed: UInt32 = NONE,
+    ) -> WriteResult:
+        owned = self._owned_ids(snapshot, change, operation, refreshed)
+        with self._quota_detail():
+            after = self.maps.commit(snapshot, change.delta, self.holder.name, operation, owned)
+        return WriteResult(after, len(change.delta.changed), len(change.delta.removed))
+
+    def _owned_ids(
+        self, snapshot: MapSnapshot, change: MapChange, operation: str, refreshed: UInt32
+    ) -> UInt32 | None:
+        """Check times and new ids; return the ids that become this key's; None: owners stay."""
+        if operation in {"restore", "age"}:
+            return None
+        check_times(change.delta.changed)
+        written = np.setdiff1d(change.delta.changed.ids, refreshed)
+        new = np.setdiff1d(written, change.before.ids)
+        if operation == "merge":  # it reserved its ids
+            return new
+        check_new(self.maps.store, self.holder, snapshot.head, new)
+        return written
 
     @contextmanager
-    def _told_quota(self) -> Iterator[None]:
-        """Show the totals of all maps only to a key that opens all maps."""
+    def _quota_detail(self) -> Iterator[None]:
+        """Add the totals of all maps to a quota error for a key that opens all maps."""
         try:
             yield
         except OverQuotaError as error:
@@ -297,40 +340,10 @@ class MapWriter:
 
 
 def out_of_ids(name: str, error: OutOfIdsError) -> Problem:
-    """What is told when a map has too few ids left."""
-    return Problem(409, "out-of-ids", f"Map {name!r}: {error}.")
-
-
-def delta_to(stored: MapSnapshot, content: CompactMap, present: CompactMap | None = None) -> Delta:
-    """From a map as it is to a content.
-
-    Args:
-        present: what the map holds, for those who have put it together already.
-    """
-    sequence = stored.head.sequence
-    present = stored.layers.content() if present is None else present
-    return delta_between(present, content, sequence, sequence + 1)
-
-
-def _check_own(before: CompactMap, delta: Delta, owners: set[str | None]) -> None:
-    """See that no segment becomes another robot's, nor is removed by one; 409 if it would."""
-    after = dict(zip(delta.changed.ids.tolist(), _names(delta.changed), strict=True))
-    taken = {
-        id_: robot
-        for id_, robot in zip(before.ids.tolist(), _names(before), strict=True)
-        if (after[id_] != robot if id_ in after else robot not in owners)
-    }
-    if taken:
-        whose = ", ".join(sorted(set(taken.values())))
-        raise Problem(
-            409,
-            "id-taken",
-            f"{len(taken)} ids are of segments of {whose:.200}: take others (POST /maps/MAP/ids), "
-            "or say If-Match if you mean to replace or remove these.",
-            ids=list(taken),
-        )
-
-
-def _names(content: CompactMap) -> list[str]:
-    """Of each segment's robot."""
-    return [content.robots[index] for index in content.robot.tolist()]
+    """Return the problem of a map that has too few free ids."""
+    return Problem(
+        409,
+        "out-of-ids",
+        f"Map {name!r:.80}: {error}. Compact the map, then free unused ids "
+        "(POST /maps/MAP/ids/reset).",
+    )

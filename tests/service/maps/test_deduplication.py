@@ -20,12 +20,12 @@ from service.maps import deduplication
 from service.maps.deduplication import (
     NONE,
     RADIUS,
-    SAME_STAND,
     SAME_VIEW,
+    SAME_VIEWPOINT,
     VIEWS,
+    Deduplicated,
     SameView,
-    Sighting,
-    sighting,
+    deduplicate,
 )
 from tests.service.core.test_auth import made
 from tests.service.service_builders import assert_problem
@@ -73,9 +73,9 @@ def joined(*parts: CompactMap) -> CompactMap:
     return whole
 
 
-def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> Sighting:
+def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> Deduplicated:
     # Codes apart by 1 are 7 ** 0.5 steps apart.
-    return sighting(upload, stored, SameView(QUANTIZER, 2 * 7**0.5), views=views)
+    return deduplicate(upload, stored, SameView(QUANTIZER, 2 * 7**0.5), views=views)
 
 
 def told(content: CompactMap) -> list[tuple[int, int, int]]:
@@ -277,7 +277,7 @@ def test_a_part_of_a_map_is_enough(manifest: Manifest) -> None:
 
 def compared_with_all(
     upload: CompactMap, stored: CompactMap, same: SameView, itself: bool
-) -> Sighting:
+) -> Deduplicated:
     """Reference: each segment compared with all others near it."""
     stored, given = (with_optional(each, ["views", "seen"]) for each in (stored, upload))
     known = take(stored, ~np.isin(stored.ids, given.ids))
@@ -312,7 +312,7 @@ def compared_with_all(
             of_it = others[things[others] == things[nearest]]
             away = np.linalg.norm(stands[of_it] - stands[row], axis=1).min()
             count = np.count_nonzero(things[kept] == things[nearest])
-            if distances.min() <= same.steps or away <= SAME_STAND or count >= VIEWS:
+            if distances.min() <= same.steps or away <= SAME_VIEWPOINT or count >= VIEWS:
                 seen[nearest] = max(seen[nearest], seen[row])
                 continue
             things[row] = things[nearest]
@@ -324,7 +324,7 @@ def compared_with_all(
         replace(given, seen=seen[len(known) :], views=things[len(known) :]), rows - len(known)
     )
     changed = apply(refreshed, Delta(canonical(new), NONE))
-    return Sighting(changed, refreshed.ids, len(given) - len(new))
+    return Deduplicated(changed, refreshed.ids, len(given) - len(new))
 
 
 def scattered(
@@ -363,7 +363,7 @@ def test_A1_bounded_comparison_gives_what_comparing_all_gives(
         random = np.random.default_rng(seed)
         upload = scattered(random, 160, extent, 0, moments)
         stored = scattered(random, 90, extent, int(random.choice([0, 1000])), moments)
-        found = sighting(upload, stored, same, itself=itself)
+        found = deduplicate(upload, stored, same, itself=itself)
         expected = compared_with_all(upload, stored, same, itself)
         assert encode(found.changed) == encode(expected.changed)
         assert found.refreshed.tolist() == expected.refreshed.tolist()
@@ -373,9 +373,9 @@ def test_A1_bounded_comparison_gives_what_comparing_all_gives(
 def peak_bytes(upload: CompactMap) -> int:
     """Memory that a comparison takes beside its arguments."""
     nothing, same = take(upload, slice(0)), SameView(Quantizer(0.01), 1.0)
-    sighting(take(upload, slice(3)), nothing, same)
+    deduplicate(take(upload, slice(3)), nothing, same)
     tracemalloc.start()
-    sighting(upload, nothing, same)
+    deduplicate(upload, nothing, same)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     return peak
@@ -403,7 +403,7 @@ def test_A1_segment_is_compared_with_the_latest_so_many(
     nothing = take(upload, slice(0))
     for most, repeats in ((60, 1), (59, 0), (0, 0)):
         monkeypatch.setattr(deduplication, name, most)
-        assert sighting(upload, nothing, same, same_stand=-1.0).repeats == repeats
+        assert deduplicate(upload, nothing, same, same_viewpoint=-1.0).repeats == repeats
 
 
 def test_A1_comparison_stops_when_nobody_waits() -> None:
@@ -411,4 +411,4 @@ def test_A1_comparison_stops_when_nobody_waits() -> None:
     with cancelled_by(CancelToken()) as token:
         token.cancel()
         with pytest.raises(Cancelled):
-            sighting(upload, take(upload, slice(0)), SameView(Quantizer(0.01), 1.0))
+            deduplicate(upload, take(upload, slice(0)), SameView(Quantizer(0.01), 1.0))

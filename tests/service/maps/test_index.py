@@ -10,7 +10,7 @@ from service.maps.index import MARGIN, FlatIndex, NibbleIndex, index_of
 
 
 def codes_of(rows: int, per_byte: int, width: int = 12, seed: int = 0) -> Int8:
-    """Codes that a quantiser of so many dimensions a byte may give."""
+    """Codes that a quantizer of so many dimensions a byte may give."""
     most = LEVELS[per_byte] ** per_byte
     drawn = np.random.default_rng(seed).integers(0, most, (rows, width)) - most // 2
     return np.asarray(drawn, np.int8)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from placecell_client import CompactMap, Delta, encode, originated
+from placecell_client import CompactMap, Delta, encode, encode_delta, originated
 from placecell_client.maps.edit import apply, empty
 
 from placecell.descriptors.quantizer import Quantizer
@@ -98,14 +98,33 @@ def test_the_effect_of_an_edit_is_all_that_it_changes(
     layers = MapLayers.of(start)
     for each in edits:
         layers = layers.after(each)
-    before, effect = layers.effect_of(asked[0])
-    after = layers.after(asked[0])
+    change = layers.effect_of(asked[0])
+    effect, after = change.delta, layers.after(asked[0])
     assert encode(layers.after(effect).content()) == encode(after.content())
-    assert layers.is_changed_by(effect) == (encode(after.content()) != encode(layers.content()))
-    # What it says is replaced or removed was there, with other values.
-    assert {*before.ids} == {*effect.removed} | ({*effect.changed.ids} & {*layers.ids})
-    again = after.effect_of(asked[0])[1]
-    assert not after.is_changed_by(again)
+    assert change.is_empty == (encode(after.content()) == encode(layers.content()))
+    # The segments before are those of the map that the delta replaces or removes.
+    assert {*change.before.ids} == {*effect.removed} | ({*effect.changed.ids} & {*layers.ids})
+    assert after.effect_of(asked[0]).is_empty
+
+
+@given(STARTS, EDITS, EDITS)
+@settings(max_examples=100, deadline=None)
+def test_change_to_another_content_is_found_by_one_comparison(
+    start: CompactMap, edits: list[Delta], others: list[Delta]
+) -> None:
+    layers = MapLayers.of(start)
+    for each in edits:
+        layers = layers.after(each)
+    other = layers
+    for each in others:
+        other = other.after(each)
+    change = layers.change_to(other.content(), 3)
+    assert encode(layers.after(change.delta).content()) == encode(other.content())
+    assert change.is_empty == (encode(other.content()) == encode(layers.content()))
+    # Nothing is left to leave out: the change is its own effect.
+    again = layers.effect_of(change.delta)
+    assert encode_delta(again.delta) == encode_delta(change.delta)
+    assert again.before.ids.tolist() == change.before.ids.tolist()
 
 
 @pytest.mark.slow
@@ -140,22 +159,22 @@ def test_optional_columns_of_an_edit_become_the_map_s() -> None:
     }
     # An edit that lacks the column is filled up, as the map would be.
     plain = Delta(segments([9], 5), np.zeros(0, np.uint32))
-    _, effect = after.effect_of(plain)
+    effect = after.effect_of(plain).delta
     assert effect.changed.seen is not None
     assert effect.changed.seen.tolist() == [1_700_000_000]
     # A column alone is a change, once.
     nothing = Delta(replace(NOTHING, seen=np.zeros(0, np.uint32)), np.zeros(0, np.uint32))
-    assert start.is_changed_by(start.effect_of(nothing)[1])
-    assert not after.is_changed_by(after.effect_of(nothing)[1])
+    assert not start.effect_of(nothing).is_empty
+    assert after.effect_of(nothing).is_empty
 
 
 def test_a_whole_delta_replaces_all() -> None:
     start = MapLayers.of(segments([1, 2, 3], robot="zoe"))
     other = replace(segments([5]), model_id="another")
     whole = Delta(other, np.zeros(0, np.uint32), 0, 9)
-    before, effect = start.effect_of(whole)
-    assert before.ids.tolist() == [1, 2, 3]
-    assert start.is_changed_by(effect)
-    after = start.after(effect)
+    change = start.effect_of(whole)
+    assert change.before.ids.tolist() == [1, 2, 3]
+    assert not change.is_empty
+    after = start.after(change.delta)
     assert (after.base.model_id, after.ids.tolist()) == ("another", [5])
     assert after.robots == Counter(ann=1)

@@ -129,7 +129,7 @@ def test_other_content_replaces_only_what_was_seen(
 def test_a_condition_on_a_map_that_is_not_there(service: Any, yard: bytes) -> None:
     for header in ('"x"', "*"):
         refused = service.put("/maps/yard", content=yard, headers={"If-Match": header})
-        assert_problem(refused, 412, "precondition-failed", "is not there")
+        assert_problem(refused, 412, "precondition-failed", "does not exist")
     assert service.get("/maps/yard").status_code == 404
     made = service.put("/maps/yard", content=yard, headers={"If-None-Match": "*"})
     assert made.status_code == 201

@@ -272,7 +272,7 @@ def test_B19_a_fold_leaves_one_copy(
         for step in range(1, 9):
             # Not over HTTP: a thread that has answered holds the map for a moment longer.
             changed = map_of(random_codes(200, step), manifest.model_id)
-            delta = maps.get("yard").layers.effect_of(Delta(changed, np.zeros(0, np.uint32)))[1]
+            delta = maps.get("yard").layers.effect_of(Delta(changed, np.zeros(0, np.uint32))).delta
             maps.commit(maps.get("yard"), delta, "ann", "edit")
             keeper.run_once()
         assert len(while_saved) == 8
