@@ -1,4 +1,4 @@
-"""What routes answer about alignments, made of what was found."""
+"""Answers of the routes about alignments and merges."""
 
 from collections.abc import Sequence
 
@@ -21,6 +21,8 @@ from service.merging.join import PartOutcome
 from service.merging.merge import MergeResult
 from service.merging.plan import AlignedPair, MergePlan
 
+NOTHING = PartOutcome(added=0, known=0, repeats=0, removed=0)
+
 
 def alignment_of(
     found: MapAlignment,
@@ -28,14 +30,17 @@ def alignment_of(
     other: MapSnapshot,
     ids: tuple[UInt32, UInt32] | None = None,
 ) -> AlignmentOut:
-    """How two maps lie to each other.
+    """Return the answer about the alignment of two maps.
 
     Args:
-        ids: of the rows of both, for the pairs that agree; None: they are not told.
+        found: the alignment.
+        one: the one map.
+        other: the other map.
+        ids: ids of the rows of both maps, to list the pairs that agree; None: do not list them.
     """
     best, pose = found.best, found.pose
     others = [found.second] if pose is not None else [best, found.second]
-    told = best if pose is not None else None
+    accepted = best if pose is not None else None
     return AlignmentOut(
         map=one.name,
         etag=one.tag,
@@ -47,18 +52,20 @@ def alignment_of(
         reason=found.reason,
         detail=found.detail,
         pose=None if pose is None else PoseOut(**pose_of(pose)),
-        covariance=None if told is None else told.covariance.tolist(),
-        overlap=None if told is None else OverlapOut(of_map=told.parts[0], of_other=told.parts[1]),
+        covariance=None if accepted is None else accepted.covariance.tolist(),
+        overlap=None
+        if accepted is None
+        else OverlapOut(of_map=accepted.parts[0], of_other=accepted.parts[1]),
         score=0.0 if best is None else best.score,
         agreement=0.0 if best is None else best.agreement,
-        pairs=0 if told is None else len(told),
-        inliers=[] if told is None or ids is None else pairs_of(told, ids),
+        pairs=0 if accepted is None else len(accepted),
+        inliers=[] if accepted is None or ids is None else pairs_of(accepted, ids),
         others=[laid(each) for each in others if each is not None],
     )
 
 
 def laid(overlap: Overlap) -> LaidOut:
-    """A way to lay one map on the other."""
+    """Return the answer about one hypothesis of an alignment."""
     return LaidOut(
         pose=PoseOut(**pose_of(overlap.pose)),
         score=overlap.score,
@@ -68,7 +75,7 @@ def laid(overlap: Overlap) -> LaidOut:
 
 
 def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
-    """The segments that agree."""
+    """Return the pairs of segments that agree."""
     here, there = ids
     rows = zip(
         here[overlap.rows_a].tolist(),
@@ -80,10 +87,12 @@ def pairs_of(overlap: Overlap, ids: tuple[UInt32, UInt32]) -> list[PairOut]:
 
 
 def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut:
-    """What a merge did, or would do.
+    """Return the answer about a merge.
 
     Args:
-        names: of the maps, in the order of the request.
+        merged: the result.
+        name: name of the merged map.
+        names: names of the maps, in the order of the request.
     """
     plan, written = merged.plan, merged.written
     numbers = {stored.name: number for number, stored in enumerate(plan.maps)}
@@ -98,7 +107,7 @@ def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut
         changed=merged.changed,
         removed=merged.removed,
         parts=[_part(merged, numbers[each]) for each in names],
-        alignments=[_pairing(plan, each) for each in plan.pairings],
+        alignments=[_pair(plan, each) for each in plan.pairs],
         loops=[
             LoopOut(
                 maps=[plan.maps[number].name for number in loop.maps],
@@ -112,25 +121,25 @@ def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut
 
 
 def _part(merged: MergeResult, number: int) -> MergedPartOut:
-    stored, is_merged = merged.plan.maps[number], number in merged.shares
+    stored, is_merged = merged.plan.maps[number], number in merged.outcomes
     pose = merged.plan.poses[number] if is_merged else None
-    share = merged.shares.get(number, PartOutcome(0, 0, 0, 0))
+    outcome = merged.outcomes.get(number, NOTHING)
     return MergedPartOut(
         map=stored.name,
         etag=stored.tag,
         merged=is_merged,
         pose=None if pose is None else PoseOut(**pose_of(pose)),
-        added=share.added,
-        known=share.known,
-        repeats=share.repeats,
-        removed=share.removed,
+        added=outcome.added,
+        known=outcome.known,
+        repeats=outcome.repeats,
+        removed=outcome.removed,
     )
 
 
-def _pairing(plan: MergePlan, pairing: AlignedPair) -> MergePairOut:
-    told = alignment_of(pairing.found, plan.maps[pairing.one], plan.maps[pairing.other])
+def _pair(plan: MergePlan, pair: AlignedPair) -> MergePairOut:
+    accepted = alignment_of(pair.found, plan.maps[pair.one], plan.maps[pair.other])
     return MergePairOut(
-        rejected=pairing.is_rejected,
-        proven=pairing.is_proven,
-        **told.model_dump(include=set(MergePairOut.model_fields)),
+        rejected=pair.is_rejected,
+        proven=pair.is_proven,
+        **accepted.model_dump(include=set(MergePairOut.model_fields)),
     )

@@ -1,4 +1,4 @@
-"""From two stored maps to how they lie to each other."""
+"""Alignment of two stored maps: the transform between their frames."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,60 +15,59 @@ from service.maps.index import MapIndex, index_of
 from service.maps.snapshot import MapSnapshot
 
 K = 25
-"""Candidates of each view of a submap's thing."""
+"""Number of candidates of each view of an object in a submap."""
 
 BLOCK = 1 << 16
-"""Pairs that are compared at once: their descriptors are much larger than what is told of them."""
-
+"""Number of pairs compared per step, because their descriptors take much memory."""
 
 SEARCHED = 512
-"""Segments searched per step; cancellation is checked between steps."""
+"""Number of segments searched per step; cancellation is checked between steps."""
 
-Check = Callable[[], None]
-"""Raises an exception when nobody waits any longer; is asked for each part of a map."""
+CancellationCheck = Callable[[], None]
+"""Raises `Cancelled` if the deadline passed or the client disconnected."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapSide:
-    """A stored map made ready to be aligned, once for all maps that it is held against.
+    """Stored map, prepared once for its alignments with several maps.
 
     Attributes:
-        stored: the map.
-        content: all of it in one piece, whose rows an alignment names.
-        view: where its segments are, and were seen from.
+        snapshot: the map.
+        content: its segments in one piece; an alignment refers to their rows.
+        view: positions of the segments and of the sensor when it saw them.
     """
 
-    stored: MapSnapshot
+    snapshot: MapSnapshot
     content: CompactMap
     view: MapView
 
     @classmethod
-    def of(cls, stored: MapSnapshot) -> "MapSide":
-        """Of a map as it is now."""
-        content = stored.layers.content()
+    def of(cls, snapshot: MapSnapshot) -> "MapSide":
+        """Prepare a map."""
+        content = snapshot.layers.content()
         viewpoints = content.frame_positions[content.frame_index]
-        return cls(stored, content, MapView(content.centroids, viewpoints))
+        return cls(snapshot, content, MapView(content.centroids, viewpoints))
 
     def index(self, model: Model) -> MapIndex:
-        """Over its content: the map's own, or a new one if the map was written to since."""
-        stored = self.stored
-        if stored.index is not None and self.content is stored.layers.base:
-            return stored.index.base
+        """Return an index over the content; builds one if the map has two layers."""
+        snapshot = self.snapshot
+        if snapshot.index is not None and self.content is snapshot.layers.base:
+            return snapshot.index.base
         return index_of(self.content.codes, model.manifest.quantizer)
 
 
 class StoredMatchProbabilities:
-    """`MatchProbabilities` of two maps, a and b, that one model made."""
+    """Match probabilities between maps a and b of one model (`MatchProbabilities`)."""
 
     def __init__(
-        self, model: Model, a: CompactMap, b: CompactMap, check: Check = lambda: None
+        self, model: Model, a: CompactMap, b: CompactMap, check: CancellationCheck = lambda: None
     ) -> None:
         self._model = model
         self._a, self._b = a.codes, b.codes
         self._check = check
 
     def match_probabilities(self, a: Int64, b: Int64) -> Float64:
-        """How likely each row of a and row of b are the same."""
+        """Return the match probability of each row of a with the row of b beside it."""
         told = [np.zeros(0)]
         for begin in range(0, len(a), BLOCK):
             self._check()
@@ -78,7 +77,7 @@ class StoredMatchProbabilities:
 
 
 class StoredDescriptorSearch(StoredMatchProbabilities):
-    """`DescriptorSearch` of two maps."""
+    """Nearest rows and match probabilities between maps a and b (`DescriptorSearch`)."""
 
     def __init__(
         self,
@@ -86,14 +85,14 @@ class StoredDescriptorSearch(StoredMatchProbabilities):
         a: CompactMap,
         b: CompactMap,
         index: MapIndex,
-        check: Check = lambda: None,
+        check: CancellationCheck = lambda: None,
     ) -> None:
-        """With an index over a."""
+        """Create it from an index over a."""
         super().__init__(model, a, b, check)
         self._index = index
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
-        """Of each row of b the rows of a that look most like it, and how likely."""
+        """Return the rows of a most similar to each row of b, and their match probabilities."""
         distinct, inverse = np.unique(rows, return_inverse=True)
         parts = []
         for begin in range(0, max(len(distinct), 1), SEARCHED):
@@ -112,19 +111,19 @@ def align_maps(
     index: MapIndex,
     model: Model,
     parameters: AlignmentParameters,
-    check: Check = lambda: None,
+    check: CancellationCheck = lambda: None,
 ) -> MapAlignment:
-    """How b lies to a, with a's index."""
+    """Align b with a, given an index over a."""
     search = StoredDescriptorSearch(model, a.content, b.content, index, check)
     return align(a.view, b.view, search, parameters)
 
 
 def check_same_model(a: MapSnapshot, b: MapSnapshot) -> None:
-    """See that two maps can be compared; 409 if not."""
+    """Check that two maps have the same model; 409 if not."""
     if a.model_id != b.model_id:
         raise Problem(
             409,
             "other-model",
-            f"Map {a.name!r} was made by model {a.model_id!r}, map {b.name!r} by {b.model_id!r}; "
-            "descriptors of two models do not compare.",
+            f"Map {a.name!r} was made by model {a.model_id!r}, map {b.name!r} by {b.model_id!r}. "
+            "Descriptors of two models cannot be compared; build both maps with one model.",
         )

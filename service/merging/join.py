@@ -1,4 +1,4 @@
-"""A site map: what several maps hold, in one frame, each segment with where it comes from."""
+"""Join: puts the segments of several maps into a merged map, with their provenance."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -21,21 +21,22 @@ from service.merging.alignment import MapSide
 from service.merging.provenance import keys_in, moments_of, of_source, shared
 
 ROUNDED = 0.02
-"""Metres: two centroids that are the same but for their rounding, before a turn and after it."""
+"""Largest distance in meters of equal centroids that were rounded before and after a rotation."""
 
 ROUNDS = 20
-"""Largest number of merge rounds; two or three are usual."""
+"""Largest number of rounds of `join_settled`; two or three are usual."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergePart:
-    """A map that is to be merged.
+    """Map to merge.
 
     Attributes:
-        name: under which it is stored.
-        content: its segments, each with where it comes from.
-        pose: from its frame to the site's.
-        slack: metres along an axis, up to which what was merged before lies where it lay.
+        name: name of the map.
+        content: its segments, with their provenance.
+        pose: transform from its frame into the merged map's.
+        slack: largest distance in meters along an axis between a segment's position in the merged
+            map and its position by `pose`, if the segment did not move.
     """
 
     name: str
@@ -46,13 +47,13 @@ class MergePart:
 
 @dataclass(frozen=True, slots=True)
 class PartOutcome:
-    """What became of a part's segments.
+    """Numbers of a part's segments by outcome.
 
     Attributes:
-        added: new in the site.
-        known: were merged before, and stay as they are, but for a later `seen`.
-        repeats: not stored, for another map's segment shows the same.
-        removed: were merged before, and are gone from the part, or replaced there.
+        added: segments that are new in the merged map.
+        known: segments that were merged before and stay, apart from a later `seen`.
+        repeats: segments not stored, because another map's segment shows the same.
+        removed: segments merged before that the part removed or replaced since.
     """
 
     added: int
@@ -61,205 +62,225 @@ class PartOutcome:
     removed: int
 
 
-def empty_merged_map(stored: MapSnapshot) -> CompactMap:
-    """An empty site, in the frame of a map."""
-    base = stored.layers.base
+def empty_merged_map(snapshot: MapSnapshot) -> CompactMap:
+    """Return an empty merged map in the frame of a map."""
+    base = snapshot.layers.base
     return empty(base.model_id, base.preprocessing, base.frame, base.code_bytes)
 
 
 def content_of(side: MapSide) -> CompactMap:
-    """The segments of a map that is to be merged, each with where it comes from."""
-    return originated(side.content, side.stored.name)
+    """Return the segments of a map to merge, with their provenance."""
+    return originated(side.content, side.snapshot.name)
 
 
-def known_pose(site: CompactMap, part: CompactMap, parameters: AlignmentParameters) -> Pose | None:
-    """How a map lies in a site that it was merged into, from what it gave; None if that is unclear.
+def known_pose(
+    target: CompactMap, part: CompactMap, parameters: AlignmentParameters
+) -> Pose | None:
+    """Return a map's pose in a map that it was merged into; None if it is unclear.
 
-    The stands tell it exactly, for they are moved without rounding; where all are on one line or
-    spot and do not tell the direction, the sensor's orientation on them does, for it is moved, too.
-    The centroids of most show where either is wrong. So a single segment is enough.
+    The pose follows from the shared segments. Sensor positions are transformed without rounding, so
+    they determine the pose exactly. If they are on one line or point, the sensor's orientations
+    determine the rotation. The centroids of most segments verify the result. So a single segment is
+    enough.
 
     Args:
-        part: with where its segments come from.
+        target: the merged map.
+        part: the map, with its provenance.
+        parameters: parameters of the alignment.
     """
-    rows, places = shared(part, with_optional(site, ("source", "source_ids")))
-    same = moments_of(part, rows) == moments_of(site, places)  # else it was seen anew, elsewhere
+    rows, places = shared(part, with_optional(target, ("source", "source_ids")))
+    same = moments_of(part, rows) == moments_of(
+        target, places
+    )  # otherwise it was seen again, elsewhere
     rows, places = rows[same], places[same]
     if not len(rows):
         return None
-    frames, others = part.frame_index[rows], site.frame_index[places]
-    viewpoints, there = part.frame_positions[frames], site.frame_positions[others]
-    by_stands = register(viewpoints, there, np.ones(len(rows)), parameters.local)
-    turned = [
+    frames, others = part.frame_index[rows], target.frame_index[places]
+    positions, there = part.frame_positions[frames], target.frame_positions[others]
+    by_positions = register(positions, there, np.ones(len(rows)), parameters.local)
+    rotations = [
         Rotation.from_quat(orientations[0])
-        for orientations in (part.frame_orientations[frames], site.frame_orientations[others])
+        for orientations in (part.frame_orientations[frames], target.frame_orientations[others])
     ]
-    turn = (turned[1] * turned[0].inv()).as_matrix()
-    by_turn = Pose(turn, (there - viewpoints @ turn.T).mean(axis=0))
-    for pose in (by_stands, by_turn):
-        away = np.abs(pose.apply(viewpoints) - there).max()
-        off = np.abs(pose.apply(part.centroids[rows]) - site.centroids[places]).max(axis=1)
+    rotation = (rotations[1] * rotations[0].inv()).as_matrix()
+    by_orientation = Pose(rotation, (there - positions @ rotation.T).mean(axis=0))
+    for pose in (by_positions, by_orientation):
+        away = np.abs(pose.apply(positions) - there).max()
+        off = np.abs(pose.apply(part.centroids[rows]) - target.centroids[places]).max(axis=1)
         if away <= ROUNDED and np.median(off) <= ROUNDED:
             return pose
     return None
 
 
 def join(
-    site: CompactMap, parts: Sequence[MergePart], first_id: int, same: SameView | None
+    target: CompactMap, parts: Sequence[MergePart], first_id: int, same: SameView | None
 ) -> tuple[CompactMap, list[PartOutcome]]:
-    """The site with the parts in it, one after the other.
+    """Join the parts into the merged map, one after the other.
 
-    A segment is known by the map that it was written to first, and its id there; so a map can be
-    merged again when it has grown, and parts may share what was merged into both. What that map
-    itself has replaced since under the same id is taken out, and anew; what any saw again is as
-    lately seen in the site.
+    A segment is identified by the map that it was first written to and its id there. So a map can
+    be merged again when it has grown, and parts may have segments in common. If that map replaced a
+    segment since, the merged map replaces it too. If any part saw a segment again, its `seen` is
+    updated.
 
     Args:
-        site: in canonical form.
-        first_id: of new segments, which get this one and those after it, without a gap.
-        same: leave out what another map's segment shows already; None: leave nothing out.
+        target: the merged map, in canonical form.
+        parts: the maps to merge.
+        first_id: id of the first new segment; the others follow without a gap.
+        same: leave out segments that another map's segment shows already, by this criterion; None:
+            leave nothing out.
 
     Raises:
-        MapFileError: a part cannot stand in the site.
+        MapFileError: a part does not fit the merged map.
         OutOfIdsError: there are too few ids from the first on.
     """
-    shares = []
+    outcomes = []
     for part in parts:
-        laid = moved(part.content, part.pose.rotation, part.pose.translation, site.frame)
-        site = with_optional(site, ("source", "source_ids"))
-        known = keys_in(laid, site)
-        given = keys_in(site, laid)
-        both = shared(laid, site)
-        rows, places = replaced(part, laid, site, *both)
+        placed = moved(part.content, part.pose.rotation, part.pose.translation, target.frame)
+        target = with_optional(target, ("source", "source_ids"))
+        known = keys_in(placed, target)
+        given = keys_in(target, placed)
+        rows, places = shared(placed, target)
+        later = seen_since(placed, target, rows, places)
+        rows, places = replaced(part, placed, target, rows, places)
         known[rows], given[places] = False, False
-        later = seen_since(laid, site, *both)
         if len(later):
-            site = apply(site, Delta(later, NONE))
-        gone = ~given & of_source(site, part.name)
-        added = renumbered(take(laid, ~known), first_id)
+            target = apply(target, Delta(later, NONE))
+        gone = ~given & of_source(target, part.name)
+        added = renumbered(take(placed, ~known), first_id)
         changed, repeats = added, 0
         if same is not None:
-            # Not with what the map itself gave before: it is another's that is left out. But its
-            # views count, or what had no room in a thing would have it the next time.
-            there = take(site, ~gone)
-            about = MapLayers.of(there).near(added.centroids, RADIUS)
+            # Segments are repeats of other maps' segments only. The part's own earlier segments
+            # still count as views, or an object's dropped view would be stored the next time.
+            there = take(target, ~gone)
+            near = MapLayers.of(there).near(added.centroids, RADIUS)
             seen = deduplicate(
                 added,
-                about,
+                near,
                 same,
                 itself=False,
-                compared=~np.isin(about.ids, site.ids[given]),
-                views_elsewhere=count_elsewhere(there, about),
+                compared=~np.isin(near.ids, target.ids[given]),
+                views_elsewhere=count_elsewhere(there, near),
             )
             changed, repeats = closed_up(seen.changed, first_id), seen.repeats
         first_id += len(added) - repeats
-        removed = np.sort(site.ids[gone])
-        site = apply(site, Delta(changed, removed))
-        shares.append(
-            PartOutcome(len(added) - repeats, int(np.count_nonzero(known)), repeats, len(removed))
+        removed = np.sort(target.ids[gone])
+        target = apply(target, Delta(changed, removed))
+        outcomes.append(
+            PartOutcome(
+                added=len(added) - repeats,
+                known=int(np.count_nonzero(known)),
+                repeats=repeats,
+                removed=len(removed),
+            )
         )
-    return site, shares
+    return target, outcomes
 
 
 def join_settled(
-    site: CompactMap,
+    target: CompactMap,
     parts: Sequence[MergePart],
     first_id: int,
     same: SameView | None,
     parameters: AlignmentParameters,
 ) -> tuple[CompactMap, list[PartOutcome]]:
-    """Merge the parts into the map until merging them again changes nothing.
+    """Join the parts repeatedly until another merge would change nothing.
 
-    What one part adds may show a segment of another one from a new side; so the parts are joined
-    until nothing changes, each as the next merge would lay it. The arguments are those of `join`.
+    A segment that one part adds may be a view of another part's object. So the parts are joined
+    until nothing changes, each at the pose of the next merge. The arguments are those of `join`.
 
     Raises:
-        MapFileError: a part cannot stand in the site.
+        MapFileError: a part does not fit the merged map.
         OutOfIdsError: there are too few ids from the first on.
-        Cancelled: nobody waits for it any longer.
+        Cancelled: the deadline passed, or the client disconnected.
     """
     token = current()
-    content, shares = join(site, parts, first_id, same)
+    content, outcomes = join(target, parts, first_id, same)
     for _ in range(ROUNDS):
         token.check()
-        laid = [as_laid(content, part, parameters) for part in parts]
-        free = first_id + sum(share.added for share in shares)
-        after, more = join(content, laid, free, same)
+        placed = [at_known_pose(content, part, parameters) for part in parts]
+        free = first_id + sum(outcome.added for outcome in outcomes)
+        after, more = join(content, placed, free, same)
         changed, removed = difference(content, after)
         if not len(changed) and not len(removed):
             break
         content = after
-        shares = [
+        outcomes = [
             PartOutcome(
                 one.added + other.added, one.known, other.repeats, one.removed + other.removed
             )
-            for one, other in zip(shares, more, strict=True)
+            for one, other in zip(outcomes, more, strict=True)
         ]
-    return content, shares
+    return content, outcomes
 
 
-def as_laid(site: CompactMap, part: MergePart, parameters: AlignmentParameters) -> MergePart:
-    """Return a part as it lies in the map that it was merged into; unchanged if unclear."""
-    pose = known_pose(site, part.content, parameters)
+def at_known_pose(
+    target: CompactMap, part: MergePart, parameters: AlignmentParameters
+) -> MergePart:
+    """Return a part with its pose in the merged map; unchanged if the pose is unclear."""
+    pose = known_pose(target, part.content, parameters)
     return part if pose is None else replace(part, pose=pose, slack=ROUNDED)
 
 
 def replaced(
-    part: MergePart, laid: CompactMap, site: CompactMap, rows: Int64, places: Int64
+    part: MergePart, placed: CompactMap, target: CompactMap, rows: Int64, places: Int64
 ) -> tuple[Int64, Int64]:
-    """What the part has replaced since it was merged, rows of both, int64 (m,) each.
+    """Return segments that the part replaced since it was merged, rows of both, int64 (m,) each.
 
-    Told by codes, moment and place. Only what was written to the part first: of the rest it may
-    have an older version than the site.
+    A replaced segment differs in codes, time or position. Only segments that were first written to
+    the part count: it may have older versions of others.
 
     Args:
-        laid: the part's content, in the site's frame.
-        rows: of the part, what both have, int64 (n,).
-        places: of the site, the same, int64 (n,).
+        part: the part.
+        placed: the part's content in the merged map's frame.
+        target: the merged map.
+        rows: rows of the shared segments in the part, int64 (n,).
+        places: their rows in the merged map, int64 (n,).
     """
-    off = np.abs(laid.centroids[rows] - site.centroids[places]).max(axis=1)
+    off = np.abs(placed.centroids[rows] - target.centroids[places]).max(axis=1)
     differs = (
-        (laid.codes[rows] != site.codes[places]).any(axis=1)
-        | (moments_of(laid, rows) != moments_of(site, places))
+        (placed.codes[rows] != target.codes[places]).any(axis=1)
+        | (moments_of(placed, rows) != moments_of(target, places))
         | (off > part.slack)
     )
-    differs &= of_source(laid, part.name)[rows]
+    differs &= of_source(placed, part.name)[rows]
     return rows[differs], places[differs]
 
 
-def seen_since(laid: CompactMap, site: CompactMap, rows: Int64, places: Int64) -> CompactMap:
-    """Segments of the site that the part has seen later, with that moment.
+def seen_since(placed: CompactMap, target: CompactMap, rows: Int64, places: Int64) -> CompactMap:
+    """Return segments of the merged map that the part saw later, with that time.
 
     Args:
-        rows: of the part, what both have, int64 (n,).
-        places: of the site, the same, int64 (n,).
+        placed: the part's content in the merged map's frame.
+        target: the merged map.
+        rows: rows of the shared segments in the part, int64 (n,).
+        places: their rows in the merged map, int64 (n,).
     """
-    filled = with_optional(site, ["seen"])
+    filled = with_optional(target, ["seen"])
     seen = last_seen(filled)
-    np.maximum.at(seen, places, last_seen(with_optional(laid, ["seen"]))[rows])
+    np.maximum.at(seen, places, last_seen(with_optional(placed, ["seen"]))[rows])
     return take(replace(filled, seen=seen), seen > last_seen(filled))
 
 
 def last_seen(content: CompactMap) -> UInt32:
-    """When each segment was seen last, whole seconds, uint32 (n,)."""
+    """Return when each segment was last seen, whole seconds, uint32 (n,)."""
     return np.array(content.seen)
 
 
 def renumbered(content: CompactMap, first_id: int) -> CompactMap:
-    """With ids from the first on; views of one thing stay such."""
+    """Number the segments from the first id on; views of one object stay together."""
     if first_id + len(content) > IDS:
-        raise OutOfIdsError(f"{IDS - first_id} ids are left")
+        raise OutOfIdsError(f"only {IDS - first_id} ids are left")
     ids = np.arange(first_id, first_id + len(content), dtype=np.uint32)
     views = content.views
     if views is not None and len(views):
-        # The first of them stands for all, for the one that they name may be no part of this.
+        # Name views after their first segment: the one that they name may be elsewhere.
         _, first, group = np.unique(views, return_index=True, return_inverse=True)
         views = ids[first[group]]
     return replace(content, ids=ids, views=views)
 
 
 def closed_up(content: CompactMap, first_id: int) -> CompactMap:
-    """Without gaps in the ids from the first on, for some were left out; as `renumbered` else."""
+    """Close gaps in the ids from the first on, which left out segments made."""
     rows = np.flatnonzero(content.ids >= first_id)
     ids, views = content.ids.copy(), np.array(content.views)
     ids[rows] = np.arange(first_id, first_id + len(rows), dtype=np.uint32)

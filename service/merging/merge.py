@@ -1,4 +1,4 @@
-"""Maps put into a site, for one request: laid on each other, joined, and written."""
+"""Merge: aligns stored maps, joins their segments, and writes the merged map."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,7 +12,7 @@ from service.maps.deduplication import RADIUS, SameView
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
 from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
-from service.merging.alignment import Check, check_same_model
+from service.merging.alignment import CancellationCheck, check_same_model
 from service.merging.join import (
     ROUNDED,
     MergePart,
@@ -27,20 +27,20 @@ from service.merging.plan import MergePlan, plan_merge
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergeResult:
-    """What a merge did, or would do.
+    """Result of a merge or of its dry run.
 
     Attributes:
-        plan: how the maps lie.
-        shares: by number, what became of the segments of those that were merged.
-        segments: of the site after it.
-        written: what was stored; None of a dry run.
-        previous: sequence of the site's version before; None: there was no site.
-        changed: segments that were, or would be, added or replaced.
-        removed: segments that were, or would be, removed.
+        plan: poses of the maps.
+        outcomes: outcome of each map that was merged, by number.
+        segments: number of segments of the merged map after it.
+        written: result of the write; None after a dry run.
+        previous: sequence of the merged map's version before; None: the map is new.
+        changed: number of segments added or replaced.
+        removed: number of segments removed.
     """
 
     plan: MergePlan
-    shares: dict[int, PartOutcome]
+    outcomes: dict[int, PartOutcome]
     segments: int
     written: WriteResult | None
     previous: int | None
@@ -50,75 +50,79 @@ class MergeResult:
 
 @dataclass(frozen=True, slots=True)
 class Merger:
-    """Whoever sent a request, as one who merges.
+    """Merges maps for one request.
 
     Attributes:
-        writer: who writes the site.
-        parameters: of the alignments.
-        deduplicate: leave out what another map's segment shows already.
-        dry_run: only tell what would be done.
-        check: raises an exception when nobody waits any longer.
+        writer: writes the merged map.
+        parameters: parameters of the alignments.
+        deduplicate: leave out segments that another map's segment shows already.
+        dry_run: write nothing; only return what would change.
+        check: raises `Cancelled` if the deadline passed or the client disconnected.
     """
 
     writer: MapWriter
     parameters: AlignmentParameters
     deduplicate: bool
     dry_run: bool
-    check: Check
+    check: CancellationCheck
 
     def merge(self, name: str, names: Sequence[str]) -> MergeResult:
-        """Merge stored maps into a site, which is made if there is none.
+        """Merge stored maps into a merged map, which is created if it does not exist.
 
-        A site's frame is that of the first map, and stays. Maps that cannot be laid on it are left
-        out; if that is all of them, nothing is done.
+        A new merged map has the frame of the first map. Maps that cannot be aligned with it are
+        left out; if no map can be aligned, nothing is written.
+
+        Args:
+            name: name of the merged map.
+            names: names of the maps to merge.
 
         Raises:
-            Problem: 404 for a map that is not there, 409 if the maps do not go together or the site
-                changed meanwhile, and what `MapWriter` finds wrong.
+            Problem: 404 if a map does not exist, 409 if no map can be aligned or the merged map
+                was replaced in the meantime, and the problems of `MapWriter`.
         """
         maps = self.writer.maps
-        site = maps.find(name)
+        target = maps.find(name)
         parts = [maps.get(each) for each in names]
-        laid = parts if site is None or not len(site) else [site, *parts]
-        for each in laid[1:]:
-            check_same_model(laid[0], each)
-        # It is checked again when the site is written; but that is minutes later.
-        self.writer.conditions.check(None if site is None else site.tag)
-        model = self.writer.models.named(laid[0].model_id)
-        plan = plan_merge(laid, model, self.parameters, self.check)
+        aligned = parts if target is None or not len(target) else [target, *parts]
+        for each in aligned[1:]:
+            check_same_model(aligned[0], each)
+        # Checked again when the map is written, which may be minutes later.
+        self.writer.conditions.check(None if target is None else target.tag)
+        model = self.writer.models.named(aligned[0].model_id)
+        plan = plan_merge(aligned, model, self.parameters, self.check)
         before: dict[int, Pose] = {}
-        if site is not None and laid[0] is site:
-            before = self._as_before(plan)
+        if target is not None and aligned[0] is target:
+            before = self._known_poses(plan)
             plan = replace(plan, poses=plan.poses | before)
-        # What lies as it lay is known within its rounding, else within how well maps are aligned.
+        # A known pose is exact but for rounding; a new one is as exact as an alignment.
         joining = {
             number: ROUNDED if number in before else RADIUS
-            for number, each in enumerate(laid)
-            if number in plan.poses and each is not site
+            for number, each in enumerate(aligned)
+            if number in plan.poses and each is not target
         }
         if len(plan.poses) < 2:
             if self.dry_run:
-                segments, previous = (len(site), site.head.sequence) if site else (0, None)
+                segments, previous = (len(target), target.head.sequence) if target else (0, None)
                 return MergeResult(plan, {}, segments, None, previous, 0, 0)
             raise Problem(
                 409,
                 "not-aligned",
-                f"No map of {', '.join(names)} can be laid on {laid[0].name!r}; nothing was "
-                "changed. With dry_run the answer tells why.",
+                f"None of the maps {', '.join(names)} can be aligned with map {aligned[0].name!r}; "
+                "nothing was changed. Send the request with dry_run for the reasons.",
             )
         self.check()
         with maps.writing(name):
-            return self._write(name, site, plan, joining)
+            return self._write(name, target, plan, joining)
 
-    def _as_before(self, plan: MergePlan) -> dict[int, Pose]:
-        """How maps that are part of the site already were laid, by number.
+    def _known_poses(self, plan: MergePlan) -> dict[int, Pose]:
+        """Return the poses of maps that were merged before, by number.
 
-        So merging them again changes nothing, where alignment would lay them a little elsewhere.
+        A new alignment would differ a little; with these poses, merging again changes nothing.
         """
-        site = plan.sides[0].content
+        target = plan.sides[0].content
         poses = {}
         for number, side in enumerate(plan.sides[1:], start=1):
-            pose = known_pose(site, content_of(side), self.parameters)
+            pose = known_pose(target, content_of(side), self.parameters)
             if pose is not None:
                 poses[number] = pose
         return poses
@@ -126,10 +130,10 @@ class Merger:
     def _write(
         self, name: str, before: MapSnapshot | None, plan: MergePlan, joining: Mapping[int, float]
     ) -> MergeResult:
-        """Join these parts, by number, each with its slack, and store the site."""
+        """Join these parts, by number, each with its slack, and store the merged map."""
         writer, maps = self.writer, self.writer.maps
-        stored = maps.find(name)
-        self._check_lies_still(name, before, stored)
+        snapshot = maps.find(name)
+        self._check_frame_kept(name, before, snapshot)
         parts = [
             MergePart(
                 plan.maps[number].name, content_of(plan.sides[number]), plan.poses[number], slack
@@ -138,45 +142,49 @@ class Merger:
         ]
         manifest = writer.models.named(plan.maps[0].model_id).manifest
         same = SameView.of(manifest) if self.deduplicate else None
-        present = None if stored is None else stored.layers.content()
-        # One without segments is begun anew, in the first map's frame.
-        site = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
-        first_id = 0 if stored is None else stored.head.next_id
+        present = None if snapshot is None else snapshot.layers.content()
+        # A merged map without segments takes the frame of the first map.
+        target = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
+        first_id = 0 if snapshot is None else snapshot.head.next_id
         try:
-            content, found = join_settled(site, parts, first_id, same, self.parameters)
-            count = sum(share.added for share in found)
-            if stored is not None and count and not self.dry_run:
+            content, found = join_settled(target, parts, first_id, same, self.parameters)
+            count = sum(outcome.added for outcome in found)
+            if snapshot is not None and count and not self.dry_run:
                 reserved = writer.reserve(name, count)
-                if reserved != first_id:  # others have reserved some since
-                    content, found = join_settled(site, parts, reserved, same, self.parameters)
+                if reserved != first_id:  # another request reserved ids in the meantime
+                    content, found = join_settled(target, parts, reserved, same, self.parameters)
         except MapFileError as error:
-            raise Problem(409, "cannot-merge", f"The maps do not go together: {error}.") from error
+            raise Problem(
+                409, "cannot-merge", f"The maps cannot be joined: {error}. Leave one of them out."
+            ) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
-        shares = dict(zip(joining, found, strict=True))
-        previous = stored.head.sequence if stored is not None else None
-        if stored is None:
+        outcomes = dict(zip(joining, found, strict=True))
+        previous = snapshot.head.sequence if snapshot is not None else None
+        if snapshot is None:
             written = None
             if not self.dry_run:
                 written = writer.create(name, content, encode(content), "merge")
-            return MergeResult(plan, shares, len(content), written, previous, len(content), 0)
-        change = stored.layers.change_to(content, stored.head.sequence, present)
+            return MergeResult(plan, outcomes, len(content), written, previous, len(content), 0)
+        change = snapshot.layers.change_to(content, snapshot.head.sequence, present)
         if self.dry_run:
             changed, removed = len(change.delta.changed), len(change.delta.removed)
-            return MergeResult(plan, shares, len(content), None, previous, changed, removed)
-        written = writer.commit(stored, change, "merge")
+            return MergeResult(plan, outcomes, len(content), None, previous, changed, removed)
+        written = writer.commit(snapshot, change, "merge")
         return MergeResult(
-            plan, shares, len(content), written, previous, written.changed, written.removed
+            plan, outcomes, len(content), written, previous, written.changed, written.removed
         )
 
-    def _check_lies_still(
-        self, name: str, before: MapSnapshot | None, stored: MapSnapshot | None
+    def _check_frame_kept(
+        self, name: str, before: MapSnapshot | None, snapshot: MapSnapshot | None
     ) -> None:
-        """See that the site is the one that the maps were laid on; 409 if not."""
-        if before is stored:
+        """Check that the merged map kept its frame during the alignment; 409 if not."""
+        if before is snapshot:
             return
-        if before is not None and stored is not None and stored.shares_frame_with(before):
+        if before is not None and snapshot is not None and snapshot.shares_frame_with(before):
             return
         raise Problem(
-            409, "map-changed", f"Map {name!r:.80} was replaced during the merge; try again."
+            409,
+            "map-changed",
+            f"Map {name!r:.80} was replaced during the merge; nothing was changed. Try again.",
         )

@@ -1,4 +1,4 @@
-"""Which maps can be merged, and how they lie: all pairs are aligned, and loops are checked."""
+"""Merge plan: aligns every pair of maps and checks loop consistency."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,18 +15,24 @@ from placecell.map_alignment import (
 from placecell.map_alignment.loops import LoopCheck
 from service.inference.model_registry import Model
 from service.maps.snapshot import MapSnapshot
-from service.merging.alignment import Check, MapSide, StoredMatchProbabilities, align_maps
+from service.merging.alignment import (
+    CancellationCheck,
+    MapSide,
+    StoredMatchProbabilities,
+    align_maps,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AlignedPair:
-    """What was found of two maps.
+    """Alignment of two of the maps.
 
     Attributes:
-        one, other: their numbers.
-        found: how the other lies to the one.
-        is_rejected: whether loops rule it out.
-        is_proven: whether a loop that closes holds it.
+        one: number of the one map.
+        other: number of the other map.
+        found: alignment of the other map with the one.
+        is_rejected: whether loop consistency rules the alignment out.
+        is_proven: whether the alignment is part of a loop that closes.
     """
 
     one: int
@@ -38,31 +44,35 @@ class AlignedPair:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergePlan:
-    """How maps lie to the first of them.
+    """Poses of maps in the frame of the first one.
 
     Attributes:
-        sides: the maps; the first is the one that the others are laid on.
-        pairings: of each two.
-        checked: what the loops say.
-        poses: by number, from the map's frame to the first's, of those that can be laid on it.
+        sides: the maps; the others are aligned with the first.
+        pairs: alignments of all pairs.
+        checked: result of the loop check.
+        poses: transform from each map's frame into the first's, by number; only of maps that are
+            connected with the first.
     """
 
     sides: tuple[MapSide, ...]
-    pairings: tuple[AlignedPair, ...]
+    pairs: tuple[AlignedPair, ...]
     checked: LoopCheck
     poses: dict[int, Pose]
 
     @property
     def maps(self) -> tuple[MapSnapshot, ...]:
-        """As they are stored."""
-        return tuple(side.stored for side in self.sides)
+        """Snapshots of the maps."""
+        return tuple(side.snapshot for side in self.sides)
 
 
 def plan_merge(
-    maps: Sequence[MapSnapshot], model: Model, parameters: AlignmentParameters, check: Check
+    maps: Sequence[MapSnapshot],
+    model: Model,
+    parameters: AlignmentParameters,
+    check: CancellationCheck,
 ) -> MergePlan:
-    """Align each two, reject what loops rule out, and lay all that is connected on the first."""
-    sides = tuple(MapSide.of(stored) for stored in maps)
+    """Align all pairs, reject inconsistent alignments, and place connected maps in the first."""
+    sides = tuple(MapSide.of(snapshot) for snapshot in maps)
     found: dict[tuple[int, int], MapAlignment] = {}
     for one in range(len(sides) - 1):
         found |= _with_later(one, sides, model, parameters, check)
@@ -82,22 +92,23 @@ def plan_merge(
         check()
         one, other = edges[index].one, edges[index].other
         best = found[one, other].best
-        assert best is not None  # of that it is an edge
+        assert best is not None  # edges are made of alignments with a best overlap
         likeness = StoredMatchProbabilities(model, sides[one].content, sides[other].content, check)
         return fits_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
 
     checked = check_loops(edges, lies)
     numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}
-    pairings = tuple(
+    pairs = tuple(
         AlignedPair(
-            *pair,
-            each,
-            numbers.get(pair) in checked.rejected,
-            numbers.get(pair) in checked.proven,
+            one=pair[0],
+            other=pair[1],
+            found=each,
+            is_rejected=numbers.get(pair) in checked.rejected,
+            is_proven=numbers.get(pair) in checked.proven,
         )
         for pair, each in found.items()
     )
-    return MergePlan(sides, pairings, checked, poses_from(0, edges, checked))
+    return MergePlan(sides, pairs, checked, poses_from(0, edges, checked))
 
 
 def _with_later(
@@ -105,11 +116,11 @@ def _with_later(
     sides: Sequence[MapSide],
     model: Model,
     parameters: AlignmentParameters,
-    check: Check,
+    check: CancellationCheck,
 ) -> dict[tuple[int, int], MapAlignment]:
-    """How each map after this one lies to it.
+    """Align each later map with this one.
 
-    By itself, so that no two indices are there at once: one may be larger than its map.
+    A function of its own, so that one index at a time is in memory; it may exceed its map.
     """
     index = sides[one].index(model)
     return {

@@ -1,4 +1,4 @@
-"""Which segments of two maps are the same, told by where they come from."""
+"""Provenance: finds segments that two maps share, by source map and id in it."""
 
 import numpy as np
 from placecell_client import CompactMap
@@ -8,12 +8,12 @@ from service.maps.deduplication import NONE
 
 
 def moments_of(content: CompactMap, rows: Int64) -> Float64:
-    """When these segments were seen, seconds, float64 (m,)."""
+    """Return the times when these segments were seen, seconds, float64 (m,)."""
     return content.frame_times[content.frame_index[rows]]
 
 
 def keys_in(content: CompactMap, other: CompactMap) -> Bool:
-    """Which segments of one map the other has too, by source and id there, bool (n,)."""
+    """Return which segments the other map has too, by source and id there, bool (n,)."""
     found = np.zeros(len(content), dtype=bool)
     (rows, keys), (_, there) = _keys(content, other)
     found[rows] = np.isin(keys, there)
@@ -21,16 +21,17 @@ def keys_in(content: CompactMap, other: CompactMap) -> Bool:
 
 
 def shared(one: CompactMap, other: CompactMap) -> tuple[Int64, Int64]:
-    """Rows of what both have, by source and id there, int64 (m,) each."""
+    """Return the rows of shared segments in both maps, int64 (m,) each."""
     (rows, keys), (places, there) = _keys(one, other)
     _, here, away = np.intersect1d(keys, there, return_indices=True)
     return rows[here], places[away]
 
 
 def _keys(one: CompactMap, other: CompactMap) -> list[tuple[Int64, Int64]]:
-    """Return rows with a source and a number for (source, id), for each of two maps.
+    """Return each map's rows with a source, and a number for their (source, id).
 
-    The same for both maps. Linear in segments and in sources: a map may name 65,535 of these.
+    Equal pairs have equal numbers in both maps. Time is linear in segments and in sources, of which
+    a map may name 65,535.
     """
     numbers: dict[str, int] = {}
     found = []
@@ -48,7 +49,7 @@ def _keys(one: CompactMap, other: CompactMap) -> list[tuple[Int64, Int64]]:
 
 
 def of_source(content: CompactMap, name: str) -> Bool:
-    """Which segments were written to the map of this name first, bool (n,)."""
+    """Return which segments were first written to the map of this name, bool (n,)."""
     if content.source is None or name not in content.sources:
         return np.zeros(len(content), dtype=bool)
     return np.asarray(content.source == content.sources.index(name) + 1)

@@ -14,7 +14,7 @@ from service.maps.store import StoreLockedError
 
 try:
     import fcntl
-except ImportError:  # a system without it has the lock file alone
+except ImportError:  # a system without it has only the lock file
     fcntl = None  # type: ignore[assignment]
 
 logger = logging.getLogger("placecell")
@@ -24,19 +24,19 @@ logger = logging.getLogger("placecell")
 class DataLock:
     """Lock on the file `DATA_DIR/lock` and on the directory itself.
 
-    The file may be removed while it is locked, and another process may then make and lock a new
-    one. The directory's own lock stands all the same.
+    If the locked file is removed, another process can create and lock a new one. The lock on the
+    directory prevents that this process shares the directory with another service.
 
     Attributes:
-        file: that is locked.
-        inode: device and inode of the file.
+        file: path of the lock file.
+        inode: device and inode of the lock file.
     """
 
     file: Path
     inode: tuple[int, int]
 
     def trouble(self) -> str | None:
-        """Return the problem of the lock as a text; None if there is none."""
+        """Return what is wrong with the lock; None if nothing is."""
         try:
             found = _inode_of(self.file)
         except OSError:
@@ -55,9 +55,9 @@ def locked(data_dir: Path) -> Iterator[DataLock]:
 
     Raises:
         StoreLockedError: another process holds one of them.
-        OSError: the lock file cannot be made.
+        OSError: the lock file cannot be created.
     """
-    in_use = f"{data_dir} is in use by another service"
+    in_use = f"{data_dir} is in use by another service. Stop it, or use another data directory"
     folder = os.open(data_dir, os.O_RDONLY | os.O_CLOEXEC)
     try:
         if fcntl is not None:

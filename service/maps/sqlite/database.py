@@ -1,4 +1,4 @@
-"""An SQLite file that keeps what it has been given: its settings, its errors, its transactions."""
+"""SQLite database of the store: durable settings, translated errors, and transactions."""
 
 import logging
 import os
@@ -17,13 +17,13 @@ from service.maps.store import StoreError, Trouble
 Result = TypeVar("Result")
 
 APPLICATION = 0x506C6C63
-"""In the file's header, so that a foreign database is not taken for one of ours: `Pllc`."""
+"""Application id in the file's header, `Pllc`, which foreign databases lack."""
 
 WAL_BYTES = 16 << 20
-"""That the write-ahead log keeps on disk after a large write."""
+"""Bytes of the write-ahead log that stay on disk after a large write."""
 
 VACUUM_PAGES = 1_000
-"""Given back to the disk at once, 4 kB each."""
+"""Number of pages of 4 kB that return to the disk per step."""
 
 FULL_DISK_PAGES = 50
 """Pages returned per step on a full disk: each step needs as much space in the log."""
@@ -33,7 +33,7 @@ MIGRATION_PAGE_BYTES = 64
 """Free disk bytes that a migration needs, and as many more for each page of the database."""
 
 BUSY_SECONDS = 5.0
-"""To wait for another process, such as a backup, to let go."""
+"""Seconds to wait for another process, such as a backup, to release its lock."""
 
 logger = logging.getLogger("placecell")
 
@@ -54,10 +54,10 @@ class Layout:
     """Tables of a database and the migrations from earlier versions.
 
     Attributes:
-        version: of the tables.
-        schema: statements that make them in an empty database.
-        fill: puts into them what an empty database has.
-        migrations: by the version that is found, makes the next one of it.
+        version: version of the tables.
+        schema: statements that create them in an empty database.
+        fill: inserts the rows of an empty database.
+        migrations: migration from each earlier version to the next one.
     """
 
     version: int
@@ -70,11 +70,11 @@ Origin = Literal["made", "migrated", "found"]
 
 
 class Database:
-    """One connection that writes, and one for each reader. For use from many threads.
+    """Database with one connection for writes and one for each reader. Safe for many threads.
 
     Attributes:
-        path: of the file; other files beside it begin with the same name.
-        origin: whether the file was made, migrated or found as it is.
+        path: path of the file; names of its companion files begin with the same name.
+        origin: whether the file was created (`made`), `migrated`, or `found` as it is.
     """
 
     def __init__(
@@ -83,12 +83,12 @@ class Database:
         """Open or create the file.
 
         Args:
-            path: of the file.
-            layout: of its tables.
-            lock_trouble: says what is wrong with the lock on the directory, if anything.
+            path: path of the file.
+            layout: layout of its tables.
+            lock_trouble: returns what is wrong with the lock on the directory; None if nothing is.
 
         Raises:
-            StoreError: it cannot be used; the message says what to do.
+            StoreError: the file cannot be used; the message says what to do.
         """
         self.path = path
         self.origin: Origin = "found"
@@ -102,14 +102,14 @@ class Database:
                 _make(path, layout)
                 self.origin = "made"
             elif not path.stat().st_size:
-                # SQLite would take it for a new one, and throw the log beside it away.
-                raise StoreError("damaged", f"{path} is empty because it was cut; {ADVICE}")
+                # SQLite would treat it as a new database and discard the log beside it.
+                raise StoreError("damaged", f"{path} is empty: it was truncated; {ADVICE}")
         try:
             self._connection = self._opened(layout)
         except StoreError as error:
             if error.kind != "full":
                 raise
-            # Its files need a little room on a disk that has none.
+            # The database needs a little space even on a full disk.
             self._reserve.lend(self._reserve.size // 4)
             try:
                 self._connection = self._opened(layout)
@@ -123,11 +123,11 @@ class Database:
                 self._reserve.hold_for_log(self._log_growth())
 
     def close(self) -> None:
-        """Let go of the file; what the log holds goes into it."""
+        """Move the log into the file and close it."""
         with self._writing:
             self._reserve.release(self._reserve.size)
             self._connection.close()
-        # On a full disk, the room that the log had is for the next start.
+        # On a full disk, the next start needs the space that the log had.
         self._reserve.hold_for_log(0)
 
     @contextmanager
@@ -135,10 +135,10 @@ class Database:
         """Run writes as one transaction, durable when the context ends, or undo all of them.
 
         Args:
-            frees: whether they are to free the disk, so that they may use what is kept for that.
+            frees: whether the writes free the disk, so that they may use the reserve for that.
 
         Raises:
-            StoreError: none of them happened.
+            StoreError: none of the writes happened.
         """
         with self._writing, self._noted(), _translated(self.path):
             if told := self._misplaced() or self._lock_trouble():
@@ -152,7 +152,7 @@ class Database:
                     raise StoreError("full", f"{self.path}: the disk is full")
                 self._connection.execute("COMMIT")
             except BaseException:
-                # Some errors have ended the transaction already.
+                # Some errors end the transaction themselves.
                 if self._connection.in_transaction:
                     self._connection.rollback()
                 raise
@@ -163,7 +163,7 @@ class Database:
         """Allocate the reserve with room for what the log holds; the caller holds the lock."""
         if self._reserve.hold() or self._reserve.hold_for_log(self._log_growth()):
             return True
-        # What has room in the database needs none beside it.
+        # Log pages that fit into the database need no space beside it.
         self._move_log("RESTART")
         return self._reserve.hold_for_log(self._log_growth())
 
@@ -177,21 +177,21 @@ class Database:
         """Run writes that free the disk; a full disk lends them its reserve.
 
         Args:
-            work: a transaction; it may be done twice, for the first time does not count.
-            share: of the reserve that may be used; the rest is left for others.
+            work: the transaction; it may run twice, if the first run is undone.
+            share: share of the reserve that may be used; the rest stays for other writes.
         """
         try:
             with self.transaction(frees=True) as connection:
                 done = work(connection)
             is_short = self._reserve.free_bytes() < self._reserve.size // 4
             if is_short or not self._reserve.is_held():
-                self._give_back_all(self._reserve.release_share(share))
+                self._release_all(self._reserve.release_share(share))
             return done
         except StoreError as error:
             if error.kind != "full":
                 raise
         left = self._reserve.release_share(share)
-        # A log that begins anew is written over: that takes no room, if there is no reserve either.
+        # A restarted log is overwritten, which takes no space even without a reserve.
         self._empty_log("RESTART")
         try:
             with self.transaction(frees=True) as connection:
@@ -199,31 +199,31 @@ class Database:
         except StoreError:
             self._reserve.hold()
             raise
-        self._give_back_all(left)
+        self._release_all(left)
         return done
 
-    def _give_back_all(self, bytes_left: int) -> None:
+    def _release_all(self, bytes_left: int) -> None:
         """Return freed pages to a full disk; `bytes_left` of the reserve stay."""
         self._reserve.release(bytes_left)
         try:
             self.release_space()
         except StoreError as error:
-            # The work is done. What it freed is given back as soon as there is room to do that.
-            logger.warning("freed room was not given back to the disk: %s", error)
+            # The write succeeded. The freed pages return to the disk when there is space for that.
+            logger.warning("freed pages were not returned to the disk: %s", error)
 
     @contextmanager
     def snapshot(self) -> Iterator[sqlite3.Connection]:
-        """Reads of one state of the database; they neither wait for writers nor hold them up."""
+        """Read one state of the database, without waiting for writers or blocking them."""
         self._check_placed()
         with _translated(self.path), closing(_connect(self.path)) as connection:
             connection.execute("PRAGMA query_only = ON")
             connection.execute("BEGIN")
-            connection.execute("PRAGMA user_version").fetchone()  # the state is that of now
+            connection.execute("PRAGMA user_version").fetchone()  # the first read fixes the state
             self._check_placed()
             yield connection
 
     def trouble(self) -> str | None:
-        """Return why no write can be taken; None if it can. Retries a failed write in small."""
+        """Return why writes fail; None if they work. Tries a small write after a failed one."""
         if told := self._misplaced() or self._lock_trouble():
             return told
         if not os.access(self.path, os.W_OK) or not os.access(self.path.parent, os.W_OK):
@@ -265,15 +265,15 @@ class Database:
     def release_space(self) -> None:
         """Return freed pages to the disk in steps, so that no writer waits long.
 
-        Fewer are left, to be written to again. Where the disk is full all are returned.
+        It keeps up to `VACUUM_PAGES` free pages for later writes; on a full disk it keeps none.
         """
         if told := self._misplaced() or self._lock_trouble():
             raise StoreError("moved", told)
         before, free = 0, self._free_pages()
         step, least = VACUUM_PAGES, VACUUM_PAGES
         if not self._reserve.is_held():
-            # A shorter database needs less room when the log moves into it, so an error here may be
-            # one that does not last.
+            # A shorter database needs less space when the log moves into it, so an error here may
+            # be temporary.
             self._empty_log()
             step, least = FULL_DISK_PAGES, 0
         while free > least and free != before:
@@ -289,7 +289,7 @@ class Database:
         """Move the log into the database; return its space to the disk, or reuse it.
 
         Returns:
-            Whether it was moved; false if the disk is full or somebody reads.
+            Whether it was moved; false if the disk is full or a reader is active.
         """
         with self._writing:
             return self._move_log(mode)
@@ -310,10 +310,10 @@ class Database:
             return int(self._connection.execute("PRAGMA freelist_count").fetchone()[0])
 
     def _misplaced(self) -> str | None:
-        """Return a text if the files are no longer those that were opened; None otherwise.
+        """Return a text if the files are not the opened ones any more; None otherwise.
 
-        SQLite goes on writing to a file that was removed, and would take a file that is put in its
-        place, or an empty one, for the database.
+        SQLite continues to write to a removed file, and would accept a file in its place, even an
+        empty one, as the database.
         """
         for path, inode, advice in (
             (self.path, self._file, "Move the same file back"),
@@ -350,7 +350,7 @@ class Database:
         self._failed = None
 
     def _opened(self, layout: Layout) -> sqlite3.Connection:
-        """Connect, and check that the file is whole and has these tables."""
+        """Connect, and check that the file is complete and has these tables."""
         with _translated(self.path):
             connection = _connect(self.path)
         try:
@@ -383,21 +383,21 @@ class Database:
                 connection.rollback()
             raise
         self.origin = "migrated"
-        logger.info("%s was of version %d and is now of %d", self.path, found, layout.version)
+        logger.info("migrated %s from version %d to version %d", self.path, found, layout.version)
 
     def integrity(self, table: str = "") -> list[str]:
-        """What SQLite finds wrong with the file, or with one table and its indices, if anything."""
+        """Return errors that SQLite finds in the file, or in one table and its indices."""
         part = f"({table})" if table else ""
         with self.snapshot() as connection:
             found = [str(row[0]) for row in connection.execute(f"PRAGMA integrity_check{part}")]
         return [] if found == ["ok"] else found
 
     def _checked(self, connection: sqlite3.Connection, layout: Layout) -> int:
-        """Check that the file is whole and return the version of its tables."""
+        """Check that the file is complete and return the version of its tables."""
         (application,) = connection.execute("PRAGMA application_id").fetchone()
         (found,) = connection.execute("PRAGMA user_version").fetchone()
         if application != APPLICATION:
-            raise StoreError("damaged", f"{self.path} is no database of Placecell; {ADVICE}")
+            raise StoreError("damaged", f"{self.path} is not a database of Placecell; {ADVICE}")
         if found != layout.version and found not in layout.migrations:
             raise StoreError(
                 "damaged",
@@ -407,15 +407,15 @@ class Database:
             )
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()
-        # What the log holds may still have to go into the file. Without one the file is all there
-        # is, and SQLite itself would take a last page that is cut for one that ends in zeros.
+        # With a log, pages may still have to move into the file. Without one, SQLite would read
+        # zeros in place of a truncated last page.
         has_log = self._log_path.exists() and self._log_path.stat().st_size
         if not has_log and self.path.stat().st_size < pages * page_bytes:
-            raise StoreError("damaged", f"{self.path} was cut; {ADVICE}")
+            raise StoreError("damaged", f"{self.path} was truncated; {ADVICE}")
         return int(found)
 
 
-ADVICE = "bring it back from a backup, or move it and the files beside it away to begin anew"
+ADVICE = "restore it from a backup, or move it and the files beside it away to start without maps"
 
 
 def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connection:
@@ -427,8 +427,8 @@ def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connectio
         check_same_thread=False,
         uri=True,
     )
-    # FULL: a commit is on disk when it returns, not when the log is next moved into the database.
-    # On macOS only a full fsync reaches the disk. Freed pages need not be overwritten.
+    # With FULL, a commit is on disk when it returns, not when the log moves into the database.
+    # On macOS, only a full fsync reaches the disk. Freed pages need not be overwritten.
     for pragma in (
         "synchronous = FULL",
         "fullfsync = ON",
@@ -442,10 +442,10 @@ def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connectio
 
 
 def _make(path: Path, layout: Layout) -> None:
-    """Make the database under another name: one that is there under its own is complete."""
+    """Create the database under a temporary name, so that the final name is always complete."""
     left = [path.with_name(path.name + tail) for tail in ("-wal", "-journal")]
     if found := [file for file in left if file.exists()]:
-        raise StoreError("damaged", f"{found[0]} is there, but not {path.name}; {ADVICE}")
+        raise StoreError("damaged", f"{found[0]} exists, but {path.name} does not; {ADVICE}")
     unfinished = path.with_name(path.name + ".unfinished")
     for tail in ("", "-wal", "-shm", "-journal"):
         unfinished.with_name(unfinished.name + tail).unlink(missing_ok=True)
@@ -470,7 +470,7 @@ def _inode_of(path: Path) -> tuple[int, int]:
 
 @contextmanager
 def _translated_os(path: Path) -> Iterator[None]:
-    """Translate errors of the disk into the store's own."""
+    """Translate errors of the disk into a StoreError."""
     try:
         yield
     except OSError as error:
@@ -480,15 +480,15 @@ def _translated_os(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _translated(path: Path) -> Iterator[None]:
-    """SQLite's errors as the store's own."""
+    """Translate errors of SQLite into a StoreError."""
     try:
         yield
     except UnicodeDecodeError as error:
-        # A schema was altered: SQLite quotes it in a message that Python cannot read.
+        # SQLite quotes an altered schema in a message that Python cannot decode.
         raise StoreError("damaged", f"{path}: its schema was altered; {ADVICE}") from error
     except sqlite3.Error as error:
         name = getattr(error, "sqlite_errorname", "")
-        # Extended codes begin with the one they belong to.
+        # Extended codes begin with their basic code.
         matching = [kind for code, kind in _KINDS.items() if name.startswith(code)]
         kind = matching[0] if matching else "failing"
         advice = f"; {ADVICE}" if kind == "damaged" else ""

@@ -21,8 +21,8 @@ class DiskReserve:
 
     Attributes:
         size: bytes that are kept for deletions.
-        log_bytes: bytes that are kept beside those, for what the log still has to move into the
-            database. A log that cannot be moved grows with each write and is never written over.
+        log_bytes: further bytes that are kept for moving the log into the database. A log that
+            cannot be moved grows with each write and is never overwritten.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -54,7 +54,7 @@ class DiskReserve:
                     _allocate(descriptor, before + part)
                     return part == missing
                 except OSError:
-                    # What looks like a reserve must be one.
+                    # A file of the full size must hold allocated space.
                     os.ftruncate(descriptor, before)
             return False
         except OSError:
@@ -63,7 +63,7 @@ class DiskReserve:
             os.close(descriptor)
 
     def hold_for_log(self, log_bytes: int) -> bool:
-        """Keep so many bytes for the log beside it, no more; return whether all of it is held."""
+        """Keep exactly so many bytes for the log, too; return whether all is held."""
         self.log_bytes = -(-max(log_bytes, 0) // STEP) * STEP
         if not self.hold():
             return False
@@ -83,7 +83,7 @@ class DiskReserve:
             return
 
     def release_share(self, share: float) -> int:
-        """Free a share of it and all that is kept for the log; return the bytes that are left."""
+        """Free a share of the reserve and all bytes for the log; return the bytes left."""
         try:
             held = self._path.stat().st_size
         except OSError:
@@ -93,7 +93,7 @@ class DiskReserve:
         return left
 
     def lend(self, bytes_: int) -> None:
-        """Free so many bytes of the reserve."""
+        """Free a number of bytes of the reserve."""
         try:
             self.release(max(self._path.stat().st_size - bytes_, 0))
         except OSError:
@@ -109,4 +109,4 @@ def _allocate(descriptor: int, size: int) -> None:
     if hasattr(os, "posix_fallocate"):
         os.posix_fallocate(descriptor, 0, size)
         return
-    os.pwrite(descriptor, bytes(size), 0)  # a system that has no such call
+    os.pwrite(descriptor, bytes(size), 0)  # a system without posix_fallocate

@@ -1,4 +1,4 @@
-"""The log of one map in `maps.sqlite`, read and checked against its marks."""
+"""History of one map in `maps.sqlite`, read and checked against its marks."""
 
 import hashlib
 import sqlite3
@@ -9,7 +9,7 @@ from service.maps.store import Commit, MapHead, StoreError
 
 
 class SqliteHistory:
-    """One map's log as it stood at one moment."""
+    """Log of one map at one moment."""
 
     def __init__(self, connection: sqlite3.Connection, row: int, head: MapHead) -> None:
         self._connection = connection
@@ -18,11 +18,11 @@ class SqliteHistory:
 
     @property
     def head(self) -> MapHead:
-        """Where the map stood."""
+        """Head of the map at that moment."""
         return self._head
 
     def commits(self) -> list[Commit]:
-        """From the base's own to the newest."""
+        """Return the commits from the base to the newest version."""
         rows = self._connection.execute(
             f"{COMMIT} FROM commits WHERE map = ? ORDER BY sequence", (self._row,)
         )
@@ -38,7 +38,7 @@ class SqliteHistory:
         return found
 
     def mark(self, sequence: int) -> str:
-        """Of one version; KeyError if it is not kept."""
+        """Return the mark of one version; KeyError if it is not kept."""
         found = self._connection.execute(
             f"{COMMIT} FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
         ).fetchone()
@@ -49,7 +49,7 @@ class SqliteHistory:
         return str(commit_from(found).mark)
 
     def base(self) -> bytes:
-        """The oldest version's file; StoreError if it is damaged."""
+        """Return the file of the oldest version; StoreError if it is damaged."""
         parts: list[bytes] = []
         for part, sha256, data in self._connection.execute(
             "SELECT part, sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
@@ -63,7 +63,7 @@ class SqliteHistory:
         return b"".join(parts)
 
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
-        """The commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
+        """Yield the commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
         before, sequence = self.mark(after), after
         for *columns, blob in self._connection.execute(
             f"{COMMIT}, delta FROM commits "

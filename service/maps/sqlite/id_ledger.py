@@ -1,12 +1,12 @@
-"""Id ledger: how far ids were given out, in the file `DATA_DIR/ids` beside the database.
+"""Id ledger: records which ids were given out, in the file `DATA_DIR/ids` beside the database.
 
-A database that is brought back from a backup does not know which ids were given out since. This
-file does: it is written before the ids are given out, and stays where it is when the database is
-replaced. A file that is missing, or was itself copied from somewhere, does not know either.
+A database that is restored from a backup does not know which ids were given out since the backup.
+The ledger knows: the service writes it before it gives out ids, and it stays in place when the
+database is replaced. A ledger that is missing or was copied from elsewhere is not trusted.
 
-The first line names the database's token and when `DATA_DIR/ids.place` was last changed, which a
-copy cannot imitate. Each further line names a map's uid and an id, with a checksum: all ids of that
-map below it may have been given out.
+The first line has the database's token and the time of the last change of `DATA_DIR/ids.place`,
+which a copy cannot reproduce. Each further line has a map's uid, an id and a checksum: all ids of
+that map below this id may have been given out.
 """
 
 import errno
@@ -33,8 +33,8 @@ class IdLedger:
     """Ledger file of one data directory. Calls come one at a time.
 
     Attributes:
-        limits: by the uid of a map, the end of the ids that may have been given out.
-        is_trusted: whether the file is the one that was written here last, for this database.
+        limits: end of the ids that may have been given out, by the uid of the map.
+        is_trusted: whether the file is the one last written here for this database.
     """
 
     def __init__(self, path: Path, token: str) -> None:
@@ -53,10 +53,10 @@ class IdLedger:
         """Replace the ledger's content atomically.
 
         Raises:
-            OSError: it is as it was.
+            OSError: the file could not be written; it is unchanged.
         """
         unfinished = self._path.with_name(self._path.name + ".unfinished")
-        # Copies of what the file was before are told from it, too.
+        # Makes copies of the previous file distinguishable, too.
         place = _touch(self._place)
         with unfinished.open("wb") as file:
             lines = [f"{self._token} {place}", *(f"{uid} {end}" for uid, end in limits.items())]
@@ -93,13 +93,13 @@ class IdLedger:
             place = _place_of(self._place.stat())
             first, *lines = self._path.read_bytes().decode().split("\n")
             stated = _text(first).split(" ")
-            for line in lines[:-1]:  # the last is empty, or was cut short and not relied on
+            for line in lines[:-1]:  # the last is empty, or incomplete and never relied on
                 uid, end = _text(line).split(" ")
                 self.limits[uid] = max(int(end), self.limits.get(uid, 0))
         except FileNotFoundError:
             return False
         except (OSError, ValueError) as error:
-            logger.warning("%s cannot be used: %s", self._path, error)
+            logger.warning("%s is ignored: %s", self._path, error)
             return False
         return stated == [self._token, place]
 

@@ -11,8 +11,8 @@ import numpy as np
 from service.maps.store import IDS, Owner, StoreError
 
 CLOSED = 16_384
-"""Largest gap of unowned ids between two written ones that becomes the writer's own. Without it a
-map with scattered ids would have one run per id."""
+"""Largest gap of unowned ids between two written ids that becomes the writer's. Without it, a map
+with scattered ids would have one run per id."""
 
 Run = tuple[int, int]
 """First id and exclusive end of a run."""
@@ -23,10 +23,10 @@ class _Owned:
     """Run of ids with one owner.
 
     Attributes:
-        first: id.
-        until: the end, exclusive.
+        first: first id.
+        until: end of the run, exclusive.
         author: name of the key; empty if it is not known.
-        reserved: when the ids were reserved, seconds; None: they were written since.
+        reserved: time of the reservation, seconds; None: the ids were written since.
     """
 
     first: int
@@ -125,7 +125,7 @@ class Owners:
     def _paint(self, runs: Sequence[Run], author: str, reserved: float | None) -> None:
         if not runs:
             return
-        # One id more on either side, to join what the key has there already.
+        # One more id on either side joins the run with adjacent runs of the key.
         low, high = max(runs[0][0] - 1, 0), min(runs[-1][1] + 1, IDS)
         owned = self._within(low, high)
         own = [_Owned(*run, author, reserved) for run in _closed(runs, owned)]

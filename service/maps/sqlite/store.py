@@ -1,4 +1,4 @@
-"""Maps in one SQLite file: `DATA_DIR/maps.sqlite`."""
+"""SQLite map store: all maps in one file, `DATA_DIR/maps.sqlite`."""
 
 import logging
 import secrets
@@ -53,7 +53,7 @@ logger = logging.getLogger("placecell")
 
 
 class SqliteMapStore:
-    """The store of one data directory. For use from many threads."""
+    """Store of one data directory. Safe to use from many threads."""
 
     def __init__(
         self,
@@ -64,9 +64,9 @@ class SqliteMapStore:
         """Open the store; hold `owned` first, because one process at a time may use it.
 
         Args:
-            data_dir: the directory.
-            lock_trouble: says what is wrong with the lock on it, if anything.
-            clock: seconds.
+            data_dir: the data directory.
+            lock_trouble: returns what is wrong with the lock on it; None if nothing is.
+            clock: returns Unix seconds.
 
         Raises:
             StoreError: the database cannot be used; the message says what to do.
@@ -75,7 +75,7 @@ class SqliteMapStore:
         self._clock = clock
         self._database = Database(data_dir / FILE, LAYOUT, lock_trouble)
         try:
-            # The name's index must agree with the table; and the table is small.
+            # The index of names must agree with the table, which is small enough to check.
             if wrong := self._database.integrity("maps"):
                 raise StoreError("damaged", f"{data_dir / FILE}: {wrong[0]}; {ADVICE}")
             self._ledger = self._opened_ledger()
@@ -86,12 +86,12 @@ class SqliteMapStore:
     @classmethod
     @contextmanager
     def owned(cls, data_dir: Path) -> "Iterator[SqliteMapStore]":
-        """The store of a data directory, which nobody else has until the context ends.
+        """Lock a data directory and open its store until the context ends.
 
         Raises:
-            StoreLockedError: another process has it.
+            StoreLockedError: another process holds the lock.
             StoreError: the database cannot be used.
-            OSError: the directory cannot be made or written.
+            OSError: the directory cannot be created or written.
         """
         data_dir.mkdir(parents=True, exist_ok=True)
         with locked(data_dir) as lock:
@@ -99,8 +99,7 @@ class SqliteMapStore:
             sync_folder(data_dir.absolute().parent)
             if old := sorted((data_dir / "maps").glob("*.safetensors")):
                 logger.warning(
-                    "%d map files in %s are of version 0 and are not read; let the robots put "
-                    "their maps again",
+                    "ignored %d map files of version 0 in %s; upload the maps again",
                     len(old),
                     data_dir / "maps",
                 )
@@ -108,34 +107,34 @@ class SqliteMapStore:
                 yield store
 
     def close(self) -> None:
-        """Let go of the database."""
+        """Close the database."""
         try:
-            # What was written ahead was not given out.
+            # Ids that were only recorded ahead were not given out.
             self._ledger.rewrite({head.uid: head.next_id for head in self.heads()})
         except (StoreError, OSError) as error:
             logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
         self._database.close()
 
     def heads(self) -> list[MapHead]:
-        """Of the maps, by name."""
+        """Return the heads of all maps, by name."""
         with self._database.snapshot() as connection:
             return [head_from(row) for row in connection.execute(f"{HEAD} ORDER BY name")]
 
     @contextmanager
     def read(self, uid: str) -> Iterator[SqliteHistory]:
-        """A map's log; KeyError if there is none."""
+        """Read a map's log; KeyError if there is no such map."""
         with self._database.snapshot() as connection:
             yield SqliteHistory(connection, row_of(connection, uid), head_of(connection, uid))
 
     def create(
         self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
     ) -> MapHead:
-        """Begin a map with its first version, of sequence 1; ValueError if the name is taken."""
+        """Create a map with its first version, sequence 1; ValueError if the name is in use."""
         uid = secrets.token_hex(8)
         commit = commit_after(uid, 1, note, file, 0)
         with self._database.transaction() as connection:
             if connection.execute("SELECT 1 FROM maps WHERE name = ?", (name,)).fetchone():
-                raise ValueError(f"there is a map {name!r} already")
+                raise ValueError(f"map {name!r} exists already")
             first, end = ids.leave(next_id, IDS)
             head = MapHead(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
             row = connection.execute(
@@ -158,10 +157,10 @@ class SqliteMapStore:
         ids: Ids = NO_IDS,
         frees: bool = False,
     ) -> MapHead:
-        """Add a commit that follows a head; KeyError if the map stands elsewhere.
+        """Add a commit after a head; KeyError if the map has another head.
 
         Args:
-            frees: whether it makes the map smaller, so that it may use what is kept for that.
+            frees: whether the commit makes the map smaller, so that it may use the disk reserve.
         """
 
         def add(connection: sqlite3.Connection) -> MapHead:
@@ -190,7 +189,7 @@ class SqliteMapStore:
             return add(connection)
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
-        """Reserve ids that nobody has had, and return the first; errors as of `MapStore`."""
+        """Reserve ids that no segment ever had; return the first. Raises as `MapStore` does."""
         with self._database.transaction() as connection:
             row, head = row_of(connection, uid), head_of(connection, uid)
             owners = Owners(connection, row)
@@ -202,7 +201,7 @@ class SqliteMapStore:
                     f"{most:,}"
                 )
             if head.next_id + count > head.end_id:
-                # Around an id that somebody chose far from the others there may be more.
+                # A larger gap may lie beside an id that a robot chose far from the others.
                 first, end = owners.largest_gap()
                 if end - first < max(count, head.end_id - head.next_id):
                     first, end = head.next_id, head.end_id
@@ -217,16 +216,16 @@ class SqliteMapStore:
             return first
 
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
-        """Return who wrote or reserved each of these ids last; None where nobody did."""
+        """Return the last owner of each of these ids; None for ids without an owner."""
         with self._database.snapshot() as connection:
             return Owners(connection, row_of(connection, uid)).of(ids)
 
     def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
-        """Forget who owned ids that are not used, and let the free ones begin after the used.
+        """Forget the owners of unused ids; free ids begin after the used ones.
 
         Args:
-            uid: of the map; KeyError if there is none.
-            used: ids that are used, ascending.
+            uid: uid of the map; KeyError if there is no such map.
+            used: ids in use, ascending.
         """
         with self._database.transaction() as connection:
             row, head = row_of(connection, uid), head_of(connection, uid)
@@ -235,7 +234,7 @@ class SqliteMapStore:
             first, end = owners.largest_gap()
             after = save_head(connection, row, replace(head, next_id=first, end_id=end))
         try:
-            # Else the next start would take what was given up for given out.
+            # Otherwise the next start would treat freed ids as given out.
             self._ledger.forget(uid)
             self._ledger.rewrite(self._ledger.limits | {uid: first})
         except OSError as error:
@@ -243,7 +242,7 @@ class SqliteMapStore:
         return after
 
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
-        """Let go of the versions before one, whose file is given; KeyError if it is not there."""
+        """Drop the versions before one, whose file is given; KeyError if it is not kept."""
 
         def shorten(connection: sqlite3.Connection) -> MapHead:
             row, head = row_of(connection, uid), head_of(connection, uid)
@@ -268,7 +267,7 @@ class SqliteMapStore:
         return self._database.freeing(shorten)
 
     def delete(self, uid: str) -> None:
-        """Remove a map with all its versions; KeyError if there is none."""
+        """Remove a map with all its versions; KeyError if there is no such map."""
 
         def remove(connection: sqlite3.Connection) -> None:
             row = row_of(connection, uid)
@@ -278,11 +277,11 @@ class SqliteMapStore:
         self._database.freeing(remove)
 
     def release_space(self) -> None:
-        """Return the room of what was removed to the disk."""
+        """Return the space of removed data to the disk."""
         self._database.release_space()
 
     def trouble(self) -> str | None:
-        """Say why the store cannot take a write, if so; None if it can."""
+        """Return why the store accepts no writes; None if it accepts them."""
         return self._database.trouble()
 
     def _opened_ledger(self) -> IdLedger:
@@ -306,7 +305,7 @@ class SqliteMapStore:
                 *(self._folder / LEDGER, SKIPPED),
             )
         if behind:
-            # On a disk that is full, too, or it could not be freed.
+            # On a full disk as well, or it could never be freed.
             self._database.freeing(lambda connection: _skip(connection, behind), share=0.5)
         try:
             ledger.rewrite({head.uid: behind.get(head.uid, head.next_id) for head in heads})
@@ -315,13 +314,13 @@ class SqliteMapStore:
         return ledger
 
     def verify(self) -> list[str]:
-        """What is wrong with the database, if anything: its structure, and every blob's mark."""
+        """Return errors of the database: of its structure, and of the mark of every blob."""
         found = self._database.integrity()
         with self._database.snapshot() as connection:
             (lost,) = connection.execute(
                 "SELECT count(*) FROM owners WHERE map NOT IN (SELECT map FROM maps)"
             ).fetchone()
-        found += [f"{lost} rows of the table owners are of no map"] if lost else []
+        found += [f"{lost} rows of the table owners belong to no map"] if lost else []
         for head in self.heads():
             try:
                 with self.read(head.uid) as history:
@@ -342,8 +341,8 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
         try:
             row, head = row_of(connection, uid), head_of(connection, uid)
         except StoreError:
-            continue  # the map is damaged and not served
-        # Nobody knows by whom.
+            continue  # a damaged map is not served
+        # Their owner is not known.
         Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
         save_head(connection, row, replace(head, next_id=next_id))
 

@@ -1,4 +1,4 @@
-"""The tables of `maps.sqlite`: maps, commits, files of the oldest versions, owners of ids."""
+"""Tables of `maps.sqlite`: maps, commits, files of the oldest versions, owners of ids."""
 
 import hashlib
 import json
@@ -13,7 +13,7 @@ from service.maps.store import Commit, MapHead, Note, StoreError, link_of, mark_
 VERSION = 2
 
 PART_BYTES = 4 << 20
-"""Of a base, a row at most: what is read and written in one piece."""
+"""Largest number of bytes of a base in one row."""
 
 SCHEMA = """
 CREATE TABLE maps (
@@ -90,7 +90,7 @@ def migrate(connection: sqlite3.Connection) -> None:
     fill(connection)
     for row, *columns in connection.execute(HEAD.replace("SELECT", "SELECT map,", 1)).fetchall():
         head = save_head(connection, row, head_from(tuple(columns)))
-        if head.next_id:  # nobody knows who had the ids below
+        if head.next_id:  # the owners of these ids are not known
             Owners(connection, row).write([(0, head.next_id)], "")
 
 
@@ -117,7 +117,7 @@ def digest_of(head: MapHead) -> str:
 
 
 def row_of(connection: sqlite3.Connection, uid: str) -> int:
-    """Of a map; KeyError if there is none."""
+    """Return the row number of a map; KeyError if there is no such map."""
     found = connection.execute("SELECT map FROM maps WHERE uid = ?", (uid,)).fetchone()
     if found is None:
         raise KeyError(uid)
@@ -125,7 +125,7 @@ def row_of(connection: sqlite3.Connection, uid: str) -> int:
 
 
 def head_of(connection: sqlite3.Connection, uid: str) -> MapHead:
-    """Return a map's head; KeyError if there is none, StoreError if its row was altered."""
+    """Return a map's head; KeyError if there is no such map, StoreError if its row was altered."""
     row = connection.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone()
     if row is None:
         raise KeyError(uid)
@@ -141,14 +141,14 @@ def head_from(row: tuple[Any, ...]) -> MapHead:
 
 
 def commit_from(row: Sequence[Any]) -> Commit:
-    """Of a row of `COMMIT`."""
+    """Build a commit from a row of `COMMIT`."""
     sequence, *note, size, mark, link = row
     return Commit(sequence, Note(*note), size, mark, link)
 
 
 def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
-    """Build the commit that follows the version of this mark."""
-    # As it comes back from the database.
+    """Build the commit that follows the version with this mark."""
+    # With the number type that the database returns.
     note = Note(float(note.time), *(note.author, note.operation, note.changed, note.removed))
     link = link_of(before, sequence, blob)
     return Commit(sequence, note, size, mark_of(link, note), link)
@@ -160,7 +160,7 @@ def is_own_mark(commit: Commit) -> bool:
 
 
 def follows(before: str, commit: Commit, blob: bytes) -> bool:
-    """Check that a commit with this blob follows the version of this mark."""
+    """Check that a commit with this blob follows the version with this mark."""
     link = link_of(before, commit.sequence, blob)
     known = commit.link or commit.mark
     return link == known and is_own_mark(commit) and commit.bytes == len(blob)

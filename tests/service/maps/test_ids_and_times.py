@@ -218,7 +218,12 @@ def test_A24_a_robot_s_key_deletes_no_map_whose_history_holds_others(
         assert edited(service, removal, ops, "&robot=zoe").is_success
         (summary,) = service.get("/maps", headers=ann).json()["maps"]
         assert summary["robots"] == {"ann": 3}
-        assert_problem(service.delete("/maps/yard", headers=ann), 403, "forbidden", "'ann' alone")
+        assert_problem(
+            service.delete("/maps/yard", headers=ann),
+            403,
+            "forbidden",
+            "only segments of the robot 'ann'",
+        )
         assert service.post("/maps/yard/versions/1/restore", headers=ops).status_code == 200
         assert edited(service, removal, ops, "&robot=zoe").is_success
         assert service.post("/maps/yard/compact", headers=ops).status_code == 200

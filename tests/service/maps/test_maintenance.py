@@ -177,7 +177,7 @@ def test_a_cache_that_is_not_to_be_trusted_is_not(
     with caplog.at_level(logging.WARNING), start() as service:
         assert told(service, manifest) == before
         assert service.app.state.placecell.engine.maps.get("site").base_sequence == 1
-    assert ("left aside" in caplog.text) == (how != "gone")
+    assert ("is ignored" in caplog.text) == (how != "gone")
 
 
 def test_a_cache_of_an_earlier_version_is_completed(
@@ -218,10 +218,10 @@ def test_what_fails_is_told_and_tried_again(
         with monkeypatch.context() as patched, caplog.at_level(logging.ERROR):
             patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "full")))
             keeper.run_once()
-            assert "housekeeping failed at map 'site'" in caplog.text
+            assert "maintenance failed at map 'site'" in caplog.text
             patched.setattr(state.engine.maps.store, "release_space", lambda: 1 / 0)
             keeper.run_once()
-            assert "housekeeping failed at the data directory" in caplog.text
+            assert "maintenance failed at the data directory" in caplog.text
         assert service.get("/maps/site").status_code == 200
         keeper.run_once()
 
@@ -251,7 +251,7 @@ def test_A2_only_maps_that_were_written_are_looked_at_again(
             assert service.put(f"/maps/m{number}", content=file).status_code == 201
         keeper = keeper_of(service.app.state.placecell, data_dir, MaintenanceThresholds())
         cared: list[str] = []
-        care = keeper._care
+        care = keeper._maintain
 
         def noted(name: str) -> None:
             cared.append(name)

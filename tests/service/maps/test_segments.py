@@ -104,7 +104,9 @@ def test_another_robot_s_segment_is_neither_replaced_nor_removed(
         (edit(1, 300, "zoe", removed=[101, 105]), [101, 105]),
     ):
         refused = service.post(f"{yard}/segments", content=data)
-        assert_problem(refused, 409, "id-taken", f"{len(ids)} ids are of segments of ann")
+        assert_problem(
+            refused, 409, "id-taken", f"{len(ids)} ids belong to segments of other robots: ann"
+        )
         assert refused.json()["ids"] == ids
         # Nor if it says that it speaks for the other: an id keeps its robot.
     refused = service.post(f"{yard}/segments?robot=ann", content=edit(4, 108, "zoe", seed=3))
@@ -257,13 +259,13 @@ def test_a_robot_s_key_edits_its_own_segments_alone(
             for headers in (ann | seen, ann | {"If-Match": "*"}):
                 assert_problem(service.post(path, content=data, headers=headers), 403, "forbidden")
         refused = service.post(f"{path}?robot=zoe", content=edit(0, removed=[1]), headers=ann)
-        assert_problem(refused, 403, "forbidden", "'ann' alone")
+        assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
         assert service.get("/maps/yard", headers=ann).content == before.content
         for way in ("segments", "ids?count=1", "age?unseen_since=0", "versions/1/restore"):
             refused = service.post(f"/maps/yard/{way}", content=edit(1, 20), headers=reader)
             assert_problem(refused, 403, "forbidden", "reads")
         refused = service.post("/maps/yard/compact", headers=ann)
-        assert_problem(refused, 403, "forbidden", "'ann' alone")
+        assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
         # To go back is to remove what others wrote since.
         caplog.clear()
         with caplog.at_level(logging.INFO, "placecell.audit"):

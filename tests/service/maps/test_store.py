@@ -354,7 +354,7 @@ def test_a_log_without_its_database_is_not_thrown_away(folder: Path) -> None:
         shutil.copy(folder / f"{FILE}-wal", folder / "kept")
     (folder / "kept").rename(folder / f"{FILE}-wal")
     (folder / FILE).unlink()
-    with pytest.raises(StoreError, match=r"maps\.sqlite-wal is there, but not maps\.sqlite"):
+    with pytest.raises(StoreError, match=r"maps\.sqlite-wal exists, but maps\.sqlite does not"):
         SqliteMapStore(folder)
 
 
