@@ -12,7 +12,14 @@ from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
-from service.maps.deduplication import RADIUS, SAME_VIEWPOINT, SAME_VIEW, VIEWS, SameView, deduplicate
+from service.maps.deduplication import (
+    RADIUS,
+    SAME_VIEW,
+    SAME_VIEWPOINT,
+    VIEWS,
+    SameView,
+    deduplicate,
+)
 
 MAX_VIEWS = (1, 2, 3, 4, 6, 8, 12)
 """Measured limits of the number of stored views per object."""

@@ -1,6 +1,8 @@
 """The way of a request through the files stays short: docs/explanation/architecture.md tells it."""
 
+import sqlite3
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import faiss
@@ -14,6 +16,9 @@ from tests.service.service_builders import cloud, map_of, random_codes, request_
 
 MOST = 15
 """Largest number of files that a request for recognition passes."""
+
+MOST_OF_UPLOAD = 18
+"""Largest number of files that an upload passes."""
 
 
 def ended_by(trace: Trace, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -53,3 +58,33 @@ def test_describe_passes_few_files_from_route_to_network(
     assert trace.has_ended
     assert "placecell/descriptors/extractor.py" in trace.passed
     assert len(trace.passed) <= MOST, trace.passed
+
+
+@pytest.mark.parametrize("replaces", [False, True])
+def test_upload_passes_few_files_from_route_to_sqlite(
+    start: Callable[..., Any],
+    manifest: Manifest,
+    monkeypatch: pytest.MonkeyPatch,
+    replaces: bool,
+) -> None:
+    with traced(("service/api/routes/maps.py", "put_map")) as trace:
+
+        class Connection(sqlite3.Connection):
+            def execute(self, sql: str, *parameters: Any) -> sqlite3.Cursor:
+                if sql == "COMMIT":
+                    trace.stop()
+                return super().execute(sql, *parameters)
+
+        connect = partial(sqlite3.connect, factory=Connection)
+        monkeypatch.setattr("service.maps.sqlite.database.sqlite3.connect", connect)
+        with start() as service:
+            for seed in range(1 + replaces):
+                trace.has_ended, trace.passed, trace.files = False, [], []
+                yard = encode(map_of(random_codes(20, seed), manifest.model_id))
+                answer = service.put(
+                    "/maps/yard", content=yard, headers={"If-Match": "*"} if seed else {}
+                )
+                assert answer.status_code == (200 if seed else 201)
+    assert trace.has_ended
+    assert "service/maps/sqlite/store.py" in trace.passed
+    assert len(trace.passed) <= MOST_OF_UPLOAD, trace.passed

@@ -1,4 +1,4 @@
-"""Things that are seen again: stored once, from every side that differs."""
+"""Deduplication: an object is stored once from each viewpoint."""
 
 import tracemalloc
 from dataclasses import replace
@@ -43,7 +43,7 @@ def seen_at(
     model_id: str = "m",
     stand: float | None = None,
 ) -> CompactMap:
-    """Segments of one moment: places along x in metres, and what their codes all are.
+    """Return segments of one time: positions along x in meters, and the value of all their codes.
 
     Seen from there, metres along y; from elsewhere at each time, unless said.
     """
@@ -79,7 +79,7 @@ def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> De
 
 
 def told(content: CompactMap) -> list[tuple[int, int, int]]:
-    """Of each segment id, view of what, last seen."""
+    """Return id, `views` and `seen` of each segment."""
     assert content.views is not None
     assert content.seen is not None
     return list(
@@ -99,7 +99,7 @@ STORED = joined(seen_at(10, [1, 2], [0.0, 5.0], [0, 0]))
         (-0.4, -2, [(1, 1, 20)], 1),
     ],
 )
-def test_a_segment_is_a_repeat_a_view_or_a_new_thing(
+def test_segment_is_a_repeat_a_view_or_a_new_object(
     place: float, code: int, expected: list[tuple[int, int, int]], repeats: int
 ) -> None:
     found = look(seen_at(20, [7], [place], [code]), STORED)
@@ -109,7 +109,7 @@ def test_a_segment_is_a_repeat_a_view_or_a_new_thing(
 
 
 @pytest.mark.parametrize(("stand", "repeats"), [(4.9, 1), (5.1, 0), (-4.9, 1)])
-def test_what_is_seen_from_where_it_was_seen_is_no_other_view(stand: float, repeats: int) -> None:
+def test_segment_seen_from_the_same_viewpoint_is_a_repeat(stand: float, repeats: int) -> None:
     stored = joined(seen_at(10, [1], [0.0], [0], stand=0.0))
     found = look(seen_at(20, [7], [0.1], [50], stand=stand), stored)
     assert found.repeats == repeats
@@ -120,7 +120,7 @@ def test_what_is_seen_from_where_it_was_seen_is_no_other_view(stand: float, repe
     assert found.refreshed.tolist() == [2] * repeats
 
 
-def test_a_thing_has_so_many_views_and_no_more() -> None:
+def test_object_keeps_a_limited_number_of_views() -> None:
     upload = joined(*(seen_at(20 + step, [10 + step], [0.1], [10 * step]) for step in range(6)))
     found = look(upload, STORED)
     assert told(found.changed) == [(1, 1, 20), (11, 1, 21), (12, 1, 25)]
@@ -129,19 +129,19 @@ def test_a_thing_has_so_many_views_and_no_more() -> None:
     assert told(alone.changed) == [(1, 1, 25)]
 
 
-def test_what_is_seen_at_the_same_time_is_not_the_same_thing() -> None:
+def test_segments_seen_at_the_same_time_are_different_objects() -> None:
     found = look(seen_at(20, [7, 8], [0.1, 0.2], [50, 50]), STORED)
     assert told(found.changed) == [(7, 1, 20), (8, 1, 20)]
     again = look(seen_at(10, [7], [0.1], [0]), STORED)
     assert told(again.changed) == [(7, 7, 10)]
 
 
-def test_an_upload_is_compared_with_itself_in_the_order_of_time() -> None:
+def test_upload_is_compared_with_itself_in_order_of_time() -> None:
     upload = joined(seen_at(30, [1], [0.0], [0]), seen_at(20, [9], [0.1], [0]))
     assert told(look(upload).changed) == [(9, 9, 30)]
 
 
-def test_a_known_id_is_replaced_but_stays_a_view_of_what_it_was() -> None:
+def test_replaced_segment_stays_a_view_of_its_object() -> None:
     stored = apply(STORED, Delta(look(seen_at(20, [7], [0.1], [50]), STORED).changed, NONE))
     found = look(seen_at(15, [7], [0.2], [60]), stored)
     assert told(found.changed) == [(7, 1, 20)]
@@ -149,12 +149,12 @@ def test_a_known_id_is_replaced_but_stays_a_view_of_what_it_was() -> None:
     assert found.repeats == 0
 
 
-def test_an_earlier_sighting_does_not_make_it_older() -> None:
+def test_earlier_segment_does_not_lower_seen() -> None:
     found = look(seen_at(5, [7], [0.1], [0]), STORED)
     assert (len(found.changed), found.repeats) == (0, 1)
 
 
-def test_nothing_is_nothing() -> None:
+def test_empty_upload_changes_nothing() -> None:
     for stored in (NOTHING, STORED):
         found = look(NOTHING, stored)
         assert (len(found.changed), found.repeats) == (0, 0)
@@ -162,7 +162,7 @@ def test_nothing_is_nothing() -> None:
 
 
 def seen_together(time: int, first: int, things: list[tuple[float, int]]) -> CompactMap:
-    """A moment: ids from `first` on, of place and code each."""
+    """Return segments of one time: ids from `first` on, with position and code of each."""
     places, codes = zip(*things, strict=True)
     return seen_at(time, list(range(first, first + len(things))), [*places], [*codes])
 
@@ -182,7 +182,7 @@ MOMENTS = st.lists(
 @pytest.mark.slow
 @given(MOMENTS, MOMENTS)
 @settings(max_examples=100, deadline=None)
-def test_what_was_taken_in_is_known_from_then_on(
+def test_stored_segment_is_known_to_later_uploads(
     first: list[CompactMap], second: list[CompactMap]
 ) -> None:
     stored = apply(NOTHING, Delta(look(joined(*first)).changed, NONE))
@@ -205,7 +205,7 @@ def test_what_was_taken_in_is_known_from_then_on(
     assert found.repeats == new.sum() - np.isin(after.ids, upload.ids[new]).sum()
 
 
-def test_over_http(service: Any, manifest: Manifest) -> None:
+def test_deduplication_over_http(service: Any, manifest: Manifest) -> None:
     same = int(SAME_VIEW * manifest.pair_threshold / manifest.quantizer.step / 7**0.5)
 
     def send(time: float, ids: list[int], places: list[float], codes: list[int]) -> Any:
@@ -237,7 +237,7 @@ def test_over_http(service: Any, manifest: Manifest) -> None:
     assert stored_all.json()["segments"] == 3
 
 
-def test_a_robot_s_key_may_see_another_s_segments_again(
+def test_robot_key_may_refresh_another_robots_segments(
     start: Any, manifest: Manifest, tmp_path: Path
 ) -> None:
     file = tmp_path / "keys.toml"
@@ -258,7 +258,7 @@ def test_a_robot_s_key_may_see_another_s_segments_again(
         assert_problem(send("zoe", 30, [1]), 403, "forbidden")
 
 
-def test_a_part_of_a_map_is_enough(manifest: Manifest) -> None:
+def test_nearby_segments_are_enough_to_deduplicate(manifest: Manifest) -> None:
     random = np.random.default_rng(0)
     stored = joined(
         *(
@@ -278,7 +278,7 @@ def test_a_part_of_a_map_is_enough(manifest: Manifest) -> None:
 def compared_with_all(
     upload: CompactMap, stored: CompactMap, same: SameView, itself: bool
 ) -> Deduplicated:
-    """Reference: each segment compared with all others near it."""
+    """Deduplicate by comparing each segment with all others near it; the reference."""
     stored, given = (with_optional(each, ["views", "seen"]) for each in (stored, upload))
     known = take(stored, ~np.isin(stored.ids, given.ids))
     given = take(given, np.lexsort((given.ids, given.frame_times[given.frame_index])))
@@ -330,7 +330,7 @@ def compared_with_all(
 def scattered(
     random: np.random.Generator, count: int, extent: float, first_id: int, moments: int
 ) -> CompactMap:
-    """Segments about one place, of some moments, seen from a street beside it."""
+    """Return segments near one position, of several times, seen from a street beside it."""
     times = np.sort(random.integers(0, moments, count)).astype(float)
     stands = np.round(random.uniform(-20, 20, (moments, 3))) * (1, 1, 0)
     return canonical(
@@ -355,7 +355,7 @@ def scattered(
 @pytest.mark.parametrize("itself", [True, False])
 @pytest.mark.parametrize("steps", [10.0, 40.0, 110.0])
 @pytest.mark.parametrize(("extent", "moments"), [(0.3, 300), (1.0, 20), (3.0, 2), (15.0, 40)])
-def test_A1_bounded_comparison_gives_what_comparing_all_gives(
+def test_A1_bounded_comparison_equals_full_comparison(
     extent: float, moments: int, steps: float, itself: bool
 ) -> None:
     same = SameView(Quantizer(0.01, 2), steps)
@@ -371,7 +371,7 @@ def test_A1_bounded_comparison_gives_what_comparing_all_gives(
 
 
 def peak_bytes(upload: CompactMap) -> int:
-    """Memory that a comparison takes beside its arguments."""
+    """Return the peak memory of a comparison, without its arguments."""
     nothing, same = take(upload, slice(0)), SameView(Quantizer(0.01), 1.0)
     deduplicate(take(upload, slice(3)), nothing, same)
     tracemalloc.start()
@@ -389,7 +389,7 @@ def test_A1_memory_is_linear_in_the_upload(moments: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["MOST_COMPARED", "MOST_VISITED"])
-def test_A1_segment_is_compared_with_the_latest_so_many(
+def test_A1_segment_is_compared_with_the_latest_segments(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # 60 things of one moment at one spot; what comes a moment later looks as the first of them.
@@ -406,7 +406,7 @@ def test_A1_segment_is_compared_with_the_latest_so_many(
         assert deduplicate(upload, nothing, same, same_viewpoint=-1.0).repeats == repeats
 
 
-def test_A1_comparison_stops_when_nobody_waits() -> None:
+def test_A1_comparison_stops_when_cancelled() -> None:
     upload = scattered(np.random.default_rng(2), 50, 1.0, 0, 50)
     with cancelled_by(CancelToken()) as token:
         token.cancel()

@@ -1,4 +1,4 @@
-"""A full disk can be freed: what makes a map smaller or removes it works, also after a restart."""
+"""Full disk: writes that free space succeed, even after a restart."""
 
 import os
 from pathlib import Path
@@ -25,7 +25,7 @@ def files(manifest: Manifest) -> list[bytes]:
 
 
 def filled(data_dir: Path) -> Path:
-    """Leave no byte of the disk free."""
+    """Fill the disk to the last byte."""
     ballast = data_dir / "ballast"
     with ballast.open("ab", buffering=0) as file:
         for size in (1 << 16, 1 << 12, 1 << 9):
@@ -40,7 +40,7 @@ def filled(data_dir: Path) -> Path:
 
 @pytest.mark.parametrize("restarted", [False, True])
 @pytest.mark.parametrize("ways", [["age", "compact", "delete"], ["delete"]])
-def test_A18_a_full_disk_can_be_freed(
+def test_A18_deletion_frees_a_full_disk(
     start: Any, tmp_path: Path, files: list[bytes], restarted: bool, ways: list[str]
 ) -> None:
     data_dir = tmp_path / "disk"
@@ -83,7 +83,7 @@ def freed(client: Any, way: str) -> None:
         assert len(client.get("/maps/yard/versions").json()["versions"]) == 1
 
 
-def test_A18_the_disk_is_written_again_once_maps_are_deleted(
+def test_A18_writes_succeed_again_after_deletions(
     start: Any, tmp_path: Path, manifest: Manifest
 ) -> None:
     """A deletion frees enough space to continue and restores the reserve."""
@@ -103,7 +103,7 @@ def test_A18_the_disk_is_written_again_once_maps_are_deleted(
         assert put(client, large[0], "again").status_code == 201
 
 
-def test_A18_room_is_kept_and_taken_again(tmp_path: Path) -> None:
+def test_A18_reserve_is_allocated_again_after_use(tmp_path: Path) -> None:
     reserve = DiskReserve(tmp_path)
     assert not reserve.is_held()
     assert reserve.hold()
@@ -116,7 +116,7 @@ def test_A18_room_is_kept_and_taken_again(tmp_path: Path) -> None:
     assert reserve.hold()
 
 
-def test_A18_only_what_frees_may_use_the_room(
+def test_A18_only_writes_that_free_space_use_the_reserve(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with SqliteMapStore.owned(tmp_path / "var") as store:
@@ -150,7 +150,7 @@ def test_A18_only_what_frees_may_use_the_room(
 
 
 def appended(store: SqliteMapStore, head: MapHead, size: int) -> MapHead | None:
-    """Add a commit of so many bytes; None if the disk is full."""
+    """Add a commit of a number of bytes; return None if the disk is full."""
     try:
         return store.append(head, os.urandom(size), NOTE, 0)
     except StoreError as error:
@@ -163,7 +163,7 @@ def appended(store: SqliteMapStore, head: MapHead, size: int) -> MapHead | None:
 def test_A18_a_log_that_is_larger_than_the_reserve_moves_into_the_database(
     tmp_path: Path, is_cut: bool
 ) -> None:
-    """The reserve has room for what the log holds, too, and a failed move does not use it up."""
+    """The reserve also covers the log, and a failed checkpoint does not use it up."""
     disk = tmp_path / "disk"
     with small_disk(disk, "24m"):
         with SqliteMapStore.owned(disk / "var") as store:
@@ -193,7 +193,7 @@ def test_A18_a_log_that_is_larger_than_the_reserve_moves_into_the_database(
             assert store.heads()[0].sequence == yard.sequence + 1
 
 
-def test_A18_what_is_left_of_the_disk_is_kept(tmp_path: Path) -> None:
+def test_A18_reserve_takes_part_of_a_nearly_full_disk(tmp_path: Path) -> None:
     reserve = DiskReserve(tmp_path)
     assert reserve.hold_for_log(3_000_000)
     held = reserve.size + reserve.log_bytes

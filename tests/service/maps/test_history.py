@@ -1,4 +1,4 @@
-"""Versions of a map: told, given out, gone back to, and let go of."""
+"""Versions of a map: listed, served, restored and compacted."""
 
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from tests.service.service_builders import assert_problem, edit_of, map_of, rand
 
 @pytest.fixture
 def files(service: Any, manifest: Manifest) -> list[bytes]:
-    """A map `yard` with four versions; the file of each."""
+    """Store a map `yard` with four versions; return the file of each."""
     service.put("/maps/yard", content=encode(map_of(random_codes(9), manifest.model_id)))
     files = [service.get("/maps/yard").content]
     for step in range(3):
@@ -22,7 +22,7 @@ def files(service: Any, manifest: Manifest) -> list[bytes]:
     return files
 
 
-def test_every_version_is_told_and_given_out(service: Any, files: list[bytes]) -> None:
+def test_every_version_is_listed_and_served(service: Any, files: list[bytes]) -> None:
     listed = service.get("/maps/yard/versions").json()
     assert (listed["map"], listed["oldest"]) == ("yard", 1)
     told = [
@@ -45,9 +45,7 @@ def test_every_version_is_told_and_given_out(service: Any, files: list[bytes]) -
 
 
 @pytest.mark.slow
-def test_a_restored_version_is_a_new_one_and_can_be_undone(
-    service: Any, files: list[bytes]
-) -> None:
+def test_restore_makes_a_version_that_can_be_undone(service: Any, files: list[bytes]) -> None:
     response = service.post("/maps/yard/versions/2/restore")
     assert response.status_code == 200
     assert response.json()["sequence"] == 5
@@ -62,7 +60,7 @@ def test_a_restored_version_is_a_new_one_and_can_be_undone(
     assert service.get("/maps/yard/versions").json()["versions"][0]["operation"] == "restore"
 
 
-def test_to_go_back_may_be_tied_to_what_was_seen(service: Any, files: list[bytes]) -> None:
+def test_restore_under_an_outdated_etag_fails(service: Any, files: list[bytes]) -> None:
     stale = service.get("/maps/yard?version=3").headers["etag"]
     refused = service.post("/maps/yard/versions/1/restore", headers={"If-Match": stale})
     assert_problem(refused, 412, "precondition-failed")
@@ -71,7 +69,7 @@ def test_to_go_back_may_be_tied_to_what_was_seen(service: Any, files: list[bytes
 
 
 @pytest.mark.parametrize("keep", [1, 2, 3, 4, 9])
-def test_compaction_keeps_the_newest(start: Any, manifest: Manifest, keep: int) -> None:
+def test_compaction_keeps_the_newest_versions(start: Any, manifest: Manifest, keep: int) -> None:
     with start() as service:
         service.put("/maps/yard", content=encode(map_of(random_codes(9), manifest.model_id)))
         for step in range(3):
@@ -125,7 +123,7 @@ def test_compaction_keeps_the_newest(start: Any, manifest: Manifest, keep: int) 
         ("PUT", "/maps/yard/versions", 405, "method-not-allowed"),
     ],
 )
-def test_what_cannot_be_is_told(
+def test_invalid_version_requests_are_refused(
     service: Any, files: list[bytes], method: str, path: str, status: int, kind: str
 ) -> None:
     assert_problem(service.request(method, path), status, kind)
@@ -133,7 +131,7 @@ def test_what_cannot_be_is_told(
 
 
 @pytest.mark.slow
-def test_a_clock_that_jumps_changes_only_what_is_told(
+def test_clock_jump_changes_only_displayed_times(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     times = iter([5e9, 1.0, 2e9])

@@ -46,14 +46,14 @@ def reserved(service: Any, count: int, key: Any = None) -> Any:
         ([(0, IDS)], (0, 0)),
     ],
 )
-def test_A8_the_largest_run_of_free_ids_is_left(
+def test_A8_largest_run_of_free_ids_remains(
     taken: list[tuple[int, int]], free: tuple[int, int]
 ) -> None:
     assert Ids(tuple(taken)).leave(0, IDS) == free
 
 
-def test_A8_one_id_takes_no_others_with_it(service: Any, manifest: Manifest) -> None:
-    """Without keys and in a whole map too, after removal and after a restart of the counter."""
+def test_A8_far_id_does_not_use_up_others(service: Any, manifest: Manifest) -> None:
+    """Hold without keys, for whole maps, after a removal, and after a restart of the counter."""
     ends = map_of(random_codes(2), manifest.model_id)
     ends = replace(ends, ids=np.array([7, LAST], np.uint32))
     assert service.put("/maps/yard", content=encode(ends)).status_code == 201
@@ -68,8 +68,8 @@ def test_A8_one_id_takes_no_others_with_it(service: Any, manifest: Manifest) -> 
 
 
 @pytest.mark.slow
-def test_A8_ids_are_found_between_those_in_use(service: Any, manifest: Manifest) -> None:
-    """When the free ids at hand are too few, others are looked for, and never given twice."""
+def test_A8_reserve_uses_gaps_between_ids(service: Any, manifest: Manifest) -> None:
+    """If the current run of free ids is too short, another is used; no id is given twice."""
     assert edited(service, edit_of(random_codes(1), manifest.model_id, 0)).is_success
     given = {0}
     for last in (10, 3_000_000_000, 3_000_000_020):
@@ -82,9 +82,7 @@ def test_A8_ids_are_found_between_those_in_use(service: Any, manifest: Manifest)
         given |= {*ids}
 
 
-def test_A8_a_robot_s_key_writes_no_id_far_above_those_in_use(
-    start: Any, file: Path, manifest: Manifest
-) -> None:
+def test_A8_far_unreserved_id_is_refused(start: Any, file: Path, manifest: Manifest) -> None:
     ann, admin = (
         made(file, "ann", "--write", "--robot", "ann"),
         made(file, "ops", "--write", "--admin"),
@@ -108,7 +106,7 @@ def test_A8_a_robot_s_key_writes_no_id_far_above_those_in_use(
         assert reserved(service, 1, ann).json()["first"] == first + 1_000_000
 
 
-def test_A8_a_key_reserves_only_so_many_ids_ahead(
+def test_A8_number_of_reserved_ids_is_limited(
     start: Any, file: Path, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ann, zoe = (made(file, name, "--write", "--robot", name) for name in ("ann", "zoe"))
@@ -137,9 +135,7 @@ def test_A8_old_reservations_do_not_count(start: Any, manifest: Manifest) -> Non
         assert reserved(service, 100).json()["first"] == 101
 
 
-def test_A8_an_admin_makes_ids_free_that_no_version_has(
-    start: Any, file: Path, manifest: Manifest
-) -> None:
+def test_A8_admin_frees_ids_of_no_version(start: Any, file: Path, manifest: Manifest) -> None:
     ann, ops = (
         made(file, "ann", "--write", "--robot", "ann"),
         made(file, "ops", "--write", "--admin"),
@@ -161,7 +157,7 @@ def test_A8_an_admin_makes_ids_free_that_no_version_has(
         assert reserved(service, 1, ops).json()["first"] == 6
 
 
-def test_B17_a_robot_of_the_same_name_with_another_key_overwrites_nothing(
+def test_B17_robot_of_same_name_with_other_key_overwrites_nothing(
     start: Any, file: Path, manifest: Manifest
 ) -> None:
     one, two = (made(file, name, "--write", "--robot", "robot") for name in ("one", "two"))
@@ -195,7 +191,7 @@ def test_B17_a_robot_of_the_same_name_with_another_key_overwrites_nothing(
         assert edited(service, second, two).json()["changed"] == 0
 
 
-def test_B17_without_keys_an_edit_may_refuse_to_replace(service: Any, manifest: Manifest) -> None:
+def test_B17_only_new_edit_refuses_to_replace(service: Any, manifest: Manifest) -> None:
     first = edit_of(random_codes(5), manifest.model_id, 0, "robot")
     second = edit_of(random_codes(5, 1), manifest.model_id, 3, "robot")
     assert edited(service, first, query="&only_new=true").status_code == 201
@@ -206,7 +202,7 @@ def test_B17_without_keys_an_edit_may_refuse_to_replace(service: Any, manifest: 
     assert edited(service, second).json()["changed"] == 5
 
 
-def test_A24_a_robot_s_key_deletes_no_map_whose_history_holds_others(
+def test_A24_robot_key_cannot_delete_history_of_others(
     start: Any, file: Path, manifest: Manifest
 ) -> None:
     ann, ops = made(file, "ann", "--write", "--robot", "ann"), made(file, "ops", "--write")
@@ -239,7 +235,7 @@ def seen_at(content: CompactMap, frames: float, seen: int | None = None) -> Comp
 
 
 @pytest.mark.parametrize("seen", [None, LAST])
-def test_A16_nothing_is_seen_in_the_future(
+def test_A16_segment_from_the_future_is_refused(
     service: Any, manifest: Manifest, seen: int | None
 ) -> None:
     now = time.time()
@@ -255,7 +251,7 @@ def test_A16_nothing_is_seen_in_the_future(
     assert_problem(refused, 422, "time-in-future")
 
 
-def test_A16_recorded_drives_and_a_service_whose_clock_is_not_set(
+def test_A16_past_times_and_unset_clock_are_accepted(
     service: Any, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     content = map_of(random_codes(4), manifest.model_id)
@@ -266,7 +262,7 @@ def test_A16_recorded_drives_and_a_service_whose_clock_is_not_set(
     assert service.put("/maps/new", content=encode(content)).is_success
 
 
-def test_A16_another_robot_s_segment_is_seen_when_it_was_captured_at_most(
+def test_A16_other_robots_segment_is_refreshed_to_capture_time_at_most(
     start: Any, file: Path, manifest: Manifest
 ) -> None:
     ann, zoe = (made(file, name, "--write", "--robot", name) for name in ("ann", "zoe"))

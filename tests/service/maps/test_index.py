@@ -1,4 +1,4 @@
-"""The search: the same as comparing every pair, whatever the codes are made of."""
+"""Index: a search equals the comparison of every pair, for all kinds of codes."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from service.maps.index import MARGIN, FlatIndex, NibbleIndex, index_of
 
 
 def codes_of(rows: int, per_byte: int, width: int = 12, seed: int = 0) -> Int8:
-    """Codes that a quantizer of so many dimensions a byte may give."""
+    """Return random codes of a quantizer with a number of dimensions per byte."""
     most = LEVELS[per_byte] ** per_byte
     drawn = np.random.default_rng(seed).integers(0, most, (rows, width)) - most // 2
     return np.asarray(drawn, np.int8)
@@ -19,7 +19,7 @@ def codes_of(rows: int, per_byte: int, width: int = 12, seed: int = 0) -> Int8:
 def by_hand(
     stored: Int8, asked: Int8, quantizer: Quantizer, k: int, gone: Bool | None = None
 ) -> tuple[Float64, Int64]:
-    """Every pair compared; ties by row."""
+    """Compare every pair; order ties by row."""
     levels = quantizer.levels(stored).astype(np.int64)
     apart = quantizer.levels(asked).astype(np.int64)[:, None] - levels[None]
     squared = (apart**2).sum(axis=2).astype(float)
@@ -32,7 +32,7 @@ def by_hand(
 @pytest.mark.parametrize("per_byte", [1, 2, 3, 4])
 @pytest.mark.parametrize("rows", [1, 5, MARGIN + 9, 3000])
 @pytest.mark.parametrize("queries", [1, 19, 64])
-def test_the_nearest_are_those_of_comparing_all(per_byte: int, rows: int, queries: int) -> None:
+def test_search_equals_comparison_with_all_rows(per_byte: int, rows: int, queries: int) -> None:
     quantizer = Quantizer(0.01, per_byte)
     stored = codes_of(rows, per_byte)
     asked = codes_of(queries, per_byte, seed=1)
@@ -44,7 +44,7 @@ def test_the_nearest_are_those_of_comparing_all(per_byte: int, rows: int, querie
 
 
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
-def test_ties_go_by_row_however_many(per_byte: int) -> None:
+def test_search_orders_ties_by_row(per_byte: int) -> None:
     # More rows equally near than are fetched at first.
     quantizer = Quantizer(1.0, per_byte)
     stored = np.repeat(codes_of(4, per_byte), 200, axis=0)
@@ -54,7 +54,7 @@ def test_ties_go_by_row_however_many(per_byte: int) -> None:
     np.testing.assert_array_equal(found, by_hand(stored, asked, quantizer, 25)[1])
 
 
-def test_beyond_a_number_of_ties_any_of_them_will_do(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_search_with_too_many_ties_returns_any_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(map_index, "MOST", 64)
     stored = np.repeat(codes_of(1, 4), 5000, axis=0)
     distances, found = index_of(stored, Quantizer(1.0, 4)).search(stored[:2], 40)
@@ -64,7 +64,7 @@ def test_beyond_a_number_of_ties_any_of_them_will_do(monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 @pytest.mark.parametrize("share", [0.1, 0.9, 0.999])
-def test_what_is_gone_is_not_found(per_byte: int, share: float) -> None:
+def test_search_excludes_gone_rows(per_byte: int, share: float) -> None:
     quantizer = Quantizer(1.0, per_byte)
     stored, asked = codes_of(3000, per_byte), codes_of(8, per_byte, seed=2)
     gone = np.random.default_rng(3).random(3000) < share
@@ -76,7 +76,7 @@ def test_what_is_gone_is_not_found(per_byte: int, share: float) -> None:
     np.testing.assert_allclose(distances, wanted)
 
 
-def test_of_nothing_nothing_is_found() -> None:
+def test_search_of_empty_index_finds_nothing() -> None:
     quantizer = Quantizer(1.0, 4)
     stored = codes_of(3, 4)
     for k, gone, queries in ((0, None, 2), (5, np.ones(3, bool), 2), (5, None, 0)):
@@ -86,7 +86,7 @@ def test_of_nothing_nothing_is_found() -> None:
     assert not index_of(stored[:0], quantizer).search(stored, 5)[1].size
 
 
-def test_neither_the_batch_nor_the_order_of_queries_matters() -> None:
+def test_search_is_independent_of_batch_and_order() -> None:
     stored, asked = codes_of(2000, 4, 32), codes_of(30, 4, 32, seed=4)
     index = index_of(stored, Quantizer(1.0, 4))
     together = index.search(asked, 10)
@@ -107,7 +107,7 @@ def test_float_sums_are_exact(dimension: int) -> None:
     np.testing.assert_allclose(distances, wanted)
 
 
-def test_nibbles_are_taken_where_codes_are_made_of_them() -> None:
+def test_codes_of_nibbles_get_a_nibble_index() -> None:
     kinds = {per_byte: type(index_of(codes_of(9, per_byte), Quantizer(1.0, per_byte)))
              for per_byte in LEVELS}  # fmt: skip
     assert kinds == {1: FlatIndex, 2: NibbleIndex, 3: FlatIndex, 4: NibbleIndex}

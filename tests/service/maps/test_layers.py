@@ -1,4 +1,4 @@
-"""MapLayers hold what their edits led to, however many edits, and whenever they are folded."""
+"""Layers: they equal the map after all edits, before and after flattening."""
 
 from collections import Counter
 from dataclasses import replace
@@ -20,7 +20,7 @@ NOTHING = empty("m", "1", "town", 7)
 
 
 def segments(ids: list[int], value: int = 0, robot: str = "ann", source: str = "") -> CompactMap:
-    """Of these ids; their codes tell id and value."""
+    """Return segments with these ids, whose codes contain id and value."""
     codes = np.zeros((len(ids), 7), np.int8)
     codes[:, 0], codes[:, 1] = ids, value
     made = replace(map_of(codes, "m", robot=robot), ids=np.array(ids, np.uint32))
@@ -54,7 +54,7 @@ STARTS = IDS.map(sorted).map(segments)
 @pytest.mark.slow
 @given(STARTS, EDITS)
 @settings(max_examples=200, deadline=None)
-def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[Delta]) -> None:
+def test_layers_equal_edits_applied_one_by_one(start: CompactMap, edits: list[Delta]) -> None:
     layers, expected = MapLayers.of(start), start
     for each in edits:
         layers, expected = layers.after(each), apply(expected, each)
@@ -75,7 +75,7 @@ def test_they_hold_what_edits_one_by_one_lead_to(start: CompactMap, edits: list[
 @pytest.mark.slow
 @given(STARTS, EDITS, EDITS)
 @settings(max_examples=200, deadline=None)
-def test_a_new_base_changes_nothing(
+def test_rebased_layers_are_the_same_map(
     start: CompactMap, first: list[Delta], then: list[Delta]
 ) -> None:
     before = MapLayers.of(start)
@@ -92,7 +92,7 @@ def test_a_new_base_changes_nothing(
 @pytest.mark.slow
 @given(STARTS, EDITS, EDITS.filter(len))
 @settings(max_examples=200, deadline=None)
-def test_the_effect_of_an_edit_is_all_that_it_changes(
+def test_effect_of_an_edit_is_all_that_it_changes(
     start: CompactMap, edits: list[Delta], asked: list[Delta]
 ) -> None:
     layers = MapLayers.of(start)
@@ -130,7 +130,9 @@ def test_change_to_another_content_is_found_by_one_comparison(
 @pytest.mark.slow
 @given(STARTS, EDITS, st.integers(1, 15))
 @settings(max_examples=100, deadline=None)
-def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], k: int) -> None:
+def test_search_over_layers_equals_search_of_flat_map(
+    start: CompactMap, edits: list[Delta], k: int
+) -> None:
     layers = MapLayers.of(start)
     for each in edits:
         layers = layers.after(each)
@@ -145,7 +147,7 @@ def test_both_layers_are_searched_as_one(start: CompactMap, edits: list[Delta], 
     np.testing.assert_array_equal(layers.robot_names(rows), names)
 
 
-def test_optional_columns_of_an_edit_become_the_map_s() -> None:
+def test_optional_columns_of_an_edit_are_added_to_the_map() -> None:
     start = MapLayers.of(segments([1, 2, 3]))
     seen = replace(segments([2, 9]), seen=np.array([7, 8], np.uint32))
     after = start.after(Delta(seen, np.zeros(0, np.uint32)))
@@ -168,7 +170,7 @@ def test_optional_columns_of_an_edit_become_the_map_s() -> None:
     assert after.effect_of(nothing).is_empty
 
 
-def test_a_whole_delta_replaces_all() -> None:
+def test_whole_delta_replaces_the_map() -> None:
     start = MapLayers.of(segments([1, 2, 3], robot="zoe"))
     other = replace(segments([5]), model_id="another")
     whole = Delta(other, np.zeros(0, np.uint32), 0, 9)

@@ -1,4 +1,4 @@
-"""Answers that are lost while others write: what they wrote is not undone by asking again."""
+"""Lost answers: a repeated write does not undo writes of other clients."""
 
 from collections.abc import Callable
 from typing import Any
@@ -13,11 +13,11 @@ from tests.service.service_builders import map_of, random_codes
 
 NONE = np.zeros(0, np.uint32)
 Ask = Callable[[Client, str | None], object]
-"""A write to the yard: for the version of this ETag, or for whatever is there."""
+"""Write to the map `yard`, under this ETag or under none."""
 
 
 class Losing(httpx.BaseTransport):
-    """A link that loses the first answer; until it is missed, others write."""
+    """Transport that loses the first answer; other clients write before the timeout."""
 
     def __init__(self, link: httpx.BaseTransport, meanwhile: Callable[[], object]) -> None:
         self._link = link
@@ -34,11 +34,11 @@ class Losing(httpx.BaseTransport):
         raise httpx.ReadError("lost")
 
     def close(self) -> None:
-        """The link is not ours."""
+        """Leave the shared transport open."""
 
 
 class Yard:
-    """A map of two versions, to which zoe writes too, over a good link."""
+    """Map of two versions, to which zoe writes too, over a working link."""
 
     def __init__(self, service: Any, manifest: Manifest) -> None:
         self._link = service._transport
@@ -51,13 +51,13 @@ class Yard:
         return map_of(random_codes(8, first_id), self._model_id, first_id, robot)
 
     def write(self) -> None:
-        """What zoe does: she writes from 7 on, where ann may have written too."""
+        """Write as zoe: ids from 7 on, where ann may have written too."""
         tags = [one.etag for one in self.zoe.maps()]
         delta = Delta(self.map_of("zoe", 7), NONE)
         self.zoe.edit_map("yard", delta, create=True, if_match=tags[0] if tags else None)
 
     def zoes(self) -> int:
-        """How many segments of hers are there."""
+        """Return the number of zoe's segments."""
         return sum(one.robots.get("zoe", 0) for one in self.zoe.maps())
 
     def lossy(self, meanwhile: Callable[[], object]) -> Losing:
@@ -87,7 +87,7 @@ def ask(request: pytest.FixtureRequest, yard: Yard) -> Ask:
     return asks[request.param]
 
 
-def test_tied_to_no_version_it_is_not_asked_for_again(yard: Yard, ask: Ask) -> None:
+def test_client_does_not_retry_write_without_etag(yard: Yard, ask: Ask) -> None:
     link = yard.lossy(yard.write)
     with client_at(link) as ann, pytest.raises(httpx.ReadError):
         ask(ann, None)
@@ -95,7 +95,7 @@ def test_tied_to_no_version_it_is_not_asked_for_again(yard: Yard, ask: Ask) -> N
     assert yard.zoes() == 8
 
 
-def test_tied_to_a_version_it_is_refused_after_others_wrote(yard: Yard, ask: Ask) -> None:
+def test_retry_under_etag_fails_after_other_writes(yard: Yard, ask: Ask) -> None:
     link = yard.lossy(yard.write)
     with client_at(link) as ann, pytest.raises(ServiceError) as raised:
         ask(ann, yard.etag)
@@ -104,7 +104,7 @@ def test_tied_to_a_version_it_is_refused_after_others_wrote(yard: Yard, ask: Ask
     assert yard.zoes() == 8
 
 
-def test_tied_to_a_version_it_is_done_once(yard: Yard, ask: Ask) -> None:
+def test_retry_under_etag_is_done_once(yard: Yard, ask: Ask) -> None:
     link = yard.lossy(lambda: None)
     with client_at(link) as ann:
         ask(ann, yard.etag)
@@ -112,7 +112,7 @@ def test_tied_to_a_version_it_is_done_once(yard: Yard, ask: Ask) -> None:
     assert [one.sequence for one in yard.zoe.maps()] in ([3], [])
 
 
-def test_history_is_let_go_of_once(yard: Yard) -> None:
+def test_compaction_is_done_once(yard: Yard) -> None:
     link = yard.lossy(yard.write)
     with client_at(link) as ann, pytest.raises(httpx.ReadError):
         ann.compact_map("yard", keep=2)

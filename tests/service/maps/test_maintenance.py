@@ -1,4 +1,4 @@
-"""What is done in the background leaves every answer as it was."""
+"""Maintenance: background work changes no answer."""
 
 import json
 import logging
@@ -26,7 +26,7 @@ def keeper_of(state: State, data_dir: Path, bounds: MaintenanceThresholds) -> Ma
 
 @contextmanager
 def site(start: Any, manifest: Manifest, edits: int = 5) -> Iterator[tuple[Any, State]]:
-    """A service whose own maintenance is asleep, with a map of edits + 1 versions."""
+    """Fill a service, whose maintenance sleeps, with a map of edits + 1 versions."""
     with start() as service:
         service.put("/maps/site", content=encode(map_of(random_codes(20), manifest.model_id)))
         for step in range(edits):
@@ -36,7 +36,7 @@ def site(start: Any, manifest: Manifest, edits: int = 5) -> Iterator[tuple[Any, 
 
 
 def told(service: Any, manifest: Manifest) -> list[Any]:
-    """All that a client can see of the map."""
+    """Return all that a client can see of the map."""
     query = {"model_id": manifest.model_id, "codes": random_codes(9, 3).tolist(), "k": 30}
     sequence = service.get("/maps").json()["maps"][0]["sequence"]
     versions = service.get("/maps/site/versions").json()
@@ -50,7 +50,7 @@ def told(service: Any, manifest: Manifest) -> list[Any]:
     ]
 
 
-def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir: Path) -> None:
+def test_flattened_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir: Path) -> None:
     with site(start, manifest) as (service, state):
         before = told(service, manifest)
         assert len(state.engine.maps.get("site").layers.recent) > 3
@@ -66,7 +66,7 @@ def test_folded_layers_are_the_same_map(start: Any, manifest: Manifest, data_dir
 
 
 @pytest.mark.slow
-def test_what_is_written_during_a_fold_stays(
+def test_write_during_flattening_stays(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with site(start, manifest) as (service, state):
@@ -97,7 +97,7 @@ def test_what_is_written_during_a_fold_stays(
 
 
 @pytest.mark.parametrize("what", ["removed", "removed and made anew"])
-def test_a_map_that_is_removed_during_a_fold_stays_removed(
+def test_map_deleted_during_flattening_stays_deleted(
     start: Any, manifest: Manifest, data_dir: Path, what: str
 ) -> None:
     with site(start, manifest) as (service, state):
@@ -110,7 +110,9 @@ def test_a_map_that_is_removed_during_a_fold_stays_removed(
         assert service.get("/maps").json() == before
 
 
-def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_dir: Path) -> None:
+def test_many_small_commits_trigger_flattening(
+    start: Any, manifest: Manifest, data_dir: Path
+) -> None:
     with site(start, manifest) as (_, state):
         keeper = keeper_of(state, data_dir, MaintenanceThresholds(commits=5))
         keeper.run_once()
@@ -124,7 +126,7 @@ def test_many_small_commits_are_folded_too(start: Any, manifest: Manifest, data_
     "bounds",
     [MaintenanceThresholds(log_bytes=100, log_share=0), MaintenanceThresholds(log_commits=4)],
 )
-def test_a_long_history_is_shortened(
+def test_long_history_is_compacted(
     start: Any, manifest: Manifest, data_dir: Path, bounds: MaintenanceThresholds
 ) -> None:
     with site(start, manifest) as (service, state):
@@ -166,7 +168,7 @@ def damage(file: Path, how: str) -> None:
 @pytest.mark.parametrize(
     "how", ["gone", "cut", "flipped", "empty", "of another history", "of the future", "of nonsense"]
 )
-def test_a_cache_that_is_not_to_be_trusted_is_not(
+def test_invalid_cache_is_ignored(
     start: Any, manifest: Manifest, data_dir: Path, how: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     with site(start, manifest) as (service, state):
@@ -180,7 +182,7 @@ def test_a_cache_that_is_not_to_be_trusted_is_not(
     assert ("is ignored" in caplog.text) == (how != "gone")
 
 
-def test_a_cache_of_an_earlier_version_is_completed(
+def test_outdated_cache_is_completed_from_the_store(
     start: Any, manifest: Manifest, data_dir: Path
 ) -> None:
     with site(start, manifest) as (service, state):
@@ -193,9 +195,7 @@ def test_a_cache_of_an_earlier_version_is_completed(
         assert told(service, manifest) == before
 
 
-def test_caches_of_maps_that_are_gone_are_removed(
-    start: Any, manifest: Manifest, data_dir: Path
-) -> None:
+def test_caches_of_deleted_maps_are_removed(start: Any, manifest: Manifest, data_dir: Path) -> None:
     with site(start, manifest) as (service, state):
         keeper = keeper_of(state, data_dir, EAGER)
         keeper.run_once()
@@ -206,7 +206,7 @@ def test_caches_of_maps_that_are_gone_are_removed(
         assert list((data_dir / "cache").iterdir()) == []
 
 
-def test_what_fails_is_told_and_tried_again(
+def test_failed_maintenance_is_logged_and_retried(
     start: Any,
     manifest: Manifest,
     data_dir: Path,
@@ -226,7 +226,7 @@ def test_what_fails_is_told_and_tried_again(
         keeper.run_once()
 
 
-def test_it_works_by_itself_and_ends(
+def test_maintenance_runs_and_stops_by_itself(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with site(start, manifest) as (_, state):
@@ -241,7 +241,7 @@ def test_it_works_by_itself_and_ends(
         assert state.engine.maps.get("site").base_sequence == 6
 
 
-def test_A2_only_maps_that_were_written_are_looked_at_again(
+def test_A2_maintenance_visits_only_written_maps(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Maintenance, "_work", lambda _: None)
@@ -259,7 +259,7 @@ def test_A2_only_maps_that_were_written_are_looked_at_again(
                 raise RuntimeError("fails once")
             care(name)
 
-        monkeypatch.setattr(keeper, "_care", noted)
+        monkeypatch.setattr(keeper, "_maintain", noted)
         for _ in range(3):
             keeper.run_once()
         # What failed is tried again.

@@ -31,7 +31,7 @@ def yard(manifest: Manifest) -> bytes:
 
 
 def whole(service: Any, yard: bytes) -> bool:
-    """The stored map is what was put, and is searched."""
+    """Return whether the stored map is the uploaded one and is searched."""
     return bool(
         service.get("/maps/yard").content == yard
         and [item["name"] for item in service.get("/maps").json()["maps"]] == ["yard"]
@@ -77,7 +77,7 @@ def test_put_get_list_delete(service: Any, yard: bytes, manifest: Manifest) -> N
     ("header", "status"),
     [('"{}"', 304), ('W/"{}"', 304), ('"x", "{}"', 304), ("*", 304), ('"x"', 200), ("{}", 200)],
 )
-def test_what_the_client_has_is_not_sent_again(
+def test_known_version_is_not_sent_again(
     service: Any, yard: bytes, header: str, status: int
 ) -> None:
     etag = service.put("/maps/yard", content=yard).json()["etag"]
@@ -88,7 +88,7 @@ def test_what_the_client_has_is_not_sent_again(
     assert response.headers["etag"] == f'"{etag}"'
 
 
-def test_the_same_file_again_changes_nothing(service: Any, yard: bytes) -> None:
+def test_put_of_equal_file_changes_nothing(service: Any, yard: bytes) -> None:
     first = service.put("/maps/yard", content=yard)
     # Whatever the client asks for: it may be an upload whose answer was lost, sent once more.
     for headers in ({}, {"If-Match": '"x"'}, {"If-None-Match": "*"}):
@@ -98,9 +98,7 @@ def test_the_same_file_again_changes_nothing(service: Any, yard: bytes) -> None:
     assert len(service.get("/maps/yard/versions").json()["versions"]) == 1
 
 
-def test_other_content_replaces_only_what_was_seen(
-    service: Any, yard: bytes, manifest: Manifest
-) -> None:
+def test_put_of_other_content_needs_the_etag(service: Any, yard: bytes, manifest: Manifest) -> None:
     first = service.put("/maps/yard", content=yard).headers["etag"]
     other = encode(map_of(random_codes(4, 9), manifest.model_id, robot="zoe"))
     refused = service.put("/maps/yard", content=other)
@@ -126,7 +124,7 @@ def test_other_content_replaces_only_what_was_seen(
     assert whole(service, yard)
 
 
-def test_a_condition_on_a_map_that_is_not_there(service: Any, yard: bytes) -> None:
+def test_if_match_on_missing_map_fails(service: Any, yard: bytes) -> None:
     for header in ('"x"', "*"):
         refused = service.put("/maps/yard", content=yard, headers={"If-Match": header})
         assert_problem(refused, 412, "precondition-failed", "does not exist")
@@ -135,7 +133,7 @@ def test_a_condition_on_a_map_that_is_not_there(service: Any, yard: bytes) -> No
     assert made.status_code == 201
 
 
-def test_a_map_is_removed_as_it_was_seen(service: Any, yard: bytes, manifest: Manifest) -> None:
+def test_delete_under_an_outdated_etag_fails(service: Any, yard: bytes, manifest: Manifest) -> None:
     first = service.put("/maps/yard", content=yard).headers["etag"]
     service.post("/maps/yard/segments", content=edit_of(random_codes(1, 5), manifest.model_id))
     refused = service.delete("/maps/yard", headers={"If-Match": first})
@@ -146,7 +144,7 @@ def test_a_map_is_removed_as_it_was_seen(service: Any, yard: bytes, manifest: Ma
     assert service.put("/maps/yard", content=yard).headers["etag"] != first
 
 
-def test_a_map_of_a_new_model_takes_the_place_of_the_old(
+def test_put_replaces_a_map_of_another_model(
     start: Any, yard: bytes, other_manifest: Manifest
 ) -> None:
     with start(also=["other"]) as service:
@@ -165,7 +163,7 @@ def test_a_map_of_a_new_model_takes_the_place_of_the_old(
         assert service.get("/maps/yard").content == yard
 
 
-def test_maps_are_there_after_a_restart(start: Any, yard: bytes, manifest: Manifest) -> None:
+def test_maps_survive_a_restart(start: Any, yard: bytes, manifest: Manifest) -> None:
     body = {"model_id": manifest.model_id, "codes": random_codes(5, 8).tolist()}
     with start() as service:
         service.put("/maps/yard", content=yard)
@@ -177,7 +175,7 @@ def test_maps_are_there_after_a_restart(start: Any, yard: bytes, manifest: Manif
         assert service.post("/match", json=body).json() == before
 
 
-def test_damaged_files_are_refused_and_the_map_stays(service: Any, yard: bytes) -> None:
+def test_put_of_damaged_file_leaves_the_map(service: Any, yard: bytes) -> None:
     service.put("/maps/yard", content=yard)
     damaged = [yard[:length] for length in range(0, len(yard), 97)]
     for bit in range(0, len(yard) * 8, 331):
@@ -190,7 +188,7 @@ def test_damaged_files_are_refused_and_the_map_stays(service: Any, yard: bytes) 
     assert whole(service, yard)
 
 
-def test_maps_that_do_not_fit_the_model_are_refused(
+def test_put_of_map_that_does_not_fit_the_model_fails(
     service: Any, yard: bytes, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     service.put("/maps/yard", content=yard)
@@ -205,7 +203,7 @@ def test_maps_that_do_not_fit_the_model_are_refused(
 
 @pytest.mark.parametrize("method", ["PUT", "GET", "DELETE"])
 @pytest.mark.parametrize("name", NAMES + PATHS)
-def test_a_path_is_not_a_maps_name(
+def test_invalid_map_name_is_refused(
     service: Any, yard: bytes, data_dir: Path, method: str, name: str
 ) -> None:
     service.put("/maps/yard", content=yard)
@@ -221,13 +219,13 @@ def test_a_path_is_not_a_maps_name(
 
 
 def alter(data_dir: Path, statement: str) -> None:
-    """Do something to the database behind the service's back."""
+    """Execute a statement on the database without the service."""
     with closing(sqlite3.connect(data_dir / "maps.sqlite")) as connection:
         connection.execute(statement)
         connection.commit()
 
 
-def test_a_damaged_map_is_told_and_the_others_go_on(
+def test_damaged_map_is_reported_and_others_are_served(
     start: Any, yard: bytes, data_dir: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     with start() as service:
@@ -253,16 +251,14 @@ def test_a_damaged_map_is_told_and_the_others_go_on(
         assert service.get("/maps/shed").content == yard
 
 
-def test_a_version_altered_while_the_service_runs_is_not_given_out(
-    service: Any, yard: bytes, data_dir: Path
-) -> None:
+def test_version_altered_on_disk_is_not_served(service: Any, yard: bytes, data_dir: Path) -> None:
     service.put("/maps/yard", content=yard)
     alter(data_dir, "UPDATE bases SET data = zeroblob(100)")
     assert_problem(service.get("/maps/yard"), 500, "map-damaged")
 
 
 @pytest.mark.parametrize("what", ["cut", "empty", "rubbish", "gone"])
-def test_a_database_that_cannot_be_read_stops_the_start(
+def test_unreadable_database_stops_the_start(
     start: Any, yard: bytes, data_dir: Path, what: str
 ) -> None:
     with start() as service:
@@ -281,7 +277,7 @@ def test_a_database_that_cannot_be_read_stops_the_start(
     ("setting", "status", "kind"),
     [("max_page_count = 1", 507, "disk-full"), ("query_only = ON", 503, "store-unavailable")],
 )
-def test_a_failing_disk_leaves_the_map_as_it_was(
+def test_failing_disk_leaves_the_map_unchanged(
     service: Any, yard: bytes, manifest: Manifest, setting: str, status: int, kind: str
 ) -> None:
     service.put("/maps/yard", content=yard)
@@ -304,7 +300,7 @@ def test_a_failing_disk_leaves_the_map_as_it_was(
 
 
 @pytest.mark.slow
-def test_a_robot_has_a_quota_over_all_maps(start: Any, yard: bytes, manifest: Manifest) -> None:
+def test_robot_quota_covers_all_maps(start: Any, yard: bytes, manifest: Manifest) -> None:
     with start(limits={"robot_segments": 50, "map_segments": 60}) as service:
         assert service.put("/maps/a", content=yard).status_code == 201
         before = service.get("/maps").json()
@@ -328,7 +324,7 @@ def test_a_robot_has_a_quota_over_all_maps(start: Any, yard: bytes, manifest: Ma
         assert_problem(service.post("/maps/a/segments", content=more), 507, "quota-exceeded")
 
 
-def test_a_map_file_is_limited(start: Any, yard: bytes) -> None:
+def test_too_large_map_file_is_refused(start: Any, yard: bytes) -> None:
     with start(limits={"map_bytes": len(yard), "body_bytes": 10}) as service:
         assert service.put("/maps/yard", content=yard).status_code == 201
         response = service.put("/maps/yard", content=yard + b"\0")
@@ -345,14 +341,16 @@ def test_a_map_file_is_limited(start: Any, yard: bytes) -> None:
         ("multipart/form-data; boundary=x", 415),
     ],
 )
-def test_media_types_of_a_map(service: Any, yard: bytes, media_type: str, status: int) -> None:
+def test_put_accepts_media_types_of_map_files(
+    service: Any, yard: bytes, media_type: str, status: int
+) -> None:
     response = service.put("/maps/yard", content=yard, headers={"Content-Type": media_type})
     assert response.status_code == status
     if status == 415:
         assert_problem(response, 415, "unsupported-media-type", "octet-stream")
 
 
-def test_a_map_with_several_robots_and_frames(service: Any, manifest: Manifest) -> None:
+def test_map_with_several_robots_and_frames_is_stored(service: Any, manifest: Manifest) -> None:
     codes = random_codes(4)
     two = replace(
         map_of(codes, manifest.model_id),

@@ -1,4 +1,4 @@
-"""Files that are moved, removed, altered or replaced under the service, or come from a backup."""
+"""Files that are moved, altered or replaced while the service runs, or come from a backup."""
 
 import json
 import os
@@ -92,14 +92,14 @@ def told_by(folder: Path) -> Any:
 
 
 @pytest.mark.slow
-def test_A28_whatever_is_flipped_in_a_row_is_noticed_or_changes_nothing(
+def test_A28_flipped_bit_is_noticed_or_changes_nothing(
     start: Any,
     data_dir: Path,
     manifest: Manifest,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Each column of each row of each table is altered, as a flipped bit would."""
+    """Flip bits in each column of each row of each table."""
     monkeypatch.setattr(os, "fsync", lambda _: None)
     with start() as service:
         for name in ("yard", "hall"):
@@ -154,9 +154,7 @@ def test_A28_whatever_is_flipped_in_a_row_is_noticed_or_changes_nothing(
     assert columns - noticed <= {("opened", "token"), ("maps", "map")}
 
 
-def test_A28_an_altered_author_or_time_is_not_served(
-    start: Any, data_dir: Path, file: bytes
-) -> None:
+def test_A28_altered_author_or_time_is_not_served(start: Any, data_dir: Path, file: bytes) -> None:
     with start() as service:
         service.put("/maps/yard", content=file)
         service.put("/maps/hall", content=file)
@@ -168,9 +166,7 @@ def test_A28_an_altered_author_or_time_is_not_served(
         assert service.get("/maps/hall/versions").status_code == 200
 
 
-def test_A28_a_database_of_version_1_is_migrated_and_verifies_as_before(
-    start: Any, data_dir: Path
-) -> None:
+def test_A28_database_of_version_1_is_migrated(start: Any, data_dir: Path) -> None:
     shutil.copytree(OLD, data_dir)
     expected = json.loads((OLD / EXPECTED).read_text())
     with start() as service:
@@ -205,7 +201,7 @@ def test_A28_a_database_of_version_1_is_migrated_and_verifies_as_before(
 
 @pytest.mark.integration
 @pytest.mark.parametrize("statement", range(1, 12, 2))
-def test_A28_a_migration_that_is_killed_leaves_version_1(
+def test_A28_killed_migration_leaves_version_1(
     data_dir: Path, monkeypatch: pytest.MonkeyPatch, statement: int
 ) -> None:
     shutil.copytree(OLD, data_dir)
@@ -242,7 +238,7 @@ def test_A28_a_migration_that_is_killed_leaves_version_1(
         assert len(store.heads()) == 2
 
 
-def test_A28_a_migration_without_room_changes_nothing(
+def test_A28_migration_without_space_changes_nothing(
     data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copytree(OLD, data_dir)
@@ -257,7 +253,7 @@ def test_A28_a_migration_without_room_changes_nothing(
         assert store.verify() == []
 
 
-def test_A10_a_database_that_is_moved_away_is_told_and_nothing_is_lost(
+def test_A10_moved_database_is_reported_and_nothing_is_lost(
     start: Any, data_dir: Path, file: bytes, manifest: Manifest
 ) -> None:
     other = encode(map_of(random_codes(30, 1), manifest.model_id))
@@ -296,7 +292,7 @@ def test_A10_a_database_that_is_moved_away_is_told_and_nothing_is_lost(
         assert service.get("/maps/yard?version=1").content == file
 
 
-def test_A10_a_log_that_is_removed_is_told_and_nothing_is_lost(
+def test_A10_removed_log_is_reported_and_nothing_is_lost(
     start: Any, data_dir: Path, file: bytes
 ) -> None:
     log = data_dir / f"{FILE}-wal"
@@ -316,9 +312,7 @@ def test_A10_a_log_that_is_removed_is_told_and_nothing_is_lost(
 
 
 @pytest.mark.slow
-def test_A10_a_directory_that_is_moved_and_replaced_is_told(
-    start: Any, data_dir: Path, file: bytes
-) -> None:
+def test_A10_replaced_directory_is_reported(start: Any, data_dir: Path, file: bytes) -> None:
     with start() as service:
         assert service.put("/maps/yard", content=file).status_code == 201
         data_dir.rename(data_dir.with_name("moved"))
@@ -336,7 +330,7 @@ def test_A10_a_directory_that_is_moved_and_replaced_is_told(
 
 
 @pytest.mark.parametrize("replaced", [False, True])
-def test_A22_a_lock_that_is_removed_lets_no_second_service_in(
+def test_A22_removed_lock_file_admits_no_second_service(
     start: Any, data_dir: Path, file: bytes, replaced: bool
 ) -> None:
     with start() as service:
@@ -371,9 +365,7 @@ def brought_back(folder: Path, copy: Path) -> None:
 
 
 @pytest.mark.parametrize("killed", [False, True])
-def test_A23_after_a_restore_from_a_backup_no_id_is_given_twice(
-    folder: Path, tmp_path: Path, killed: bool
-) -> None:
+def test_A23_restored_backup_gives_no_id_twice(folder: Path, tmp_path: Path, killed: bool) -> None:
     with SqliteMapStore.owned(folder) as store:
         head = store.create("yard", b"file", NOTE, 10)
         backed_up(folder, tmp_path / "copy")
@@ -394,7 +386,7 @@ def test_A23_after_a_restore_from_a_backup_no_id_is_given_twice(
 
 
 @pytest.mark.parametrize("how", ["no ledger", "directory copied", "ledger copied", "altered"])
-def test_A23_what_came_from_elsewhere_skips_ids(folder: Path, tmp_path: Path, how: str) -> None:
+def test_A23_foreign_ledger_skips_ids(folder: Path, tmp_path: Path, how: str) -> None:
     with SqliteMapStore.owned(folder) as store:
         head = store.create("yard", b"file", NOTE, 10)
         backed_up(folder, tmp_path / "copy")
@@ -422,7 +414,7 @@ def test_A23_what_came_from_elsewhere_skips_ids(folder: Path, tmp_path: Path, ho
 
 
 @pytest.mark.integration
-def test_A23_a_kill_skips_few_ids(folder: Path) -> None:
+def test_A23_kill_skips_few_ids(folder: Path) -> None:
     child = os.fork()
     if not child:  # pragma: no cover -- it is killed
         try:

@@ -1,4 +1,4 @@
-"""Maps larger than one request may be are uploaded in parts, and written whole or not at all."""
+"""Partial uploads: a map larger than one request is uploaded in parts and written as a whole."""
 
 import asyncio
 import hashlib
@@ -19,7 +19,7 @@ from service.maps.writes.partial_uploads import KEEP_SECONDS, KEY_UPLOADS
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
 LIMIT = 4_000
-"""Bytes that this service takes in one request; the maps have some 40 kB."""
+"""Largest body of this service, bytes; the maps have some 40 kB."""
 
 ONCE = Retries(attempts=1)
 Forward = Callable[[httpx.Request], httpx.Response]
@@ -52,7 +52,7 @@ def client_of(forward: Forward, **options: Any) -> Client:
 
 
 def cut_after(forward: Forward, parts: int) -> Forward:
-    """The link is cut when so many parts were sent; the last one arrives, its answer does not."""
+    """Cut the link after a number of parts; the last part arrives, its answer does not."""
     sent = 0
 
     def cut(request: httpx.Request) -> httpx.Response:
@@ -102,7 +102,7 @@ def test_B9_map_grown_by_edits_is_pulled_and_pushed(service: Any, manifest: Mani
 
 @pytest.mark.parametrize("asynchronous", [False, True])
 @pytest.mark.parametrize("compress", [False, True])
-def test_B9_cut_push_goes_on_when_repeated(
+def test_B9_repeated_push_continues(
     service: Any, yard: CompactMap, asynchronous: bool, compress: bool
 ) -> None:
     asked: list[httpx.Request] = []
@@ -143,7 +143,7 @@ def test_B9_cut_push_goes_on_when_repeated(
     assert service.get("/maps/yard/uploads").json()["uploads"] == []
 
 
-def test_B9_upload_outlives_a_restart(start: Any, yard: CompactMap) -> None:
+def test_B9_upload_survives_a_restart(start: Any, yard: CompactMap) -> None:
     limits = {"map_bytes": LIMIT}
     with start(limits=limits) as service:
         digest = send_parts(service, "yard", encode(yard))
@@ -172,7 +172,7 @@ def test_B9_readers_see_the_old_map_until_the_push_is_complete(
     assert [item["name"] for item in service.get("/maps").json()["maps"]] == ["yard"]
 
 
-def test_B9_other_content_is_replaced_only_if_it_was_seen(service: Any, yard: CompactMap) -> None:
+def test_B9_completion_needs_the_etag_to_replace(service: Any, yard: CompactMap) -> None:
     client = client_of(forward_to(service))
     stored = client.put_map("yard", yard)
     other = encode(take(yard, np.arange(900)))
@@ -197,7 +197,7 @@ def test_B9_other_content_is_replaced_only_if_it_was_seen(service: Any, yard: Co
     assert new.sequence == 1
 
 
-def test_B9_lost_answer_of_the_completion_is_repeated(service: Any, yard: CompactMap) -> None:
+def test_B9_completion_after_a_lost_answer_succeeds(service: Any, yard: CompactMap) -> None:
     forward = forward_to(service)
     lost: list[int] = []
 
@@ -214,9 +214,7 @@ def test_B9_lost_answer_of_the_completion_is_repeated(service: Any, yard: Compac
     assert service.get("/maps/yard/uploads").json()["uploads"] == []
 
 
-def test_B9_damaged_upload_is_removed_and_sent_anew(
-    service: Any, yard: CompactMap, data_dir: Path
-) -> None:
+def test_B9_damaged_upload_is_removed(service: Any, yard: CompactMap, data_dir: Path) -> None:
     client = client_of(cut_after(forward_to(service), 2), retries=ONCE)
     with pytest.raises(httpx.ReadError):
         client.put_map("yard", yard)
@@ -249,7 +247,7 @@ def test_B9_parts_come_in_order_and_may_come_twice(service: Any, yard: CompactMa
     assert_problem(service.post(path), 422, "upload-damaged")
 
 
-def test_B9_upload_that_is_no_map_is_refused_as_a_whole_put_is(
+def test_B9_upload_of_invalid_map_is_refused_as_put_is(
     service: Any, other_manifest: Manifest
 ) -> None:
     digest = send_parts(service, "yard", bytes(LIMIT + 10))
@@ -262,7 +260,7 @@ def test_B9_upload_that_is_no_map_is_refused_as_a_whole_put_is(
     assert service.put("/maps/yard/uploads/xyz?offset=0", content=b"").status_code == 422
 
 
-def test_B9_uploads_take_bounded_room(start: Any, yard: CompactMap) -> None:
+def test_B9_uploads_have_quotas(start: Any, yard: CompactMap) -> None:
     limits = {"map_bytes": LIMIT, "upload_bytes": 6_000, "unfinished_bytes": 14_000}
     part = bytes(LIMIT)
     with start(limits=limits) as service:
@@ -300,9 +298,7 @@ def test_B9_abandoned_uploads_are_removed_after_a_day(
     assert not file.exists()
 
 
-def test_B9_keys_bound_uploads_as_they_bound_puts(
-    start: Any, tmp_path: Path, yard: CompactMap
-) -> None:
+def test_B9_key_scope_covers_uploads(start: Any, tmp_path: Path, yard: CompactMap) -> None:
     file, data = tmp_path / "keys.toml", encode(yard)
     keys = {
         "ann": 'write = true\nmaps = ["yard"]\nrobot = "ann"',
@@ -331,7 +327,7 @@ def test_B9_keys_bound_uploads_as_they_bound_puts(
         assert service.get("/maps/yard/versions", **reader).json()["versions"][0]["author"]
 
 
-def test_B9_service_without_uploads_in_parts_tells_its_limit(yard: CompactMap) -> None:
+def test_B9_client_reports_limit_of_service_without_uploads(yard: CompactMap) -> None:
     def old(request: httpx.Request) -> httpx.Response:
         if request.url.path == "/info":
             told = {"version": "1", "model": {"model_id": "m"}, "limits": {"map_bytes": LIMIT}}

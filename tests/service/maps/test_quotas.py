@@ -35,7 +35,7 @@ def keeper_of(service: Any, data_dir: Path, bounds: MaintenanceThresholds) -> Ma
 
 
 def traced(make: Any) -> tuple[Any, int, int]:
-    """Return what `make` makes, the bytes it holds, and the peak bytes while it was made."""
+    """Return the result of `make`, the bytes that it holds, and the peak bytes during the call."""
     gc.collect()
     tracemalloc.start()
     try:
@@ -52,7 +52,7 @@ def traced(make: Any) -> tuple[Any, int, int]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
-def test_A2_an_index_of_nothing_takes_no_memory(per_byte: int) -> None:
+def test_A2_empty_index_takes_no_memory(per_byte: int) -> None:
     codes, quantizer = np.zeros((0, 32), np.int8), Quantizer(0.01, per_byte)
     kind = FlatIndex if per_byte == 1 else NibbleIndex
     kind(codes, quantizer)  # what all of a kind share
@@ -61,14 +61,14 @@ def test_A2_an_index_of_nothing_takes_no_memory(per_byte: int) -> None:
     assert held < 1_000 * 1_000
 
 
-def test_A2_indexes_of_one_code_share_their_tables() -> None:
+def test_A2_indexes_of_one_code_share_tables() -> None:
     one, other = (NibbleIndex(random_codes(9, n), Quantizer(0.1 + n, 4)) for n in range(2))
     assert one._tables is other._tables is Nibbles.of(4)
     assert Nibbles.of(2) is not Nibbles.of(4)
 
 
 @pytest.mark.slow
-def test_A2_an_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> None:
+def test_A2_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> None:
     empty = encode(map_of(random_codes(0), manifest.model_id))
     with start() as service:
         maps = service.app.state.placecell.engine.maps
@@ -83,12 +83,12 @@ def test_A2_an_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> 
         assert held < 40 * 20_000
 
 
-def test_A2_the_defaults_allow_ten_thousand_maps() -> None:
+def test_A2_default_limits_allow_ten_thousand_maps() -> None:
     limits = Limits()
     assert limits.maps >= limits.key_maps >= 10_000
 
 
-def test_A2_no_more_maps_than_the_limit(start: Any, manifest: Manifest) -> None:
+def test_A2_number_of_maps_is_limited(start: Any, manifest: Manifest) -> None:
     file = encode(map_of(random_codes(0), manifest.model_id))
     with start(limits={"maps": 3}) as service:
         for name in "abc":
@@ -112,7 +112,9 @@ def test_A2_no_more_maps_than_the_limit(start: Any, manifest: Manifest) -> None:
         assert service.post("/maps/a/segments", content=edit).status_code == 200
 
 
-def test_A2_a_key_has_its_own_limit_of_maps(start: Any, manifest: Manifest, tmp_path: Path) -> None:
+def test_A2_number_of_maps_of_a_key_is_limited(
+    start: Any, manifest: Manifest, tmp_path: Path
+) -> None:
     keys = tmp_path / "keys.toml"
     ann, bob = key_of(keys, "ann"), key_of(keys, "bob")
     file = encode(map_of(random_codes(2), manifest.model_id))
@@ -136,7 +138,7 @@ def test_A2_a_key_has_its_own_limit_of_maps(start: Any, manifest: Manifest, tmp_
         assert service.put("/maps/c", content=file, headers=ann).status_code == 201
 
 
-def test_A2_robots_of_a_map_are_limited(start: Any, manifest: Manifest) -> None:
+def test_A2_number_of_robots_of_a_map_is_limited(start: Any, manifest: Manifest) -> None:
     with start(limits={"map_robots": 3}) as service:
         for number in range(3):
             edit = edit_of(random_codes(1), manifest.model_id, number, f"robot {number}")
@@ -152,7 +154,7 @@ def test_A2_robots_of_a_map_are_limited(start: Any, manifest: Manifest) -> None:
 
 
 def grow(service: Any, manifest: Manifest, step: int, name: str = "yard") -> Any:
-    """Replace the same segments by others: the map stays as large, its history grows."""
+    """Replace the same segments again and again: the map keeps its size, its history grows."""
     edit = edit_of(random_codes(200, step), manifest.model_id)
     return service.post(f"/maps/{name}/segments", content=edit)
 
@@ -190,7 +192,7 @@ def test_A17_history_counts_and_deletion_is_always_possible(
         assert service.put("/maps/yard", content=file).status_code == 201
 
 
-def test_A17_all_maps_together_have_a_quota(
+def test_A17_quota_covers_all_maps_together(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Maintenance, "_work", lambda _: None)
@@ -211,7 +213,7 @@ def test_A17_all_maps_together_have_a_quota(
         assert service.app.state.placecell.engine.maps.stored_bytes == 0
 
 
-def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir: Path) -> None:
+def test_A17_usage_equals_a_recount(start: Any, manifest: Manifest, data_dir: Path) -> None:
     with start() as service:
         for name in "ab":
             file = encode(map_of(random_codes(200), manifest.model_id))
@@ -236,7 +238,7 @@ def test_A17_usage_is_counted_as_it_is(start: Any, manifest: Manifest, data_dir:
 
 
 @pytest.mark.slow
-def test_B19_a_fold_leaves_one_copy(
+def test_B19_flattening_leaves_one_copy_in_memory(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Maintenance, "_work", lambda _: None)
@@ -284,7 +286,7 @@ def test_B19_a_fold_leaves_one_copy(
         assert len(released) == 8
 
 
-def test_B19_free_memory_goes_back_after_many_writes(
+def test_B19_free_memory_is_released_after_many_writes(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Maintenance, "_work", lambda _: None)
@@ -307,7 +309,7 @@ def test_B19_free_memory_goes_back_after_many_writes(
 
 
 @pytest.mark.slow
-def test_B19_an_index_is_made_in_pieces() -> None:
+def test_B19_index_is_built_in_steps() -> None:
     codes = random_codes(100_000, dimension=8)
     for kind, quantizer in ((NibbleIndex, Quantizer(1.0, 4)), (FlatIndex, Quantizer(1.0))):
         _, _, most = traced(lambda kind=kind, quantizer=quantizer: kind(codes, quantizer))

@@ -1,4 +1,4 @@
-"""Edits of a shared map: all or nothing, and no robot loses what it put there."""
+"""Edits of a shared map: all or nothing, and no robot loses its segments."""
 
 import logging
 from collections.abc import Callable
@@ -20,7 +20,7 @@ Edit = Callable[..., bytes]
 
 @pytest.fixture
 def edit(manifest: Manifest) -> Edit:
-    """Makes a delta file: rows, first id, robot, ids to remove."""
+    """Return a maker of delta files from rows, first id, robot, and ids to remove."""
 
     def edited(
         rows: int, first: int = 100, robot: str = "ann", removed: Any = (), seed: int = 0
@@ -32,7 +32,7 @@ def edit(manifest: Manifest) -> Edit:
 
 @pytest.fixture
 def yard(service: Any, manifest: Manifest) -> str:
-    """A map of ann's, ids 100 to 109; its path."""
+    """Store a map of robot ann, ids 100 to 109; return its path."""
     service.put("/maps/yard", content=encode(map_of(random_codes(10), manifest.model_id)))
     return "/maps/yard"
 
@@ -41,7 +41,7 @@ def ids_of(service: Any, path: str) -> list[int]:
     return [int(id_) for id_ in decode(service.get(path).content).ids]
 
 
-def test_segments_are_added_replaced_and_removed_at_once(
+def test_edit_adds_replaces_and_removes_at_once(
     service: Any, yard: str, edit: Edit, manifest: Manifest
 ) -> None:
     before = service.get(yard).headers["etag"]
@@ -69,7 +69,7 @@ def test_segments_are_added_replaced_and_removed_at_once(
     assert (summary["segments"], summary["sequence"]) == (10, 2)
 
 
-def test_sent_again_an_edit_changes_nothing(service: Any, yard: str, edit: Edit) -> None:
+def test_repeated_edit_changes_nothing(service: Any, yard: str, edit: Edit) -> None:
     data = edit(4, 108, removed=[100], seed=7)
     first = service.post(f"{yard}/segments", content=data)
     for headers in ({}, {"If-Match": '"x"'}):
@@ -82,7 +82,7 @@ def test_sent_again_an_edit_changes_nothing(service: Any, yard: str, edit: Edit)
     assert (more["changed"], more["sequence"]) == (1, 3)
 
 
-def test_all_is_there_after_a_restart(start: Any, edit: Edit, manifest: Manifest) -> None:
+def test_edits_survive_a_restart(start: Any, edit: Edit, manifest: Manifest) -> None:
     query = {"model_id": manifest.model_id, "codes": random_codes(5, 8).tolist()}
     with start() as service:
         service.put("/maps/yard", content=encode(map_of(random_codes(10), manifest.model_id)))
@@ -95,9 +95,7 @@ def test_all_is_there_after_a_restart(start: Any, edit: Edit, manifest: Manifest
         assert service.post("/match", json=query).json() == found
 
 
-def test_another_robot_s_segment_is_neither_replaced_nor_removed(
-    service: Any, yard: str, edit: Edit
-) -> None:
+def test_edit_of_another_robots_segment_is_refused(service: Any, yard: str, edit: Edit) -> None:
     before = service.get(yard)
     for data, ids in (
         (edit(4, 108, "zoe", seed=3), [108, 109]),
@@ -120,7 +118,7 @@ def test_another_robot_s_segment_is_neither_replaced_nor_removed(
     assert_problem(stale, 412, "precondition-failed")
 
 
-def test_whose_segments_are_removed_must_be_known(service: Any, yard: str, edit: Edit) -> None:
+def test_removal_needs_the_robot_of_the_segments(service: Any, yard: str, edit: Edit) -> None:
     nothing_else = edit(0, removed=[101])
     refused = service.post(f"{yard}/segments", content=nothing_else)
     assert_problem(refused, 409, "id-taken")
@@ -133,7 +131,7 @@ def test_whose_segments_are_removed_must_be_known(service: Any, yard: str, edit:
     assert (gone.status_code, gone.json()["sequence"]) == (200, 2)
 
 
-def test_a_map_that_is_not_there_is_made_only_if_asked(service: Any, edit: Edit) -> None:
+def test_edit_creates_a_map_only_with_create(service: Any, edit: Edit) -> None:
     assert_problem(service.post("/maps/new/segments", content=edit(3)), 404, "unknown-map")
     seen = {"If-Match": "*"}
     refused = service.post("/maps/new/segments?create=true", content=edit(3), headers=seen)
@@ -144,7 +142,7 @@ def test_a_map_that_is_not_there_is_made_only_if_asked(service: Any, edit: Edit)
     assert (again.status_code, again.json()["sequence"]) == (200, 1)
 
 
-def test_what_is_no_edit_is_refused_and_changes_nothing(
+def test_invalid_edit_is_refused_and_changes_nothing(
     service: Any, yard: str, edit: Edit, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     before = service.get(yard).content
@@ -175,7 +173,7 @@ def test_what_is_no_edit_is_refused_and_changes_nothing(
         )
 
 
-def test_segments_of_another_loaded_model_do_not_join(
+def test_edit_with_segments_of_another_model_is_refused(
     start: Any, edit: Edit, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     with start(also=["other"]) as service:
@@ -185,14 +183,14 @@ def test_segments_of_another_loaded_model_do_not_join(
         assert_problem(refused, 409, "other-model", manifest.model_id)
 
 
-def test_an_edit_is_limited_as_other_requests_are(start: Any, edit: Edit) -> None:
+def test_too_large_edit_is_refused(start: Any, edit: Edit) -> None:
     with start(limits={"body_bytes": 1000}) as service:
         refused = service.post("/maps/yard/segments?create=true", content=edit(300))
         assert_problem(refused, 413, "body-too-large", "1000")
 
 
 @pytest.mark.slow
-def test_ids_are_given_once_whatever_happens(start: Any, edit: Edit) -> None:
+def test_reserved_ids_are_given_out_once(start: Any, edit: Edit) -> None:
     with start() as service:
         service.post("/maps/yard/segments?create=true", content=edit(10))
         assert service.post("/maps/yard/ids?count=5").json() == {"first": 110, "count": 5}
@@ -213,7 +211,7 @@ def test_ids_are_given_once_whatever_happens(start: Any, edit: Edit) -> None:
 
 
 @pytest.mark.slow
-def test_robots_that_write_at_once_lose_nothing(service: Any, edit: Edit) -> None:
+def test_concurrent_edits_lose_nothing(service: Any, edit: Edit) -> None:
     robots = [f"robot-{number}" for number in range(6)]
 
     def drive(robot: str) -> None:
@@ -231,7 +229,7 @@ def test_robots_that_write_at_once_lose_nothing(service: Any, edit: Edit) -> Non
     assert ids_of(service, "/maps/site") == list(range(1 + 6 * 8 * 3))
 
 
-def test_of_two_that_make_a_map_at_once_both_are_in_it(service: Any, edit: Edit) -> None:
+def test_concurrent_creation_keeps_both_edits(service: Any, edit: Edit) -> None:
     with ThreadPoolExecutor(2) as pool:
         both = pool.map(
             lambda first: service.post(
@@ -243,7 +241,7 @@ def test_of_two_that_make_a_map_at_once_both_are_in_it(service: Any, edit: Edit)
     assert ids_of(service, "/maps/new") == [0, 1, 10, 11]
 
 
-def test_a_robot_s_key_edits_its_own_segments_alone(
+def test_robot_key_edits_only_its_own_segments(
     start: Any, edit: Edit, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     file = tmp_path / "keys.toml"
@@ -263,7 +261,7 @@ def test_a_robot_s_key_edits_its_own_segments_alone(
         assert service.get("/maps/yard", headers=ann).content == before.content
         for way in ("segments", "ids?count=1", "age?unseen_since=0", "versions/1/restore"):
             refused = service.post(f"/maps/yard/{way}", content=edit(1, 20), headers=reader)
-            assert_problem(refused, 403, "forbidden", "reads")
+            assert_problem(refused, 403, "forbidden", "may read maps")
         refused = service.post("/maps/yard/compact", headers=ann)
         assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
         # To go back is to remove what others wrote since.
@@ -283,9 +281,7 @@ def test_a_robot_s_key_edits_its_own_segments_alone(
     ]
 
 
-def test_a_key_of_other_maps_neither_edits_nor_looks(
-    start: Any, edit: Edit, tmp_path: Path
-) -> None:
+def test_key_of_other_maps_neither_edits_nor_reads(start: Any, edit: Edit, tmp_path: Path) -> None:
     file = tmp_path / "keys.toml"
     anyone, halls = made(file, "all", "--write"), made(file, "halls", "--write", "--map", "hall-*")
     with start(keys_file=file) as service:
@@ -304,7 +300,7 @@ def test_a_key_of_other_maps_neither_edits_nor_looks(
                 assert_problem(answer, 403, "forbidden")
 
 
-def test_what_was_not_seen_again_is_removed(service: Any, manifest: Manifest) -> None:
+def test_prune_removes_segments_not_seen_again(service: Any, manifest: Manifest) -> None:
     content = replace(
         map_of(random_codes(4), manifest.model_id, 0),
         seen=np.array([10, 20, 30, 40], np.uint32),
@@ -322,9 +318,7 @@ def test_what_was_not_seen_again_is_removed(service: Any, manifest: Manifest) ->
         assert_problem(service.post(f"/maps/yard/age{wrong}"), 422, "invalid-request")
 
 
-def test_without_a_column_of_its_own_a_segment_was_seen_in_its_frame(
-    service: Any, manifest: Manifest
-) -> None:
+def test_prune_without_seen_column_uses_frame_times(service: Any, manifest: Manifest) -> None:
     service.put("/maps/yard", content=encode(map_of(random_codes(4), manifest.model_id)))
     assert service.post("/maps/yard/age?unseen_since=1700000000").json()["removed"] == 0
     assert service.post("/maps/yard/age?unseen_since=1700000000.5").json()["removed"] == 4

@@ -1,4 +1,4 @@
-"""B6: maps that were merged are merged again, and nothing changes."""
+"""B6: merging the same maps again changes nothing."""
 
 from collections.abc import Sequence
 
@@ -22,7 +22,7 @@ NAMES = ("a", "b", "c")
 def drawn(
     random: np.random.Generator, name: str, things: np.ndarray, looks: np.ndarray
 ) -> MergePart:
-    """Return a map of things seen from more sides than a map keeps, one moment per position."""
+    """Return a map of objects with more views than a map keeps, one time per sensor position."""
     count = int(random.integers(40, 120))
     which = random.integers(0, len(things), count)
     moments = random.integers(0, 30, count)
@@ -57,7 +57,7 @@ def parts_of(seed: int) -> list[MergePart]:
 def merged(
     parts: Sequence[MergePart], same: SameView | None, site: CompactMap | None = None
 ) -> tuple[CompactMap, list[PartOutcome]]:
-    """Merge as a request does: parts already in the map keep their alignment."""
+    """Merge as a request does: parts that were merged before keep their pose."""
     if site is None:
         site = empty("tiny-0123456789abcdef", "1", "site", 16)
     first_id = int(site.ids.max()) + 1 if len(site) else 0
@@ -89,7 +89,7 @@ def test_B6_merge_again_in_any_order_adds_nothing(seed: int, same: SameView | No
         assert share.known + share.repeats == len(part.content)
 
 
-def test_B6_joining_once_would_add_more_the_next_time() -> None:
+def test_B6_single_join_would_add_more_the_next_time() -> None:
     added = 0
     for seed in range(12):
         parts = parts_of(seed)
@@ -108,7 +108,7 @@ def test_B6_joining_once_would_add_more_the_next_time() -> None:
     assert added  # else the test above would test nothing
 
 
-def test_B6_ids_have_no_gap_and_what_is_kept_stays_within_the_views() -> None:
+def test_B6_ids_have_no_gap_and_views_stay_limited() -> None:
     parts = parts_of(3)
     site, _ = merged(parts, SAME)
     assert site.ids.tolist() == list(range(len(site)))

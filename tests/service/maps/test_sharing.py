@@ -1,4 +1,4 @@
-"""Robots that share a map over links that are cut: at the end all have the same."""
+"""Robots that share a map over broken links end with the same map."""
 
 import random
 from concurrent.futures import ThreadPoolExecutor
@@ -16,7 +16,7 @@ NONE = np.zeros(0, np.uint32)
 
 
 class Cut(httpx.BaseTransport):
-    """A link that is cut now and then, before the request has come or before the answer has."""
+    """Transport that breaks at times, before the request or before the answer arrives."""
 
     def __init__(self, link: httpx.BaseTransport, seed: int) -> None:
         self._link = link
@@ -33,7 +33,7 @@ class Cut(httpx.BaseTransport):
         return response
 
     def close(self) -> None:
-        """The link is not ours."""
+        """Leave the shared transport open."""
 
 
 def robot_at(service: Any, seed: int) -> Client:
@@ -46,7 +46,7 @@ def robot_at(service: Any, seed: int) -> Client:
 
 
 @pytest.mark.slow
-def test_all_end_with_the_same_map(service: Any, manifest: Manifest) -> None:
+def test_concurrent_robots_end_with_the_same_map(service: Any, manifest: Manifest) -> None:
     def drive(number: int) -> MapCopy:
         name, chance = f"robot-{number}", np.random.default_rng(number)
         own: list[int] = []
@@ -79,7 +79,7 @@ def test_all_end_with_the_same_map(service: Any, manifest: Manifest) -> None:
         assert summary.sequence == 1 + 5 * 6
 
 
-def test_the_client_tells_what_became_of_a_map(service: Any, manifest: Manifest) -> None:
+def test_client_reports_a_deleted_map(service: Any, manifest: Manifest) -> None:
     with robot_at(service, 1) as client:
         first = client.put_map("yard", map_of(random_codes(4), manifest.model_id), create_only=True)
         other = map_of(random_codes(5, 1), manifest.model_id)

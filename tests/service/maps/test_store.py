@@ -1,4 +1,4 @@
-"""The store: what it keeps, and what it keeps of it when the disk is cut, full or damaged."""
+"""Store: contract, and behavior on power cuts and on full or damaged disks."""
 
 import logging
 import shutil
@@ -35,14 +35,14 @@ def store(folder: Path) -> Iterator[SqliteMapStore]:
 
 @contextmanager
 def behind(folder: Path) -> Iterator[sqlite3.Connection]:
-    """Someone else at the database."""
+    """Connect to the database as another process would."""
     with closing(sqlite3.connect(folder / FILE)) as connection:
         yield connection
         connection.commit()
 
 
 def all_of(store: SqliteMapStore, uid: str) -> tuple[MapHead, bytes, list[tuple[int, bytes]]]:
-    """What the store has of a map."""
+    """Return all that the store has of a map."""
     with store.read(uid) as history:
         blobs = history.blobs(history.head.oldest, history.head.sequence)
         return history.head, history.base(), [(commit.sequence, blob) for commit, blob in blobs]
@@ -55,7 +55,7 @@ def grown(store: SqliteMapStore, name: str = "yard", commits: int = 4) -> MapHea
     return head
 
 
-def test_a_map_is_a_base_and_what_was_committed_after_it(store: SqliteMapStore) -> None:
+def test_history_has_a_base_and_commits(store: SqliteMapStore) -> None:
     first = store.create("yard", LARGE, NOTE, 7)
     assert (first.name, first.sequence, first.oldest, first.next_id) == ("yard", 1, 1, 7)
     second = store.append(first, b"one", NOTE, 9)
@@ -77,28 +77,28 @@ def test_a_map_is_a_base_and_what_was_committed_after_it(store: SqliteMapStore) 
     assert store.verify() == []
 
 
-def test_all_is_there_when_it_is_opened_again(folder: Path) -> None:
+def test_reopened_store_has_all_maps(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         before = all_of(store, grown(store).uid), store.heads()
     with SqliteMapStore.owned(folder) as store:
         assert (all_of(store, store.heads()[0].uid), store.heads()) == before
 
 
-def test_a_commit_follows_what_it_was_made_for(store: SqliteMapStore) -> None:
+def test_append_to_an_outdated_head_fails(store: SqliteMapStore) -> None:
     first = store.create("yard", b"file", NOTE, 0)
     second = store.append(first, b"a", NOTE, 0)
     for wrong in (first, replace(second, mark="0" * 64), replace(second, uid="other")):
         with pytest.raises(KeyError):
             store.append(wrong, b"b", NOTE, 0)
     assert store.heads() == [second]
-    with pytest.raises(ValueError, match="'yard' already"):
+    with pytest.raises(ValueError, match="'yard' exists already"):
         store.create("yard", b"other", NOTE, 0)
     for call in (store.delete, lambda uid: store.reserve(uid, 1), lambda uid: all_of(store, uid)):
         with pytest.raises(KeyError):
             call("absent")
 
 
-def test_marks_name_a_version_and_all_before_it(store: SqliteMapStore) -> None:
+def test_marks_identify_a_version_and_its_history(store: SqliteMapStore) -> None:
     one, other = (store.create(name, b"file", NOTE, 0) for name in ("a", "b"))
     assert one.mark != other.mark
     same = [store.append(head, b"delta", NOTE, 0).mark for head in (one, other)]
@@ -109,7 +109,7 @@ def test_marks_name_a_version_and_all_before_it(store: SqliteMapStore) -> None:
     assert store.append(again, b"delta", NOTE, 0).mark != same[0]
 
 
-def test_compaction_lets_go_of_what_was_before(store: SqliteMapStore) -> None:
+def test_compaction_drops_earlier_versions(store: SqliteMapStore) -> None:
     head = grown(store)
     other = grown(store, "other")
     before = all_of(store, other.uid)
@@ -133,7 +133,7 @@ def test_compaction_lets_go_of_what_was_before(store: SqliteMapStore) -> None:
     assert store.verify() == []
 
 
-def test_a_reader_sees_one_moment(store: SqliteMapStore) -> None:
+def test_reader_sees_one_state(store: SqliteMapStore) -> None:
     head = grown(store)
     before = all_of(store, head.uid)
     with store.read(head.uid) as history:
@@ -145,7 +145,7 @@ def test_a_reader_sees_one_moment(store: SqliteMapStore) -> None:
     assert store.heads() == []
 
 
-def test_ids_are_given_out_once(store: SqliteMapStore) -> None:
+def test_reserve_gives_out_ids_once(store: SqliteMapStore) -> None:
     head = store.create("yard", b"file", NOTE, 10)
     assert [store.reserve(head.uid, count) for count in (5, 1, 3)] == [10, 15, 16]
     assert store.append(head, b"", NOTE, 12).next_id == 19
@@ -180,7 +180,7 @@ def test_every_call_is_one_transaction(store: SqliteMapStore) -> None:
     assert transactions() == 1
 
 
-def test_a_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
+def test_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
     def pragma(name: str) -> Any:
         return store._database._connection.execute(f"PRAGMA {name}").fetchone()[0]
 
@@ -191,8 +191,8 @@ def test_a_commit_is_on_disk_before_it_returns(store: SqliteMapStore) -> None:
 
 
 @pytest.mark.slow
-def test_what_a_power_cut_leaves_is_a_state_that_was(folder: Path, tmp_path: Path) -> None:
-    """Of the log only a part may have come to the disk: all of each call, or nothing."""
+def test_power_cut_leaves_an_earlier_state(folder: Path, tmp_path: Path) -> None:
+    """If only a part of the log reached the disk, each call is there as a whole or not at all."""
     states: list[list[MapHead]] = []
     copy = tmp_path / "copy"
     copy.mkdir()
@@ -231,7 +231,7 @@ def test_what_a_power_cut_leaves_is_a_state_that_was(folder: Path, tmp_path: Pat
 
 
 @pytest.mark.parametrize("kind", ["full", "read-only"])
-def test_a_disk_that_takes_no_more_leaves_all_as_it_was(folder: Path, kind: str) -> None:
+def test_full_or_failing_disk_changes_nothing(folder: Path, kind: str) -> None:
     with SqliteMapStore.owned(folder) as store:
         head = grown(store)
         before = all_of(store, head.uid)
@@ -257,9 +257,7 @@ def test_a_disk_that_takes_no_more_leaves_all_as_it_was(folder: Path, kind: str)
         assert store.verify() == []
 
 
-def test_another_process_at_the_database_is_waited_for_and_then_told(
-    store: SqliteMapStore, folder: Path
-) -> None:
+def test_locked_database_is_reported_after_a_wait(store: SqliteMapStore, folder: Path) -> None:
     head = grown(store)
     store._database._connection.execute("PRAGMA busy_timeout = 10")
     with behind(folder) as other:
@@ -283,7 +281,7 @@ def test_another_process_at_the_database_is_waited_for_and_then_told(
         ("DELETE FROM bases WHERE part = 1", "base"),
     ],
 )
-def test_a_damaged_blob_is_told_and_the_other_maps_are_well(
+def test_damaged_blob_is_reported_and_other_maps_are_read(
     store: SqliteMapStore, folder: Path, statement: str, words: str
 ) -> None:
     head, other = grown(store), grown(store, "other")
@@ -298,7 +296,7 @@ def test_a_damaged_blob_is_told_and_the_other_maps_are_well(
     assert words in found
 
 
-def test_a_cut_database_does_not_open(folder: Path) -> None:
+def test_truncated_database_does_not_open(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         grown(store)
     whole = (folder / FILE).read_bytes()
@@ -313,7 +311,7 @@ def test_a_cut_database_does_not_open(folder: Path) -> None:
         assert store.verify() == []
 
 
-def test_a_backup_made_meanwhile_is_a_database(
+def test_online_backup_is_a_valid_database(
     store: SqliteMapStore, folder: Path, tmp_path: Path
 ) -> None:
     head = grown(store)
@@ -330,7 +328,7 @@ def test_a_backup_made_meanwhile_is_a_database(
     assert other.mark != after.mark
 
 
-def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
+def test_foreign_database_does_not_open(folder: Path) -> None:
     folder.mkdir(parents=True)
     (folder / FILE).write_bytes(b"rubbish" * 1_000)
     with pytest.raises(StoreError, match=ADVICE):
@@ -338,7 +336,7 @@ def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
     (folder / FILE).unlink()
     with behind(folder) as connection:
         connection.execute("CREATE TABLE theirs (a)")
-    with pytest.raises(StoreError, match="no database of Placecell"):
+    with pytest.raises(StoreError, match="not a database of Placecell"):
         SqliteMapStore(folder)
     (folder / FILE).unlink()
     SqliteMapStore(folder).close()
@@ -348,7 +346,7 @@ def test_what_is_no_database_of_ours_does_not_open(folder: Path) -> None:
         SqliteMapStore(folder)
 
 
-def test_a_log_without_its_database_is_not_thrown_away(folder: Path) -> None:
+def test_log_without_database_is_not_discarded(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         grown(store)
         shutil.copy(folder / f"{FILE}-wal", folder / "kept")
@@ -358,7 +356,7 @@ def test_a_log_without_its_database_is_not_thrown_away(folder: Path) -> None:
         SqliteMapStore(folder)
 
 
-def test_a_start_that_was_cut_short_is_begun_anew(folder: Path) -> None:
+def test_interrupted_first_start_is_repeated(folder: Path) -> None:
     folder.mkdir(parents=True)
     for tail in ("", "-wal", "-journal"):
         (folder / f"{FILE}.unfinished{tail}").write_bytes(b"half")
@@ -368,7 +366,7 @@ def test_a_start_that_was_cut_short_is_begun_anew(folder: Path) -> None:
     assert names == ["ids", "ids.place", "lock", FILE, "reserve"]
 
 
-def test_room_is_given_back(store: SqliteMapStore, folder: Path) -> None:
+def test_freed_pages_return_to_the_disk(store: SqliteMapStore, folder: Path) -> None:
     def pages() -> int:
         (found,) = store._database._connection.execute("PRAGMA page_count").fetchone()
         return int(found)
@@ -382,14 +380,12 @@ def test_room_is_given_back(store: SqliteMapStore, folder: Path) -> None:
     assert pages() <= VACUUM_PAGES + 20
 
 
-def test_one_process_owns_the_folder(store: SqliteMapStore, folder: Path) -> None:
+def test_second_store_of_a_directory_is_refused(store: SqliteMapStore, folder: Path) -> None:
     with pytest.raises(StoreLockedError, match="in use"), SqliteMapStore.owned(folder):
         pass
 
 
-def test_nothing_is_written_to_a_file_that_is_no_longer_there(
-    store: SqliteMapStore, folder: Path
-) -> None:
+def test_write_to_a_removed_file_fails(store: SqliteMapStore, folder: Path) -> None:
     head = grown(store)
     assert store.trouble() is None
     (folder / FILE).rename(folder / "gone")
@@ -404,7 +400,7 @@ def test_nothing_is_written_to_a_file_that_is_no_longer_there(
     assert store.append(head, b"", NOTE, 0).sequence == head.sequence + 1
 
 
-def test_maps_of_version_0_are_told_not_read(
+def test_map_files_of_version_0_are_logged_not_read(
     folder: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     (folder / "maps").mkdir(parents=True)
@@ -416,7 +412,7 @@ def test_maps_of_version_0_are_told_not_read(
     assert (folder / "maps" / "yard.safetensors").read_bytes() == b"old"
 
 
-def test_a_mark_depends_on_all_that_led_to_it() -> None:
+def test_mark_depends_on_the_whole_history() -> None:
     marks = {
         map_store.mark_of(map_store.link_of(before, sequence, blob), note)
         for before in ("a", "b")

@@ -1,4 +1,4 @@
-"""Databases that were written by version 1, and must be readable for ever."""
+"""Databases of version 1 stay readable."""
 
 import hashlib
 import json
@@ -17,21 +17,21 @@ from tests.fixtures.killed_service import EXPECTED
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 DATABASE = FIXTURES / "version-1.sqlite"
 KILLED = FIXTURES / "version-1-killed"
-"""Of a service that was killed, with its log; `killed_service.py` made it."""
+"""Database of a killed service with its log; made by `killed_service.py`."""
 
 IDS = {
     2: [0, 2, 4, 6, 10, 23, 24, 25, 27, 30, 32, 33, 34],
     3: [0, 2, 4, 7, 8, 10, 11, 23, 24, 25, 27, 30, 32, 33, 34],
     4: [0, 1, 2, 3, 4, 7, 8, 10, 11, 24, 25, 27, 30, 32, 33, 34],
 }
-"""Of a map whose version 1 was let go of."""
+"""Database of a map whose version 1 was compacted."""
 
 FILES = {
     2: "271e5c7e11fd4f9f4a421255c1c1485f16c7668ca72a7d948f5d5b45d58a3d04",
     3: "d5b6772f455841f6e8dfd0d13e54924cfc7cef7b1b1726d018809c7b8cdaa94c",
     4: "b23c2017e852142d5edc4646e1c8e4e98389b69dc2d33d743b79ce65dbc267a0",
 }
-"""SHA-256 of each version's file."""
+"""SHA-256 of the file of each version."""
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_all_versions_are_there(folder: Path) -> None:
+def test_stored_database_has_all_versions(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         assert store.verify() == []
         shed, yard = store.heads()
@@ -59,7 +59,7 @@ def test_all_versions_are_there(folder: Path) -> None:
         assert notes[-1] == Note(1_700_000_003.5, "zoe", "edit", 4, 2)
 
 
-def test_it_can_be_written_on(folder: Path) -> None:
+def test_stored_database_accepts_writes(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         _, yard = store.heads()
         assert store.reserve(yard.uid, 1) == 40
@@ -68,7 +68,7 @@ def test_it_can_be_written_on(folder: Path) -> None:
         assert store.verify() == []
 
 
-def test_what_a_killed_service_left_is_served(start: Any, data_dir: Path) -> None:
+def test_data_of_a_killed_service_is_served(start: Any, data_dir: Path) -> None:
     shutil.copytree(KILLED, data_dir)
     expected = json.loads((KILLED / EXPECTED).read_text())
     with start() as service:

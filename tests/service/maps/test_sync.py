@@ -1,4 +1,4 @@
-"""Delta sync: what a robot that has one version needs for another, in parts, over a bad link."""
+"""Sync: a robot receives the changes since its version, in parts, over a bad link."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ from tests.service.service_builders import assert_problem, edit_of, map_of, rand
 
 @pytest.fixture
 def site(service: Any, manifest: Manifest) -> str:
-    """A map with five versions; its path."""
+    """Store a map with five versions; return its path."""
     path = "/maps/site"
     service.put(path, content=encode(map_of(random_codes(40), manifest.model_id)))
     model = manifest.model_id
@@ -33,7 +33,7 @@ def nothing(manifest: Manifest) -> CompactMap:
 
 
 def pull(service: Any, path: str, since: str, limit: int = 20_000) -> tuple[Delta, str, int]:
-    """All parts as one delta, the tag of where it leads, and how many parts there were."""
+    """Return all parts as one delta, the tag that it leads to, and the number of parts."""
     parts, tags = [], set()
     query = f"since={since}"
     while query:
@@ -54,7 +54,7 @@ def pull(service: Any, path: str, since: str, limit: int = 20_000) -> tuple[Delt
 
 @pytest.mark.parametrize("limit", [1, 7, 1000])
 @pytest.mark.parametrize("version", [0, 1, 2, 3, 4, 5])
-def test_every_version_leads_to_the_newest(
+def test_changes_from_every_version_lead_to_the_newest(
     service: Any, site: str, manifest: Manifest, version: int, limit: int
 ) -> None:
     had = service.get(f"{site}?version={version}") if version else None
@@ -72,9 +72,7 @@ def test_every_version_leads_to_the_newest(
         assert (len(delta.changed), delta.removed.tolist()) == (0, [100, 101, 110])
 
 
-def test_all_parts_lead_to_one_version_whatever_is_written_meanwhile(
-    start: Any, manifest: Manifest
-) -> None:
+def test_parts_lead_to_one_version_despite_writes(start: Any, manifest: Manifest) -> None:
     def more(service: Any, step: int) -> None:
         data = edit_of(random_codes(3, step), manifest.model_id, 90 + 7 * step)
         assert service.post("/maps/site/segments", content=data).status_code == 200
@@ -102,7 +100,7 @@ def test_all_parts_lead_to_one_version_whatever_is_written_meanwhile(
     assert encode(apply(decode(known), join(parts))) == expected
 
 
-def test_what_is_no_longer_known_is_to_be_got_whole(
+def test_changes_since_a_dropped_version_are_gone(
     service: Any, site: str, manifest: Manifest
 ) -> None:
     second = service.get(f"{site}?version=2").headers["etag"].strip('"')
@@ -126,7 +124,7 @@ def test_what_is_no_longer_known_is_to_be_got_whole(
     assert_problem(service.get(f"{site}/changes?cursor={cursor}"), 410, "version-gone")
 
 
-def test_a_map_of_another_model_is_to_be_got_whole(
+def test_changes_across_a_change_of_model_are_gone(
     start: Any, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     with start(also=["other"]) as service:
@@ -150,7 +148,7 @@ def test_a_map_of_another_model_is_to_be_got_whole(
         "cursor=1.0123456789abcdef-2.99999999999", "cursor=" + "x" * 101,
     ],
 )  # fmt: skip
-def test_nonsense_is_told(service: Any, site: str, query: str) -> None:
+def test_invalid_since_or_cursor_is_refused(service: Any, site: str, query: str) -> None:
     assert_problem(service.get(f"{site}/changes?{query}"), 422, "invalid-request")
 
 
@@ -158,7 +156,7 @@ def test_nonsense_is_told(service: Any, site: str, query: str) -> None:
 @pytest.mark.parametrize(
     "cursor", ["1.0123456789abcdef-2.0", "9.{}.0", "1.{}.4294967296", "9999999999999999.{}.1"]
 )
-def test_a_cursor_that_was_made_up_does_no_harm(service: Any, site: str, cursor: str) -> None:
+def test_forged_cursor_does_no_harm(service: Any, site: str, cursor: str) -> None:
     tag = service.get(site).headers["etag"].strip('"')
     response = service.get(f"{site}/changes?cursor={cursor.format(tag)}")
     if response.status_code == 200:
@@ -168,7 +166,7 @@ def test_a_cursor_that_was_made_up_does_no_harm(service: Any, site: str, cursor:
 
 
 @pytest.mark.slow
-def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
+def test_only_recent_syncs_stay_in_memory(
     service: Any, site: str, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sync = service.app.state.placecell.engine.sync
@@ -184,7 +182,7 @@ def test_only_syncs_that_were_begun_lately_are_kept_in_memory(
     assert not sync._pinned
 
 
-def test_the_whole_map_comes_in_parts_too(service: Any, site: str, manifest: Manifest) -> None:
+def test_full_sync_comes_in_parts(service: Any, site: str, manifest: Manifest) -> None:
     delta, _, parts = pull(service, site, "0", 10)
     assert delta.is_whole
     assert parts == 5

@@ -1,4 +1,4 @@
-"""A key of some maps learns nothing of other maps and other keys."""
+"""Visibility: a key of some maps learns nothing about other maps and keys."""
 
 import hashlib
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ FOREIGN = ("secret", "boss")
 
 
 def merged(manifest: Manifest, count: int, first_id: int, robot: str = "ann") -> CompactMap:
-    """Segments that came from three maps: two that are secret, and one of the key's own."""
+    """Return segments from three maps: two that the key does not open, and one that it opens."""
     content = map_of(random_codes(count, first_id), manifest.model_id, first_id, robot)
     return canonical(
         replace(
@@ -69,7 +69,7 @@ DIGEST = hashlib.sha256(b"part").hexdigest()
 
 
 @pytest.mark.slow
-def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -> None:
+def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     document = service.get("/openapi.json").json()
     queries = {"model_id": manifest.model_id, "codes": random_codes(3).tolist()}
@@ -141,7 +141,7 @@ def test_A19_no_answer_names_other_maps_or_keys(hall: Any, manifest: Manifest) -
     assert set(authors) == {"ann"}
 
 
-def test_A19_versions_name_the_key_s_own_writes_alone(hall: Any) -> None:
+def test_A19_versions_name_only_the_keys_own_writes(hall: Any) -> None:
     service, boss, ann = hall
     told = {
         who: [
@@ -154,7 +154,7 @@ def test_A19_versions_name_the_key_s_own_writes_alone(hall: Any) -> None:
     assert told["ann"] == ["another key", "ann", "another key", "another key"]
 
 
-def test_A19_a_quota_s_message_does_not_count_other_maps(hall: Any, manifest: Manifest) -> None:
+def test_A19_quota_error_reveals_no_totals_of_hidden_maps(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     data = encode(map_of(random_codes(60), manifest.model_id, robot="ann"))
     refused = service.put("/maps/hall-b", content=data, headers=ann)
@@ -163,7 +163,7 @@ def test_A19_a_quota_s_message_does_not_count_other_maps(hall: Any, manifest: Ma
     assert_problem(refused, 507, "quota-exceeded", "'ann' would have 110 segments")
 
 
-def test_A19_a_copy_stays_whole_and_can_be_written_back(hall: Any, manifest: Manifest) -> None:
+def test_A19_copy_with_pseudonyms_can_be_written_back(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     true = decode(service.get("/maps/hall-site", headers=boss).content)
     answer = service.get("/maps/hall-site", headers=ann)
@@ -189,7 +189,7 @@ def test_A19_a_copy_stays_whole_and_can_be_written_back(hall: Any, manifest: Man
     assert service.get("/maps/hall-site", headers=boss).content != answer.content
 
 
-def test_A19_names_cannot_be_tried(hall: Any, manifest: Manifest) -> None:
+def test_A19_guessed_source_names_are_refused(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     tried = merged(manifest, 4, 500)
     for answer in (

@@ -1,4 +1,4 @@
-"""Maps of robots that drove along one street, for a service that aligns and merges them."""
+"""Maps of robots that drove along one street, to align and merge."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,11 +17,11 @@ TRUTH = {
     "west": Pose.of_yaw(2.0, np.array([900.0, -400.0, 3.0])),
     "north": Pose.of_yaw(-0.7, np.array([-2_000.0, 50.0, 1.0])),
 }
-"""Of each map's frame in the street's."""
+"""Pose of each map's frame in the street's frame."""
 
 
 def models_that_judge(folder: Path) -> Path:
-    """Two models that know at what distance descriptors are of one thing."""
+    """Write two models with a match threshold."""
     write_eigenvalue_model(folder, pair_threshold=0.8)
     write_eigenvalue_model(folder, "other", step=0.03)
     return folder
@@ -34,7 +34,7 @@ def main_street(seed: int = 0) -> Street:
 def as_map(
     made: MadeMap, model_id: str, name: str, robot: str, first_id: int = 0, time: float = 1e9
 ) -> CompactMap:
-    """A map as a robot sends it, in a frame of its own; a moment each stand, ten seconds apart."""
+    """Return a robot's map in its own frame; sensor positions are ten seconds apart."""
     pose = TRUTH[name].inverse()
     viewpoints, frame_index = np.unique(made.view.viewpoints, axis=0, return_inverse=True)
     count = len(made.view)
@@ -59,7 +59,7 @@ def driven(
     model_id: str, name: str, begin: float, end: float, *, robot: str | None = None, seed: int = 0,
     first_id: int = 0, time: float = 1e9,
 ) -> CompactMap:  # fmt: skip
-    """What a robot, of the map's name unless said, maps of the street from one x to another."""
+    """Return a robot's map of the street between two x; the robot has the map's name by default."""
     made = drive(main_street(), begin, end, np.random.default_rng([seed, *name.encode()]))
     return as_map(made, model_id, name, robot or f"{name} robot", first_id, time)
 
@@ -70,7 +70,7 @@ def put(service: Any, name: str, content: CompactMap, **headers: str) -> None:
 
 
 def relative(one: str, other: str) -> Pose:
-    """Truly, from the other's frame to the one's."""
+    """Return the true transform from the other map's frame into the one's."""
     return TRUTH[one].inverse().after(TRUTH[other])
 
 

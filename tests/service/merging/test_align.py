@@ -1,4 +1,4 @@
-"""`/maps/{map}/align/{other}` over HTTP: robots that drove along one street."""
+"""`/maps/{map}/align/{other}` over HTTP, with maps of one street."""
 
 import threading
 from dataclasses import replace
@@ -69,7 +69,7 @@ def middle(service: Any, name: str) -> np.ndarray:
     return np.asarray(decode(service.get(f"/maps/{name}").content).centroids.mean(axis=0))
 
 
-def test_how_two_maps_lie_is_told(stocked: Any) -> None:
+def test_align_returns_the_transform(stocked: Any) -> None:
     response = stocked.post("/maps/east/align/west")
     assert response.status_code == 200, response.text
     told = response.json()
@@ -91,7 +91,7 @@ def test_how_two_maps_lie_is_told(stocked: Any) -> None:
     assert "verify" in response.headers["server-timing"]
 
 
-def test_the_other_way_around_it_is_the_inverse(stocked: Any) -> None:
+def test_align_in_reverse_returns_the_inverse(stocked: Any) -> None:
     back = stocked.post("/maps/west/align/east").json()
     assert_aligned(back, relative("west", "east"), middle(stocked, "east"))
     there = stocked.post("/maps/east/align/west").json()
@@ -101,7 +101,7 @@ def test_the_other_way_around_it_is_the_inverse(stocked: Any) -> None:
     assert np.degrees(angle) < 0.2
 
 
-def test_the_pairs_that_agree_are_told_on_demand(stocked: Any) -> None:
+def test_align_returns_pairs_on_request(stocked: Any) -> None:
     told = stocked.post("/maps/east/align/west?pairs=true").json()
     assert len(told["inliers"]) == told["pairs"]
     here, there = (decode(stocked.get(f"/maps/{name}").content) for name in ("east", "west"))
@@ -113,7 +113,7 @@ def test_the_pairs_that_agree_are_told_on_demand(stocked: Any) -> None:
     assert distances.max() < 1.5
 
 
-def test_all_six_degrees_on_demand(service: Any, manifest: Manifest) -> None:
+def test_align_finds_six_degrees_of_freedom_on_request(service: Any, manifest: Manifest) -> None:
     random = np.random.default_rng(1)
     east = driven(manifest.model_id, "east", 0, 150)
     lying = drive(main_street(), 30, 180, random)
@@ -127,7 +127,7 @@ def test_all_six_degrees_on_demand(service: Any, manifest: Manifest) -> None:
     assert np.array(told["covariance"]).shape == (6, 6)
 
 
-def test_maps_of_other_places_are_not_aligned_and_why(service: Any, manifest: Manifest) -> None:
+def test_maps_of_different_places_are_not_aligned(service: Any, manifest: Manifest) -> None:
     put(service, "east", driven(manifest.model_id, "east", 0, 100))
     put(service, "west", driven(manifest.model_id, "west", 220, 320))
     told = service.post("/maps/east/align/west?pairs=true").json()
@@ -141,7 +141,7 @@ def test_maps_of_other_places_are_not_aligned_and_why(service: Any, manifest: Ma
         assert other["score"] <= told["score"]
 
 
-def test_a_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Manifest) -> None:
+def test_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Manifest) -> None:
     east = decode(stocked.get("/maps/east").content)
     copy = replace(
         east,
@@ -163,7 +163,7 @@ def test_a_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Man
     assert np.linalg.norm(apart) == pytest.approx(900.0, abs=5.0)
 
 
-def test_segments_written_since_count(stocked: Any, manifest: Manifest) -> None:
+def test_align_uses_segments_written_since(stocked: Any, manifest: Manifest) -> None:
     # West is put anew in parts: the base's index does not have the rest.
     west = driven(manifest.model_id, "west", 60, 200)
     put(stocked, "parts", take(west, np.arange(100)))
@@ -177,14 +177,16 @@ def test_segments_written_since_count(stocked: Any, manifest: Manifest) -> None:
     assert told["pose"] == whole["pose"]
 
 
-def test_a_map_lies_on_itself(stocked: Any) -> None:
+def test_map_aligns_with_itself(stocked: Any) -> None:
     told = stocked.post("/maps/east/align/east").json()
     assert_aligned(told, Pose.of_yaw(0.0, np.zeros(3)), middle(stocked, "east"))
     assert told["overlap"] == {"of_map": 1.0, "of_other": 1.0}
 
 
 @pytest.mark.parametrize("rows", [0, 1])
-def test_a_map_of_next_to_nothing_is_told(stocked: Any, manifest: Manifest, rows: int) -> None:
+def test_align_of_nearly_empty_map_gives_a_reason(
+    stocked: Any, manifest: Manifest, rows: int
+) -> None:
     put(stocked, "tiny", map_of(random_codes(rows), manifest.model_id))
     for path in ("/maps/tiny/align/east", "/maps/east/align/tiny", "/maps/tiny/align/tiny"):
         told = stocked.post(path).json()
@@ -193,13 +195,13 @@ def test_a_map_of_next_to_nothing_is_told(stocked: Any, manifest: Manifest, rows
         assert told["others"] == []
 
 
-def test_nothing_is_written(stocked: Any) -> None:
+def test_align_writes_nothing(stocked: Any) -> None:
     before = stocked.get("/maps").json()
     stocked.post("/maps/east/align/west")
     assert stocked.get("/maps").json() == before
 
 
-def test_what_cannot_be_asked(stocked: Any) -> None:
+def test_invalid_align_requests_are_refused(stocked: Any) -> None:
     assert_problem(stocked.post("/maps/east/align/none"), 404, "unknown-map", "none")
     assert_problem(stocked.post("/maps/none/align/east"), 404, "unknown-map", "none")
     for bad in ("-x", "a b", "x" * 65, "é"):
@@ -213,7 +215,7 @@ def test_what_cannot_be_asked(stocked: Any) -> None:
 
 
 @pytest.mark.parametrize("body", [b'{"motion": "se3"}', b"{}", b"\xff"])
-def test_options_in_a_body_are_not_ignored(stocked: Any, body: bytes) -> None:
+def test_align_refuses_options_in_a_body(stocked: Any, body: bytes) -> None:
     for headers in ({}, {"Content-Type": "application/json"}):
         answer = stocked.post("/maps/east/align/west", content=body, headers=headers)
         assert_problem(answer, 422, "invalid-request", "in the query (?motion=se3)")
@@ -222,7 +224,7 @@ def test_options_in_a_body_are_not_ignored(stocked: Any, body: bytes) -> None:
     assert_problem(answer, 415, "unsupported-media-type")
 
 
-def test_maps_of_two_models_do_not_compare(
+def test_align_of_maps_of_two_models_is_refused(
     start: Any, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     with start(also=["other"]) as service:
@@ -232,7 +234,7 @@ def test_maps_of_two_models_do_not_compare(
         assert_problem(answer, 409, "other-model", manifest.model_id)
 
 
-def test_keys_open_both_maps_or_none(start: Any, tmp_path: Path, manifest: Manifest) -> None:
+def test_align_needs_a_key_for_both_maps(start: Any, tmp_path: Path, manifest: Manifest) -> None:
     file = tmp_path / "keys.toml"
     writes, reads = made(file, "writer", "--write"), made(file, "reader")
     bound = made(file, "bound", "--map", "east")
@@ -253,7 +255,7 @@ def test_keys_open_both_maps_or_none(start: Any, tmp_path: Path, manifest: Manif
         assert_problem(service.post("/maps/east/align/west"), 401, "unauthorized")
 
 
-def test_too_many_at_once_are_told_to_come_again(
+def test_too_many_alignments_get_429(
     start: Any, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begun, go = threading.Event(), threading.Event()
@@ -287,7 +289,7 @@ def test_too_many_at_once_are_told_to_come_again(
     assert [each.status_code for each in answers] == [200]
 
 
-def test_a_deadline_is_kept(start: Any, manifest: Manifest, monkeypatch: Any) -> None:
+def test_align_ends_at_its_deadline(start: Any, manifest: Manifest, monkeypatch: Any) -> None:
     asked: list[int] = []
     real = alignment.StoredDescriptorSearch.nearest
 

@@ -1,4 +1,4 @@
-"""A13: what an alignment asks of maps is asked in parts, so that it can be stopped between them."""
+"""A13: an alignment searches in parts and can be cancelled between them."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -13,7 +13,7 @@ from service.merging.alignment import StoredDescriptorSearch
 
 
 class Index:
-    """The nearest row of each query is the one that its code names."""
+    """Index whose nearest row to a query is the row that the query's code names."""
 
     def __init__(self) -> None:
         self.searched: list[int] = []
@@ -26,7 +26,7 @@ class Index:
 
 @pytest.fixture
 def looks(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Looks of two maps, the index, and what is left of the client's patience."""
+    """Return `MapLooks` of two maps, the index, and the remaining number of cancellation checks."""
     monkeypatch.setattr(alignment, "SEARCHED", 10)
     monkeypatch.setattr(alignment, "BLOCK", 10)
     monkeypatch.setattr(

@@ -1,4 +1,4 @@
-"""How a map was laid in a site, told by what it gave."""
+"""Known pose of a map in a merged map, from shared segments."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ def part() -> CompactMap:
 
 
 def empty_merged_map(part: CompactMap, rows: np.ndarray) -> CompactMap:
-    """A site that holds these segments, as a merge lays them and a file rounds them."""
+    """Return a merged map of these segments, transformed and rounded as a merge does."""
     return canonical(moved(take(part, rows), TRUTH.rotation, TRUTH.translation, "site"))
 
 
@@ -32,7 +32,7 @@ def seen_from(part: CompactMap, *frames: int) -> np.ndarray:
 
 
 def turned(part: CompactMap) -> CompactMap:
-    """With other orientations of the sensor, as after they became known."""
+    """Return the map with other orientations of the sensor."""
     left = np.array([0, 0, np.sqrt(0.5), np.sqrt(0.5)], np.float32)
     return replace(part, frame_orientations=np.tile(left, (len(part.frame_times), 1)))
 
@@ -46,7 +46,7 @@ def assert_laid(part: CompactMap, site: CompactMap, motion: str = "yaw") -> None
 
 
 @pytest.mark.parametrize("motion", ["yaw", "se3"])
-def test_few_segments_tell_it(part: CompactMap, motion: str) -> None:
+def test_few_shared_segments_determine_the_pose(part: CompactMap, motion: str) -> None:
     for rows in (
         np.array([0]),
         seen_from(part, 0)[:5],
@@ -56,13 +56,13 @@ def test_few_segments_tell_it(part: CompactMap, motion: str) -> None:
         assert_laid(part, empty_merged_map(part, rows), motion)
 
 
-def test_stands_tell_it_whatever_the_orientations(part: CompactMap) -> None:
+def test_sensor_positions_determine_the_pose_without_orientations(part: CompactMap) -> None:
     two = np.array([seen_from(part, 0)[0], seen_from(part, 3)[0]])
     assert_laid(turned(part), empty_merged_map(part, two))
     assert known_pose(empty_merged_map(part, two[:1]), turned(part), PARAMETERS) is None
 
 
-def test_where_they_lie_otherwise_it_is_unclear(part: CompactMap) -> None:
+def test_moved_segments_leave_the_pose_unclear(part: CompactMap) -> None:
     rows = np.array([0, 1, 2])
     site = empty_merged_map(part, rows)
     off = replace(part, centroids=part.centroids + (0.0, 0.1, 0.0))
@@ -73,7 +73,7 @@ def test_where_they_lie_otherwise_it_is_unclear(part: CompactMap) -> None:
     assert known_pose(empty_merged_map(part, both), bent, PARAMETERS) is None
 
 
-def test_of_what_the_site_has_not_or_has_from_another_moment_it_tells_nothing(
+def test_segments_of_other_times_do_not_determine_the_pose(
     part: CompactMap,
 ) -> None:
     few = np.arange(3)

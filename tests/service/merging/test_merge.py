@@ -1,4 +1,4 @@
-"""`/maps/{map}/merge` over HTTP: a site of what robots mapped along one street."""
+"""`/maps/{map}/merge` over HTTP, with maps of one street."""
 
 import threading
 from collections import Counter
@@ -53,7 +53,7 @@ def other_manifest(models_dir: Path) -> Manifest:
 
 @pytest.fixture
 def maps(manifest: Manifest) -> dict[str, CompactMap]:
-    """Three robots' maps, at different times, of stretches that overlap."""
+    """Store maps of three robots, of overlapping stretches at different times."""
     stretches = {"east": (0, 150), "west": (60, 210), "north": (30, 180)}
     return {
         name: driven(manifest.model_id, name, *ends, time=1e9 + 1e6 * number)
@@ -75,7 +75,7 @@ def content(service: Any, name: str = "site") -> CompactMap:
 
 
 def origins(site: CompactMap) -> list[tuple[str, int]]:
-    """Of each segment the map and the id there."""
+    """Return source map and id there of each segment."""
     assert site.source is not None
     assert site.source_ids is not None
     names = ("", *site.sources)
@@ -96,7 +96,7 @@ def edited(service: Any, name: str, changed: CompactMap, removed: Any = NONE) ->
 
 
 def assert_lies_as_driven(site: CompactMap, maps: dict[str, CompactMap], frame: str) -> None:
-    """Every segment lies where its robot truly saw it, in the frame of one map."""
+    """Check that every segment is at its true position in the frame of one map."""
     where = {
         (name, id_): relative(frame, name).apply(place)
         for name, each in maps.items()
@@ -106,7 +106,7 @@ def assert_lies_as_driven(site: CompactMap, maps: dict[str, CompactMap], frame: 
     assert np.linalg.norm(site.centroids - truth, axis=1).max() < 0.5
 
 
-def test_a_new_site_holds_all_in_the_first_map_s_frame(
+def test_new_merged_map_has_the_frame_of_the_first_map(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     response = merge(stocked, "site", ["east", "west", "north"], deduplicate=False)
@@ -162,7 +162,9 @@ def test_a_new_site_holds_all_in_the_first_map_s_frame(
         assert stocked.get(f"/maps/{name}").content == encode(each)
 
 
-def test_what_another_map_shows_is_left_out(stocked: Any, maps: dict[str, CompactMap]) -> None:
+def test_segments_shown_by_another_map_are_left_out(
+    stocked: Any, maps: dict[str, CompactMap]
+) -> None:
     whole = merge(stocked, "whole", ["east", "west"], deduplicate=False).json()
     told = merge(stocked, "site", ["east", "west"]).json()
     east, west = told["parts"]
@@ -179,9 +181,7 @@ def test_what_another_map_shows_is_left_out(stocked: Any, maps: dict[str, Compac
     assert along.max() < 180
 
 
-def test_what_two_robots_saw_at_the_same_time_is_the_same_all_the_same(
-    service: Any, manifest: Manifest
-) -> None:
+def test_segments_seen_by_two_robots_at_once_are_repeats(service: Any, manifest: Manifest) -> None:
     for name, ends in {"east": (0, 150), "west": (0, 150)}.items():
         put(service, name, driven(manifest.model_id, name, *ends, time=1e9))
     told = merge(service, "site", ["east", "west"]).json()
@@ -189,7 +189,7 @@ def test_what_two_robots_saw_at_the_same_time_is_the_same_all_the_same(
 
 
 @pytest.mark.slow
-def test_a_dry_run_tells_what_would_be_and_changes_nothing(stocked: Any) -> None:
+def test_dry_run_returns_changes_and_writes_nothing(stocked: Any) -> None:
     before = stocked.get("/maps").json()
     response = merge(stocked, "site", ["east", "west"], dry_run=True)
     assert response.status_code == 200
@@ -216,7 +216,7 @@ def test_a_dry_run_tells_what_would_be_and_changes_nothing(stocked: Any) -> None
         assert would[key] == done[key]
 
 
-def test_a_merge_is_undone_byte_for_byte(stocked: Any) -> None:
+def test_merge_is_undone_byte_for_byte(stocked: Any) -> None:
     merge(stocked, "site", ["east", "west"])
     before = stocked.get("/maps/site").content
     told = merge(stocked, "site", ["north"]).json()
@@ -233,7 +233,7 @@ def test_a_merge_is_undone_byte_for_byte(stocked: Any) -> None:
 
 
 @pytest.mark.slow
-def test_merged_again_nothing_changes(stocked: Any) -> None:
+def test_merge_twice_adds_nothing(stocked: Any) -> None:
     names = ["east", "west", "north"]
     merge(stocked, "site", names)
     before = stocked.get("/maps/site")
@@ -249,7 +249,7 @@ def test_merged_again_nothing_changes(stocked: Any) -> None:
 
 
 @pytest.mark.parametrize(("ends", "count"), [((60, 120), 2), ((85, 125), 1)])
-def test_a_map_that_gave_next_to_nothing_is_laid_as_it_was(
+def test_map_with_few_shared_segments_keeps_its_pose(
     stocked: Any, manifest: Manifest, ends: tuple[float, float], count: int
 ) -> None:
     merge(stocked, "site", ["east", "west"])
@@ -264,14 +264,12 @@ def test_a_map_that_gave_next_to_nothing_is_laid_as_it_was(
 
 
 def next_id(service: Any, name: str = "site") -> int:
-    """The next free id of a map, which it takes."""
+    """Reserve one id of a map and return it."""
     return int(service.post(f"/maps/{name}/ids?count=1").json()["first"])
 
 
 @pytest.mark.slow
-def test_as_many_ids_are_taken_as_there_are_new_segments(
-    stocked: Any, maps: dict[str, CompactMap]
-) -> None:
+def test_merge_takes_one_id_per_new_segment(stocked: Any, maps: dict[str, CompactMap]) -> None:
     merge(stocked, "site", ["east", "west"])
     first = next_id(stocked)
     assert len(content(stocked)) == first
@@ -288,7 +286,7 @@ def test_as_many_ids_are_taken_as_there_are_new_segments(
     assert next_id(stocked) == new.stop
 
 
-def test_views_of_what_is_new_are_named_by_one_that_is_there(
+def test_views_of_new_segments_name_a_stored_segment(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     west = maps["west"]
@@ -307,7 +305,7 @@ def test_views_of_what_is_new_are_named_by_one_that_is_there(
     assert alone.sum() > len(groups) > 0
 
 
-def test_a_site_without_enough_ids_is_left_as_it_is(
+def test_merge_without_enough_ids_changes_nothing(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     merge(stocked, "site", ["east", "west"])
@@ -325,7 +323,7 @@ def test_a_site_without_enough_ids_is_left_as_it_is(
     assert stocked.get("/maps/site").content == before
 
 
-def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest: Manifest) -> None:
+def test_merge_again_follows_added_and_removed_segments(service: Any, manifest: Manifest) -> None:
     west = driven(manifest.model_id, "west", 60, 210, time=1.5e9)
     first = take(west, west.ids < 250)
     put(service, "east", driven(manifest.model_id, "east", 0, 150))
@@ -353,13 +351,11 @@ def test_a_map_that_has_grown_and_shrunk_is_merged_again(service: Any, manifest:
 
 
 def seen_at(there: CompactMap, rows: np.ndarray, moment: int) -> CompactMap:
-    """These segments, seen last at this second."""
+    """Return segments whose `seen` is this second."""
     return replace(take(there, rows), seen=np.full(len(rows), moment, np.uint32))
 
 
-def test_what_a_map_saw_again_is_as_lately_seen_in_the_site(
-    stocked: Any, maps: dict[str, CompactMap]
-) -> None:
+def test_merge_again_updates_seen(stocked: Any, maps: dict[str, CompactMap]) -> None:
     west, rows, later = maps["west"], np.arange(30), 1_700_000_000
     merge(stocked, "site", ["east", "west"], deduplicate=False)
     before = content(stocked)
@@ -390,7 +386,7 @@ def put_anew(service: Any, name: str, content: CompactMap) -> None:
 
 
 def seen_anew(there: CompactMap, rows: np.ndarray) -> CompactMap:
-    """The map, some segments of which were taken anew an hour later, under their ids."""
+    """Return the map with some segments captured again an hour later, under their ids."""
     codes = there.codes.copy()
     codes[rows] = np.roll(codes[rows], 1, axis=1)
     later = there.frame_times[there.frame_index[rows]] + 3_600
@@ -413,21 +409,21 @@ def seen_anew(there: CompactMap, rows: np.ndarray) -> CompactMap:
 
 
 def described_anew(there: CompactMap, rows: np.ndarray) -> CompactMap:
-    """The map, some codes of which changed, and nothing else."""
+    """Return the map with some codes changed."""
     codes = there.codes.copy()
     codes[rows] = np.roll(codes[rows], 1, axis=1)
     return replace(there, codes=codes)
 
 
 def shifted(there: CompactMap, rows: np.ndarray) -> CompactMap:
-    """The map, some centroids of which lie 20 cm elsewhere, and nothing else."""
+    """Return the map with some centroids moved by 20 cm."""
     centroids = there.centroids.copy()
     centroids[rows] += (0.0, 0.2, 0.0)
     return replace(there, centroids=centroids)
 
 
 @pytest.mark.parametrize("replaced", [seen_anew, described_anew, shifted])
-def test_what_a_map_replaced_under_its_id_is_taken_anew(
+def test_merge_again_takes_replaced_segments(
     stocked: Any, maps: dict[str, CompactMap], replaced: Any
 ) -> None:
     west, rows = maps["west"], np.arange(5, 35)
@@ -468,7 +464,7 @@ def test_what_a_map_replaced_under_its_id_is_taken_anew(
     assert again["parts"][0]["known"] == len(west)
 
 
-def test_what_was_replaced_and_another_map_shows_is_left_out(
+def test_replaced_segment_shown_by_another_map_is_left_out(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     west, rows = maps["west"], np.arange(len(maps["west"]))
@@ -483,7 +479,7 @@ def test_what_was_replaced_and_another_map_shows_is_left_out(
 
 
 @pytest.mark.slow
-def test_a_map_put_anew_under_its_name_is_taken_anew(
+def test_merge_again_takes_a_map_put_under_the_same_name(
     stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
 ) -> None:
     merge(stocked, "site", ["east", "west"], deduplicate=False)
@@ -497,10 +493,8 @@ def test_a_map_put_anew_under_its_name_is_taken_anew(
     assert_lies_as_driven(content(stocked), {"east": maps["east"], "west": other}, "east")
 
 
-def test_a_map_that_was_corrected_is_laid_anew_where_it_moved(
-    stocked: Any, maps: dict[str, CompactMap]
-) -> None:
-    """As after a loop was closed: some stands, and what was seen from them, lie elsewhere."""
+def test_merge_again_moves_corrected_segments(stocked: Any, maps: dict[str, CompactMap]) -> None:
+    """Return the map after a loop closure: some sensor positions and their segments are moved."""
     west = maps["west"]
     merge(stocked, "site", ["east", "west"], deduplicate=False)
     bent = west.frame_index < 4
@@ -519,10 +513,8 @@ def test_a_map_that_was_corrected_is_laid_anew_where_it_moved(
 
 
 @pytest.mark.slow
-def test_only_the_map_that_a_segment_was_written_to_replaces_it(
-    stocked: Any, maps: dict[str, CompactMap]
-) -> None:
-    """Else two maps that tell of it differently would each undo the other for ever."""
+def test_only_the_source_map_replaces_a_segment(stocked: Any, maps: dict[str, CompactMap]) -> None:
+    """Otherwise two maps with different versions would undo each other's segment forever."""
     merge(stocked, "inner", ["west", "north"], deduplicate=False)
     merge(stocked, "site", ["east", "inner"], deduplicate=False)
     put_anew(stocked, "west", described_anew(maps["west"], np.arange(20)))
@@ -534,7 +526,7 @@ def test_only_the_map_that_a_segment_was_written_to_replaces_it(
     assert (again["changed"], again["removed"]) == (0, 0)
 
 
-def test_a_site_in_a_site_keeps_where_all_comes_from(stocked: Any) -> None:
+def test_merged_map_in_a_merged_map_keeps_provenance(stocked: Any) -> None:
     merge(stocked, "inner", ["west", "north"], deduplicate=False)
     told = merge(stocked, "site", ["east", "inner"], deduplicate=False).json()
     site = content(stocked)
@@ -547,7 +539,7 @@ def test_a_site_in_a_site_keeps_where_all_comes_from(stocked: Any) -> None:
     assert part["known"] == len(content(stocked, "west"))
 
 
-def test_what_was_written_to_the_site_itself_stays(stocked: Any) -> None:
+def test_segments_written_to_the_merged_map_stay(stocked: Any) -> None:
     merge(stocked, "site", ["east", "west"])
     own = take(content(stocked, "east"), np.arange(5))
     own = replace(own, ids=own.ids + np.uint32(90_000))
@@ -556,7 +548,7 @@ def test_what_was_written_to_the_site_itself_stays(stocked: Any) -> None:
     assert Counter(name for name, _ in origins(content(stocked)))[""] == 5
 
 
-def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -> None:
+def test_map_that_cannot_be_aligned_is_left_out(stocked: Any, manifest: Manifest) -> None:
     put(stocked, "far", driven(manifest.model_id, "north", 300, 340, robot="far"))
     told = merge(stocked, "site", ["east", "west", "far"]).json()
     far = told["parts"][2]
@@ -578,7 +570,7 @@ def test_a_map_that_does_not_fit_is_left_out(stocked: Any, manifest: Manifest) -
     assert stocked.get("/maps").json() == before
 
 
-def test_a_map_is_made_ready_once_however_many_it_is_held_against(
+def test_map_is_prepared_once_for_all_alignments(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     names = [*maps]
@@ -607,12 +599,12 @@ def test_a_map_is_made_ready_once_however_many_it_is_held_against(
 
 @pytest.fixture
 def misled(monkeypatch: pytest.MonkeyPatch) -> None:
-    """East and west are laid on each other wrongly, with a great score."""
+    """Align east and west wrongly, with a high score."""
     real = alignment.align_maps
 
     def wrong(a: Any, b: Any, *rest: Any) -> Any:
         found = real(a, b, *rest)
-        if {a.stored.name, b.stored.name} == {"east", "west"} and found.best is not None:
+        if {a.snapshot.name, b.snapshot.name} == {"east", "west"} and found.best is not None:
             away = Pose.of_yaw(1.0, np.array([30.0, 0.0, 0.0])).after(found.best.pose)
             best = replace(found.best, pose=away, score=1e6)
             found = MapAlignment(best, None, None, "")
@@ -621,7 +613,7 @@ def misled(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(merging, "align_maps", wrong)
 
 
-def test_an_alignment_that_the_loops_rule_out_is_rejected(
+def test_alignment_that_breaks_a_loop_is_rejected(
     misled: None, stocked: Any, maps: dict[str, CompactMap], manifest: Manifest
 ) -> None:
     put(stocked, "south", driven(manifest.model_id, "north", 40, 190, robot="south", seed=7))
@@ -638,7 +630,7 @@ def test_an_alignment_that_the_loops_rule_out_is_rejected(
     assert_lies_as_driven(part, maps, "east")
 
 
-def test_of_three_maps_the_wrong_alignment_is_told_by_how_the_maps_lie(
+def test_wrong_alignment_of_three_maps_is_found_by_overlap(
     misled: None, stocked: Any, maps: dict[str, CompactMap]
 ) -> None:
     told = merge(stocked, "site", ["east", "west", "north"], deduplicate=False).json()
@@ -651,7 +643,7 @@ def test_of_three_maps_the_wrong_alignment_is_told_by_how_the_maps_lie(
     assert_lies_as_driven(content(stocked), maps, "east")
 
 
-def test_where_nothing_tells_which_alignment_is_wrong_none_is_merged_along(
+def test_undecided_loop_merges_none_of_its_alignments(
     misled: None, stocked: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(merging, "fits_as_well", lambda *_: False)
@@ -662,7 +654,7 @@ def test_where_nothing_tells_which_alignment_is_wrong_none_is_merged_along(
     assert not any(part["merged"] for part in told["parts"])
 
 
-def test_conditions_are_kept(stocked: Any) -> None:
+def test_merge_under_an_outdated_etag_fails(stocked: Any) -> None:
     stale = {"If-Match": '"0123456789abcdef-1"'}
     assert_problem(
         merge(stocked, "site", ["east", "west"], headers=stale), 412, "precondition-failed"
@@ -700,7 +692,7 @@ def test_conditions_are_kept(stocked: Any) -> None:
         ("site", ""),
     ],
 )
-def test_what_is_no_request_is_told(stocked: Any, body: Any, pointer: str) -> None:
+def test_invalid_merge_request_is_refused(stocked: Any, body: Any, pointer: str) -> None:
     before = stocked.get("/maps").json()
     answer = stocked.post("/maps/site/merge", json=body)
     assert answer.status_code == 422, answer.text
@@ -709,7 +701,7 @@ def test_what_is_no_request_is_told(stocked: Any, body: Any, pointer: str) -> No
 
 
 @pytest.mark.parametrize("body", [b"", b"{", b"\xff\xfe", b"NaN", b'{"maps": ["a", "b"]'])
-def test_what_is_no_json_is_told(stocked: Any, body: bytes) -> None:
+def test_merge_body_that_is_not_json_is_refused(stocked: Any, body: bytes) -> None:
     answer = stocked.post(
         "/maps/site/merge", content=body, headers={"Content-Type": "application/json"}
     )
@@ -723,7 +715,7 @@ def test_what_is_no_json_is_told(stocked: Any, body: bytes) -> None:
     )
 
 
-def test_what_cannot_be_merged_is_told(
+def test_maps_that_cannot_be_merged_are_refused(
     start: Any, maps: dict[str, CompactMap], other_manifest: Manifest
 ) -> None:
     with start(also=["other"]) as service:
@@ -737,7 +729,9 @@ def test_what_cannot_be_merged_is_told(
         assert service.get("/maps/site").status_code == 404
 
 
-def test_keys(start: Any, tmp_path: Path, maps: dict[str, CompactMap]) -> None:
+def test_merge_needs_keys_for_all_maps(
+    start: Any, tmp_path: Path, maps: dict[str, CompactMap]
+) -> None:
     file = tmp_path / "keys.toml"
     writes, reads = made(file, "writer", "--write"), made(file, "reader")
     bound = made(file, "bound", "--write", "--map", "site", "--map", "east")
@@ -756,7 +750,7 @@ def test_keys(start: Any, tmp_path: Path, maps: dict[str, CompactMap]) -> None:
         assert_problem(merge(service, "site", ["north"], headers=robots), 403, "forbidden")
 
 
-def test_quotas_are_kept(start: Any, maps: dict[str, CompactMap]) -> None:
+def test_merge_over_quota_is_refused(start: Any, maps: dict[str, CompactMap]) -> None:
     most = max(map(len, maps.values()))
     with start(limits={"map_segments": most + 20}) as service:
         for name, each in maps.items():
@@ -768,7 +762,7 @@ def test_quotas_are_kept(start: Any, maps: dict[str, CompactMap]) -> None:
 
 
 def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
-    """What somebody else does once between the alignments and the writing."""
+    """Run a function once between the alignments and the write."""
     real, acts = merging.plan_merge, [act]
 
     def then(*args: Any) -> Any:
@@ -781,7 +775,7 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], Any]) -> None:
 
 
 @pytest.mark.slow
-def test_a_site_that_was_replaced_meanwhile_is_not_written(
+def test_merge_into_a_map_replaced_meanwhile_fails(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def replaced() -> None:
@@ -813,7 +807,7 @@ def test_a_site_that_was_replaced_meanwhile_is_not_written(
         assert now.status_code == 404 or "west" not in decode(now.content).sources
 
 
-def test_a_site_that_came_to_be_meanwhile_is_not_written(
+def test_merge_into_a_map_created_meanwhile_fails(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     meanwhile(monkeypatch, lambda: put(stocked, "site", maps["north"]))
@@ -821,7 +815,7 @@ def test_a_site_that_came_to_be_meanwhile_is_not_written(
     assert stocked.get("/maps/site").content == encode(maps["north"])
 
 
-def test_a_site_without_segments_takes_the_first_map_s_frame(
+def test_empty_merged_map_takes_the_frame_of_the_first_map(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(stocked, "site", take(maps["north"], NONE))
@@ -839,7 +833,7 @@ def test_a_site_without_segments_takes_the_first_map_s_frame(
     assert content(stocked).frame == "north's odometry"
 
 
-def test_edits_meanwhile_are_kept(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_edits_during_a_merge_are_kept(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     merge(stocked, "site", ["east", "north"])
     own = take(content(stocked, "east"), np.arange(3))
     own = replace(own, ids=own.ids + np.uint32(70_000))
@@ -853,7 +847,7 @@ def test_edits_meanwhile_are_kept(stocked: Any, monkeypatch: pytest.MonkeyPatch)
     assert "west" in now.sources
 
 
-def test_it_is_whole_after_a_restart(start: Any, maps: dict[str, CompactMap]) -> None:
+def test_merged_map_survives_a_restart(start: Any, maps: dict[str, CompactMap]) -> None:
     with start() as service:
         for name, each in maps.items():
             put(service, name, each)
@@ -866,12 +860,12 @@ def test_it_is_whole_after_a_restart(start: Any, maps: dict[str, CompactMap]) ->
         assert merge(service, "site", ["north"]).json()["changed"] == 0
 
 
-def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_late_merge_is_not_written(stocked: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
     real = alignment.align_maps
 
     def slow(a: Any, b: Any, *rest: Any) -> Any:
-        asked.append(b.stored.name)
+        asked.append(b.snapshot.name)
         threading.Event().wait(0.3)
         return real(a, b, *rest)
 
@@ -883,7 +877,7 @@ def test_a_merge_that_is_late_is_not_written(stocked: Any, monkeypatch: pytest.M
     assert stocked.get("/maps/site").status_code == 404
 
 
-def test_a_merge_leaves_a_line_in_the_log(stocked: Any, caplog: pytest.LogCaptureFixture) -> None:
+def test_merge_is_recorded_in_the_audit_log(stocked: Any, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level("INFO")
     told = merge(stocked, "site", ["east", "west"]).json()
     (line,) = [one for one in caplog.records if one.name == "placecell.audit"]

@@ -1,4 +1,4 @@
-"""Where segments were merged from: stored, told, and kept by whatever happens to the map."""
+"""Provenance of segments: stored, returned, and kept by all operations."""
 
 from dataclasses import replace
 from typing import Any
@@ -24,7 +24,7 @@ NONE = np.zeros(0, np.uint32)
 
 
 def from_map(manifest: Manifest, source: str, first_id: int, count: int = 4) -> CompactMap:
-    """Segments of another map, ids 100 and on there, under other ids."""
+    """Return segments of another map, with ids from 100 on there, under other ids."""
     there = map_of(random_codes(count, first_id), manifest.model_id)
     ids = np.arange(first_id, first_id + count, dtype=np.uint32)
     return replace(originated(there, source), ids=ids)
@@ -32,7 +32,7 @@ def from_map(manifest: Manifest, source: str, first_id: int, count: int = 4) -> 
 
 @pytest.fixture
 def site(manifest: Manifest) -> bytes:
-    """Four segments of `east`, three of `west`, two that were written to the map itself."""
+    """Return four segments of `east`, three of `west`, and two of the map itself."""
     own = map_of(random_codes(2), manifest.model_id, 1)
     merged = apply(own, Delta(from_map(manifest, "west", 20, 3), NONE))
     return encode(apply(merged, Delta(from_map(manifest, "east", 10), NONE)))
@@ -40,7 +40,7 @@ def site(manifest: Manifest) -> bytes:
 
 @pytest.fixture
 def stored(service: Any, site: bytes) -> str:
-    """The map, stored; its path."""
+    """Store the map; return its path."""
     assert service.put("/maps/site", content=site).status_code == 201
     return "/maps/site"
 
@@ -52,7 +52,7 @@ def sources_of(service: Any) -> dict[str, int]:
 
 
 def whence(content: CompactMap) -> dict[int, tuple[str, int]]:
-    """Source and id there, by id."""
+    """Return source and id there, by id."""
     assert content.source is not None
     assert content.source_ids is not None
     names = [("", *content.sources)[place] for place in content.source]
@@ -60,7 +60,7 @@ def whence(content: CompactMap) -> dict[int, tuple[str, int]]:
     return dict(zip(content.ids.tolist(), pairs, strict=True))
 
 
-def test_what_is_put_comes_back_and_is_told(service: Any, stored: str, site: bytes) -> None:
+def test_provenance_of_a_put_is_returned(service: Any, stored: str, site: bytes) -> None:
     assert service.get(stored).content == site
     (summary,) = service.get("/maps").json()["maps"]
     assert summary["sources"] == {"east": 4, "west": 3}
@@ -69,7 +69,7 @@ def test_what_is_put_comes_back_and_is_told(service: Any, stored: str, site: byt
 
 
 @pytest.mark.slow
-def test_it_is_there_after_a_restart(start: Any, site: bytes, manifest: Manifest) -> None:
+def test_provenance_survives_a_restart(start: Any, site: bytes, manifest: Manifest) -> None:
     with start() as service:
         service.put("/maps/site", content=site)
         edit = encode_delta(Delta(from_map(manifest, "north", 40), np.array([20], np.uint32)))
@@ -81,7 +81,7 @@ def test_it_is_there_after_a_restart(start: Any, site: bytes, manifest: Manifest
         assert sources_of(service) == {"east": 4, "north": 4, "west": 2}
 
 
-def test_an_edit_takes_and_gives_sources(service: Any, stored: str, manifest: Manifest) -> None:
+def test_edit_adds_and_removes_sources(service: Any, stored: str, manifest: Manifest) -> None:
     # A robot that sees a segment anew writes it to this very map; others keep what they had.
     edit = edit_of(random_codes(1, 9), manifest.model_id, 10, removed=[20, 21, 22])
     assert service.post(f"{stored}/segments?robot=ann", content=edit).status_code == 200
@@ -102,7 +102,7 @@ def test_an_edit_takes_and_gives_sources(service: Any, stored: str, manifest: Ma
     assert sources_of(service) == {"dock": 1, "east": 3}
 
 
-def test_a_map_that_told_none_takes_it(service: Any, manifest: Manifest) -> None:
+def test_map_without_provenance_accepts_it(service: Any, manifest: Manifest) -> None:
     service.put("/maps/site", content=encode(map_of(random_codes(3), manifest.model_id, 1)))
     assert sources_of(service) == {}
     edit = encode_delta(Delta(from_map(manifest, "east", 10, 2), NONE))
@@ -112,7 +112,7 @@ def test_a_map_that_told_none_takes_it(service: Any, manifest: Manifest) -> None
     assert now == {1: ("", 1), 2: ("", 2), 3: ("", 3), 10: ("east", 100), 11: ("east", 101)}
 
 
-def test_a_merge_is_undone_and_done_again(
+def test_merge_is_undone_and_repeated(
     service: Any, stored: str, site: bytes, manifest: Manifest
 ) -> None:
     edit = encode_delta(Delta(from_map(manifest, "north", 40), NONE))
@@ -126,7 +126,7 @@ def test_a_merge_is_undone_and_done_again(
     assert sources_of(service) == {"east": 4, "north": 4, "west": 3}
 
 
-def test_the_first_source_can_be_taken_back(service: Any, manifest: Manifest) -> None:
+def test_first_source_can_be_removed_again(service: Any, manifest: Manifest) -> None:
     plain = encode(map_of(random_codes(3), manifest.model_id, 1))
     service.put("/maps/site", content=plain)
     edit = encode_delta(Delta(from_map(manifest, "east", 10, 2), NONE))
@@ -137,7 +137,9 @@ def test_the_first_source_can_be_taken_back(service: Any, manifest: Manifest) ->
 
 
 @pytest.mark.parametrize("since", [0, 1, 2])
-def test_changes_tell_it(service: Any, stored: str, manifest: Manifest, since: int) -> None:
+def test_changes_contain_provenance(
+    service: Any, stored: str, manifest: Manifest, since: int
+) -> None:
     edits = [
         encode_delta(Delta(from_map(manifest, "north", 40), NONE)),
         edit_of(random_codes(1, 9), manifest.model_id, 10, removed=[20]),
@@ -154,7 +156,7 @@ def test_changes_tell_it(service: Any, stored: str, manifest: Manifest, since: i
     assert encode(apply(had, join(parts))) == service.get(stored).content
 
 
-def test_what_is_seen_again_keeps_it(service: Any, stored: str, site: bytes) -> None:
+def test_refreshed_segment_keeps_provenance(service: Any, stored: str, site: bytes) -> None:
     there = decode(site)
     again = replace(
         take(there, np.array([8])),
@@ -183,7 +185,7 @@ def test_what_is_seen_again_keeps_it(service: Any, stored: str, site: bytes) -> 
         (["west", "east"], "canonical"),
     ],
 )
-def test_what_lies_about_it_is_refused(
+def test_invalid_provenance_is_refused(
     service: Any, stored: str, site: bytes, sources: list[object], detail: str
 ) -> None:
     bad = with_inner_header(site, sources=sources)
