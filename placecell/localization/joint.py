@@ -184,8 +184,14 @@ def judge_jointly(
         total = float(totals[number][here])
         rivals = [
             _compared(
-                *(own.best, hypothesis, queries[number].evidence, queries[other].evidence),
-                *(other, float(totals[other][at]), alone[other], parameters),
+                own=own.best,
+                rival=hypothesis,
+                own_evidence=queries[number].evidence,
+                evidence=queries[other].evidence,
+                number=other,
+                total=float(totals[other][at]),
+                alone=alone[other],
+                parameters=parameters,
             )
             for other, places in enumerate(found)
             for at, hypothesis in enumerate(places.hypotheses)

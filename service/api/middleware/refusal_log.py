@@ -66,7 +66,12 @@ class RefusalLog:
         self._lines[address] += 1
         logger.warning(
             "%d %s: %s %s from %s, key %s",
-            *(status, HTTPStatus(status).phrase, method, route, address, key or "unknown"),
+            status,
+            HTTPStatus(status).phrase,
+            method,
+            route,
+            address,
+            key or "unknown",
             extra={
                 "status": status,
                 "method": method,

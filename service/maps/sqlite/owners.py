@@ -109,7 +109,8 @@ class Owners:
             "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 AND "
             "first < ?3 AND first >= coalesce((SELECT max(first) FROM owners "
             "WHERE map = ?1 AND first <= ?2), ?2) ORDER BY first",
-            *(first, until),
+            first,
+            until,
         )
         return [each for each in found if each.until > first]
 
@@ -153,7 +154,11 @@ class Owners:
             "INSERT INTO owners VALUES (?, ?, ?, ?, ?, ?)",
             [
                 (
-                    *(self._row, each.first, each.until, each.author, each.reserved),
+                    self._row,
+                    each.first,
+                    each.until,
+                    each.author,
+                    each.reserved,
                     each.digest(self._row),
                 )
                 for each in owned
@@ -183,7 +188,9 @@ def _joined(owned: Iterable[_Owned]) -> list[_Owned]:
     for each in owned:
         last = joined[-1] if joined else None
         if last and (last.until, last.author, last.reserved) == (
-            *(each.first, each.author, each.reserved),
+            each.first,
+            each.author,
+            each.reserved,
         ):
             joined[-1] = _Owned(last.first, each.until, each.author, each.reserved)
         else:

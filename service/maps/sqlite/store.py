@@ -302,7 +302,8 @@ class SqliteMapStore:
             logger.warning(
                 "%s is not the file that the service wrote last: the maps may come from a backup. "
                 "The service skips %d ids of each map, so that no id is given out twice.",
-                *(self._folder / LEDGER, SKIPPED),
+                self._folder / LEDGER,
+                SKIPPED,
             )
         if behind:
             # On a full disk as well, or it could never be freed.

@@ -100,8 +100,15 @@ def save_head(connection: sqlite3.Connection, row: int, head: MapHead) -> MapHea
         "UPDATE maps SET sequence = ?, mark = ?, base = ?, next_id = ?, base_bytes = ?, "
         "log_bytes = ?, end_id = ?, digest = ? WHERE map = ?",
         (
-            *(head.sequence, head.mark, head.oldest, head.next_id, head.base_bytes),
-            *(head.log_bytes, head.end_id, digest_of(head), row),
+            head.sequence,
+            head.mark,
+            head.oldest,
+            head.next_id,
+            head.base_bytes,
+            head.log_bytes,
+            head.end_id,
+            digest_of(head),
+            row,
         ),
     )
     return head
@@ -110,8 +117,15 @@ def save_head(connection: sqlite3.Connection, row: int, head: MapHead) -> MapHea
 def digest_of(head: MapHead) -> str:
     """Hash a map's head, so that an altered row is noticed."""
     told = [
-        *(head.name, head.uid, head.sequence, head.mark, head.oldest, head.next_id),
-        *(head.base_bytes, head.log_bytes, head.end_id),
+        head.name,
+        head.uid,
+        head.sequence,
+        head.mark,
+        head.oldest,
+        head.next_id,
+        head.base_bytes,
+        head.log_bytes,
+        head.end_id,
     ]
     return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
@@ -149,7 +163,7 @@ def commit_from(row: Sequence[Any]) -> Commit:
 def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
     """Build the commit that follows the version with this mark."""
     # With the number type that the database returns.
-    note = Note(float(note.time), *(note.author, note.operation, note.changed, note.removed))
+    note = Note(float(note.time), note.author, note.operation, note.changed, note.removed)
     link = link_of(before, sequence, blob)
     return Commit(sequence, note, size, mark_of(link, note), link)
 
@@ -175,8 +189,17 @@ def insert_commit(
         "INSERT INTO commits (map, sequence, time, author, operation, changed, removed, mark, "
         "bytes, delta, link) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
-            *(row, commit.sequence, note.time, note.author, note.operation),
-            *(note.changed, note.removed, commit.mark, commit.bytes, blob, commit.link),
+            row,
+            commit.sequence,
+            note.time,
+            note.author,
+            note.operation,
+            note.changed,
+            note.removed,
+            commit.mark,
+            commit.bytes,
+            blob,
+            commit.link,
         ),
     )
 

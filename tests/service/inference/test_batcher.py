@@ -1,4 +1,4 @@
-"""Micro-batching: batches form under load, and nobody suffers for others."""
+"""Dynamic batching: batches form under load, and a bad request fails alone."""
 
 import asyncio
 import threading
@@ -16,7 +16,7 @@ from service.inference.batcher import Batcher
 
 
 class Doubling(Extractor):
-    """Descriptors are twice the input; waits to be let go on, and notes the batches."""
+    """Extractor that doubles its input; it waits for a signal and records the batches."""
 
     def __init__(self) -> None:
         self.batches: list[int] = []
@@ -48,7 +48,7 @@ def sample(registry: CollectorRegistry, name: str) -> float:
 
 
 async def gather_behind(model: Doubling, batcher: Batcher, *inputs: Inputs) -> list[Any]:
-    """Results of requests that came while the model was at work on another."""
+    """Return the results of requests that arrive while the model computes another one."""
     model.go_on.clear()
     model.entered.clear()
     first = asyncio.create_task(batcher.infer(rows(0), Timing()))
@@ -60,7 +60,7 @@ async def gather_behind(model: Doubling, batcher: Batcher, *inputs: Inputs) -> l
     return await asyncio.gather(*others, return_exceptions=True)
 
 
-def test_what_comes_while_the_model_works_goes_together() -> None:
+def test_requests_during_inference_form_one_batch() -> None:
     model, metrics = Doubling(), Metrics()
 
     async def run() -> list[Any]:
@@ -127,7 +127,7 @@ def test_cancelled_request_stops_between_its_parts() -> None:
     assert sample(metrics.registry, "placecell_queue_segments") == 0
 
 
-def test_a_bad_one_fails_alone() -> None:
+def test_bad_request_in_a_batch_fails_alone() -> None:
     model = Doubling()
 
     async def run() -> list[Any]:
@@ -140,7 +140,7 @@ def test_a_bad_one_fails_alone() -> None:
     assert other.tolist() == [[6.0] * 3]
 
 
-def test_who_no_longer_waits_is_dropped() -> None:
+def test_cancelled_request_is_left_out_of_the_batch() -> None:
     model, metrics = Doubling(), Metrics()
 
     async def run() -> None:
@@ -164,7 +164,7 @@ def test_who_no_longer_waits_is_dropped() -> None:
     assert sample(metrics.registry, "placecell_queue_segments") == 0
 
 
-def test_laps_tell_waiting_from_work() -> None:
+def test_laps_separate_waiting_from_inference() -> None:
     model, timing = Doubling(), Timing()
     asyncio.run(Batcher(model, Metrics(), most=4).infer(rows(1), timing))
     assert [stage for stage, _ in timing.items()] == ["queue", "infer"]

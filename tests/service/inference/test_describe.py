@@ -20,7 +20,7 @@ def column(response: Any, name: str) -> Any:
 
 
 @pytest.mark.parametrize("model", ["tiny", "onnx"])
-def test_descriptors_are_the_librarys(start: Any, models_dir: Path, model: str) -> None:
+def test_descriptors_equal_those_of_the_library(start: Any, models_dir: Path, model: str) -> None:
     clouds = [cloud(seed) for seed in range(70)]
     extractor = load_extractor(models_dir / model)
     sensors = np.tile(SENSOR, (70, 1))
@@ -38,7 +38,7 @@ def test_descriptors_are_the_librarys(start: Any, models_dir: Path, model: str) 
     assert response.json()["dimension"] == extractor.manifest.dimension
 
 
-def test_map_coordinates_of_hundreds_of_kilometers_lose_nothing(service: Any) -> None:
+def test_coordinates_of_hundreds_of_kilometers_keep_their_precision(service: Any) -> None:
     clouds = [cloud(seed) for seed in range(20)]
     shift = np.array([5e5, 5.4e6, 300.0])
     here = service.post("/describe", json=request_of(clouds))
@@ -50,7 +50,7 @@ def test_map_coordinates_of_hundreds_of_kilometers_lose_nothing(service: Any) ->
     )
 
 
-def test_a_descriptor_does_not_depend_on_the_others_in_the_request(service: Any) -> None:
+def test_descriptor_does_not_depend_on_other_segments(service: Any) -> None:
     clouds = [cloud(seed) for seed in range(9)]
     together = column(service.post("/describe", json=request_of(clouds)), "descriptor")
     for points, expected in zip(clouds, together, strict=True):
@@ -58,7 +58,7 @@ def test_a_descriptor_does_not_depend_on_the_others_in_the_request(service: Any)
         np.testing.assert_allclose(alone[0], expected, atol=1e-5)
 
 
-def test_what_is_unusable_is_told_in_its_place(start: Any) -> None:
+def test_unusable_segment_has_an_error_in_its_place(start: Any) -> None:
     body = request_of([cloud(0), cloud(1)[:2], cloud(2), cloud(3)[:0], cloud(4), cloud(5)])
     body["segments"][4]["sensor"] = [0, 0, 2000]
     far = cloud(5) + 50_000
@@ -79,7 +79,7 @@ def test_what_is_unusable_is_told_in_its_place(start: Any) -> None:
     assert "2 points" in items[1]["error"]["detail"]
 
 
-def test_points_on_one_spot_are_described(service: Any) -> None:
+def test_segment_of_equal_points_is_described(service: Any) -> None:
     response = service.post("/describe", json=request_of([np.ones((20, 3))]))
     assert np.isfinite(column(response, "descriptor")).all()
 
@@ -119,7 +119,7 @@ BAD = {
 
 @pytest.mark.parametrize("case", BAD)
 @pytest.mark.parametrize("path", ["/describe", "/match"])
-def test_bad_requests_are_refused_with_the_reason(service: Any, case: str, path: str) -> None:
+def test_bad_request_is_refused_with_the_reason(service: Any, case: str, path: str) -> None:
     body, status, kind, detail = BAD[case]
     if path == "/match" and case == "no field":
         detail = "segments"
@@ -129,7 +129,7 @@ def test_bad_requests_are_refused_with_the_reason(service: Any, case: str, path:
     assert service.post("/describe", json=request_of([cloud(0)])).status_code == 200
 
 
-def test_a_request_is_limited(start: Any) -> None:
+def test_too_large_request_is_refused(start: Any) -> None:
     with start(limits={"segments": 3, "points": 500}) as service:
         clouds = [cloud(seed, 125) for seed in range(4)]
         assert service.post("/describe", json=request_of(clouds[:3])).status_code == 200
@@ -143,7 +143,7 @@ def test_a_request_is_limited(start: Any) -> None:
         )
 
 
-def test_a_descriptor_that_is_not_finite_is_an_error(
+def test_descriptor_that_is_not_finite_is_an_error(
     service: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(_: object, inputs: Inputs) -> Any:
@@ -156,6 +156,6 @@ def test_a_descriptor_that_is_not_finite_is_an_error(
     assert items["descriptors"][2]["centroid"] == pytest.approx(cloud(2).mean(axis=0), abs=1e-5)
 
 
-def test_the_response_names_the_model(service: Any, manifest: Manifest) -> None:
+def test_response_names_the_model(service: Any, manifest: Manifest) -> None:
     body = service.post("/describe", json=request_of([cloud(0)])).json()
     assert body["model_id"] == manifest.model_id

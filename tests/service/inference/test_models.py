@@ -1,4 +1,4 @@
-"""Several models side by side, and models loaded anew without dropping a request."""
+"""Several loaded models, and a reload that drops no request."""
 
 import json
 import shutil
@@ -23,7 +23,7 @@ from tests.service.service_builders import (
 
 @pytest.fixture
 def own_models(models_dir: Path, tmp_path: Path) -> Path:
-    """Models that a test may change."""
+    """Folder of models that a test may change."""
     return Path(shutil.copytree(models_dir, tmp_path / "models"))
 
 
@@ -55,7 +55,7 @@ def test_each_map_is_searched_with_the_model_that_made_it(
         assert {one["id"] for one in best} == {100 + place}
 
 
-def test_a_map_calls_for_its_model(
+def test_map_of_a_model_on_disk_loads_this_model(
     start: Any, own_models: Path, manifest: Manifest, other_manifest: Manifest
 ) -> None:
     data = encode(map_of(random_codes(4), manifest.model_id))
@@ -77,12 +77,12 @@ def test_a_map_calls_for_its_model(
         assert service.get("/maps/yard").content == data
 
 
-def test_a_model_that_is_not_loaded_cannot_be_asked_for(service: Any) -> None:
+def test_model_that_is_not_loaded_is_refused(service: Any) -> None:
     response = service.post("/describe", json=request_of([cloud(0)]) | {"model": "best"})
     assert_problem(response, 409, "other-model", "tiny-")
 
 
-def test_models_are_loaded_anew(start: Any, own_models: Path, manifest: Manifest) -> None:
+def test_reload_loads_changed_models(start: Any, own_models: Path, manifest: Manifest) -> None:
     data = encode(map_of(random_codes(4), manifest.model_id))
     with start(models_dir=own_models) as service:
         assert service.put("/maps/yard", content=data).status_code == 201
@@ -102,7 +102,7 @@ def test_models_are_loaded_anew(start: Any, own_models: Path, manifest: Manifest
         assert service.post("/models/reload").json() == response.json()
 
 
-def test_a_broken_model_is_refused_and_the_old_one_goes_on(
+def test_broken_model_is_refused_and_the_old_one_stays_in_use(
     start: Any, own_models: Path, manifest: Manifest
 ) -> None:
     with start(models_dir=own_models) as service:
@@ -119,20 +119,20 @@ def test_a_broken_model_is_refused_and_the_old_one_goes_on(
         assert service.post("/describe", json=request_of([cloud(0)])).status_code == 200
 
 
-def test_an_answer_names_the_model_that_made_it(start: Any, other_manifest: Manifest) -> None:
+def test_answer_names_the_model_that_made_it(start: Any, other_manifest: Manifest) -> None:
     with start(also=["other"]) as service:
         response = service.post("/describe", json=request_of([cloud(0)]) | {"model": "other"})
         assert response.headers["placecell-model"] == other_manifest.model_id
         assert response.json()["model_id"] == other_manifest.model_id
 
 
-def test_a_map_names_its_model_by_id(service: Any, manifest: Manifest) -> None:
+def test_map_names_its_model_by_id(service: Any, manifest: Manifest) -> None:
     data = encode(map_of(random_codes(3), manifest.name))
     assert_problem(service.put("/maps/yard", content=data), 409, "other-model")
     assert service.get("/maps/yard").status_code == 404
 
 
-def test_a_model_has_its_own_probability_of_a_pose(
+def test_model_has_its_own_probability_of_a_pose(
     start: Any, own_models: Path, manifest: Manifest, caplog: pytest.LogCaptureFixture
 ) -> None:
     content = json.loads(SHIPPED.read_text())

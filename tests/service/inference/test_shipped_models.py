@@ -1,4 +1,4 @@
-"""Every shipped model through HTTP says what the library says."""
+"""Each shipped model gives the same over HTTP as in the library."""
 
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
@@ -21,7 +21,9 @@ CLOUDS = [cloud(seed, points=300) for seed in range(6)]
 
 
 @pytest.mark.parametrize("name", shipped_models())
-def test_descriptor_and_probability_through_http_are_the_librarys(name: str, start: Start) -> None:
+def test_descriptor_and_probability_over_http_equal_those_of_the_library(
+    name: str, start: Start
+) -> None:
     extractor = load_extractor(MODELS_FOLDER / name)
     manifest = extractor.manifest
     segments = Segments.of([item.astype(np.float32) for item in CLOUDS], np.tile(SENSOR, (6, 1)))
@@ -57,7 +59,7 @@ def test_descriptor_and_probability_through_http_are_the_librarys(name: str, sta
         assert ((probability >= 0) & (probability <= 1)).all()
 
 
-def test_the_default_is_shipped_and_all_stay_within_30_megabytes() -> None:
+def test_default_model_is_shipped_and_all_models_stay_within_30_megabytes() -> None:
     assert DEFAULT_MODEL in shipped_models()
     total = sum(file.stat().st_size for file in MODELS_FOLDER.rglob("*") if file.is_file())
     assert total < 30e6

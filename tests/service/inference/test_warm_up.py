@@ -29,6 +29,6 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         assert {each: len(each.nopython_signatures) for each in loops} == before
 
 
-def test_limits_that_refuse_the_scan_do_not_stop_the_start(start: Callable[..., Any]) -> None:
+def test_limits_that_refuse_the_scan_do_not_prevent_the_start(start: Callable[..., Any]) -> None:
     with start(limits={"segments": 1, "points": 10}) as client:
         assert client.get("/readyz").status_code == 200

@@ -27,11 +27,11 @@ from tests.service.service_builders import (
 )
 
 TRUTH = Pose.of_yaw(0.7, np.array([120.0, -40.0, 3.0]))
-"""Of the robot's frame in the map's."""
+"""Pose of the robot's frame in the map's frame."""
 
 
 def street_map(manifest: Manifest, seed: int = 0, **changes: Any) -> CompactMap:
-    """Two hundred segments along a street, their descriptors all different."""
+    """Two hundred segments along a street; all descriptors are different."""
     random = np.random.default_rng(seed)
     content = map_of(random_codes(200, seed), manifest.model_id, **changes)
     centroids = random.uniform((-200, -15, 0), (200, 15, 4), (200, 3)).round(2)
@@ -39,7 +39,7 @@ def street_map(manifest: Manifest, seed: int = 0, **changes: Any) -> CompactMap:
 
 
 def seen_in(content: CompactMap, rows: Int64 | None = None) -> tuple[Int8, Float64]:
-    """Codes and centroids, in the robot's frame, of what it sees of a map."""
+    """Codes and centroids of the segments that the robot sees, in the robot's frame."""
     rows = np.arange(40) if rows is None else rows
     return content.codes[rows], TRUTH.inverse().apply(content.centroids[rows])
 
@@ -88,7 +88,7 @@ def assert_found(told: dict[str, Any]) -> None:
     assert told["pose"]["rotation"][3] >= 0
 
 
-def test_a_robot_is_told_where_it_is(stocked: Any, manifest: Manifest, body: Any) -> None:
+def test_robot_in_map_gets_its_pose(stocked: Any, manifest: Manifest, body: Any) -> None:
     response = stocked.post("/localize", json=body)
     assert response.status_code == 200, response.text
     answer = response.json()
@@ -110,7 +110,7 @@ def test_a_robot_is_told_where_it_is(stocked: Any, manifest: Manifest, body: Any
     assert stages == ["receive", "queue", "decode", "search", "verify", "encode"]
 
 
-def test_both_encodings_say_the_same(stocked: Any, body: Any) -> None:
+def test_both_encodings_give_the_same_answer(stocked: Any, body: Any) -> None:
     first = stocked.post("/localize", json=body).json()
     listed = post_packed(stocked, "/localize", packed(body), "application/json").json()
     told = post_packed(stocked, "/localize", packed(body))
@@ -119,7 +119,9 @@ def test_both_encodings_say_the_same(stocked: Any, body: Any) -> None:
     assert first == listed == msgpack.unpackb(told.content) == msgpack.unpackb(also.content)
 
 
-def test_all_six_degrees_on_demand(stocked: Any, body: Any, content: CompactMap) -> None:
+def test_motion_se3_gives_all_six_degrees_of_freedom(
+    stocked: Any, body: Any, content: CompactMap
+) -> None:
     (told,) = stocked.post("/localize", json=body | {"motion": "se3"}).json()["localizations"]
     assert told["localized"]
     assert np.array(told["covariance"]).shape == (6, 6)
@@ -135,7 +137,7 @@ def test_all_six_degrees_on_demand(stocked: Any, body: Any, content: CompactMap)
     np.testing.assert_allclose(turned, content.centroids[:40], atol=0.2)
 
 
-def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
+def test_noise_is_inconsistent(stocked: Any, manifest: Manifest) -> None:
     random = np.random.default_rng(9)
     strange = by_codes(manifest, random_codes(40, 9), random.uniform(-30, 30, (40, 3)))
     (told,) = stocked.post("/localize", json=strange).json()["localizations"]
@@ -146,7 +148,9 @@ def test_noise_is_told_as_such(stocked: Any, manifest: Manifest) -> None:
     assert told["inliers"] == []
 
 
-def test_too_few_segments_are_told(stocked: Any, manifest: Manifest, content: CompactMap) -> None:
+def test_too_few_segments_give_the_reason(
+    stocked: Any, manifest: Manifest, content: CompactMap
+) -> None:
     few = by_codes(manifest, *seen_in(content, np.arange(2)))
     (told,) = stocked.post("/localize", json=few).json()["localizations"]
     assert told["reason"] == "too-few-segments"
@@ -155,7 +159,7 @@ def test_too_few_segments_are_told(stocked: Any, manifest: Manifest, content: Co
 
 
 def twice(content: CompactMap) -> CompactMap:
-    """A street that stands in two places, 250 m apart."""
+    """A street with a copy of itself 250 m away."""
     shift = np.array([0.0, 250.0, 0.0])
     return replace(
         content,
@@ -167,7 +171,7 @@ def twice(content: CompactMap) -> CompactMap:
     )
 
 
-def test_two_equal_places_are_ambiguous_and_both_are_told(
+def test_two_equal_places_are_ambiguous_and_both_are_listed(
     service: Any, content: CompactMap, body: Any
 ) -> None:
     assert service.put("/maps/both", content=encode(twice(content))).status_code == 201
@@ -180,7 +184,7 @@ def test_two_equal_places_are_ambiguous_and_both_are_told(
 
 
 def with_landmarks(content: CompactMap) -> CompactMap:
-    """A street that stands in two places; the second one has twenty things besides."""
+    """A street with a copy of itself; the copy has twenty more segments."""
     both = twice(content)
     return replace(
         both,
@@ -195,7 +199,7 @@ def with_landmarks(content: CompactMap) -> CompactMap:
 def test_requests_of_a_session_support_each_other(
     service: Any, manifest: Manifest, content: CompactMap, body: Any
 ) -> None:
-    """The robot has passed a landmark of the second place; of the rest, both have the same."""
+    """The robot has passed a landmark of the copy; the other segments are the same in both."""
     landmarks = with_landmarks(content)
     assert service.put("/maps/both", content=encode(landmarks)).status_code == 201
     passed = [
@@ -244,7 +248,7 @@ def post_edit(service: Any, *delta: Any) -> None:
 
 
 def edited(service: Any, content: CompactMap) -> None:
-    """Without some that the robot does not see."""
+    """Map without the segments that the robot does not see."""
     post_edit(service, take(content, slice(0)), content.ids[150:160])
 
 
@@ -267,7 +271,7 @@ def emptied_and_filled(service: Any, content: CompactMap) -> None:
         (emptied_and_filled, False),
     ],
 )
-def test_what_was_found_before_counts_while_the_map_lies_where_it_lay(
+def test_session_counts_while_the_frame_of_the_map_is_the_same(
     service: Any, manifest: Manifest, content: CompactMap, body: Any, act: Any, counts: bool
 ) -> None:
     landmarks = with_landmarks(content)
@@ -283,7 +287,7 @@ def test_what_was_found_before_counts_while_the_map_lies_where_it_lay(
     assert told["reason"] == (None if counts else "ambiguous")
 
 
-def test_each_map_says_where_the_robot_is_in_it(
+def test_each_map_gives_the_pose_in_its_own_frame(
     service: Any, manifest: Manifest, content: CompactMap, body: Any
 ) -> None:
     other = street_map(manifest, seed=5, frame="elsewhere")
@@ -299,7 +303,7 @@ def test_each_map_says_where_the_robot_is_in_it(
     assert [each["map"] for each in told] == ["a-other"]
 
 
-def test_without_maps_nothing_is_said(service: Any, body: Any) -> None:
+def test_localize_without_maps_gives_an_empty_list(service: Any, body: Any) -> None:
     assert service.post("/localize", json=body).json()["localizations"] == []
     clouds = [cloud(0), cloud(1)[:3]]
     answer = service.post("/localize", json=request_of(clouds)).json()
@@ -308,7 +312,7 @@ def test_without_maps_nothing_is_said(service: Any, body: Any) -> None:
     assert answer["unusable"][0]["error"]["type"].endswith("too-few-points")
 
 
-def test_segments_are_localized_as_their_codes_are(service: Any, manifest: Manifest) -> None:
+def test_segments_and_their_codes_give_the_same_pose(service: Any, manifest: Manifest) -> None:
     clouds = [cloud(seed) for seed in range(30)]
     clouds[4] = clouds[4][:3]
     described = service.post("/describe", json=request_of(clouds)).json()["descriptors"]
@@ -335,7 +339,7 @@ def test_segments_are_localized_as_their_codes_are(service: Any, manifest: Manif
     assert told["score"] == pytest.approx(by_segments["score"])
 
 
-def test_another_model_s_map_is_skipped_or_refused(
+def test_map_of_another_model_is_skipped_or_refused(
     start: Any, manifest: Manifest, other_manifest: Manifest, content: CompactMap, body: Any
 ) -> None:
     with start(model="other") as service:
@@ -375,7 +379,7 @@ NAN = float("nan")
         (request_of([cloud(0)]), 422, "invalid-request", "either"),
     ],
 )
-def test_bad_requests_are_refused_with_the_reason(
+def test_bad_request_is_refused_with_the_reason(
     stocked: Any, body: Any, changes: Any, status: int, kind: str, detail: str
 ) -> None:
     assert_problem(stocked.post("/localize", json=body | changes), status, kind, detail)
@@ -393,19 +397,19 @@ def test_bad_requests_are_refused_with_the_reason(
         ({"codes": b"\0" * 13}, "/codes: 13 bytes"),
     ],
 )
-def test_bad_blobs_are_refused_with_the_place(
+def test_bad_blob_is_refused_with_a_pointer(
     stocked: Any, body: Any, changes: Any, detail: str
 ) -> None:
     refused = post_packed(stocked, "/localize", packed(body) | changes)
     assert_problem(refused, 422, "invalid-request", detail)
 
 
-def test_segments_come_without_centroids(stocked: Any) -> None:
+def test_segments_with_centroids_are_refused(stocked: Any) -> None:
     asked = request_of([cloud(0)]) | {"centroids": [[0, 0, 0]]}
     assert_problem(stocked.post("/localize", json=asked), 422, "invalid-request", "centroids")
 
 
-def test_a_key_sees_its_own_maps_and_sessions(
+def test_key_searches_its_own_maps_and_sessions(
     start: Any, tmp_path: Path, content: CompactMap, body: Any
 ) -> None:
     file = tmp_path / "keys.toml"
@@ -425,7 +429,7 @@ def test_a_key_sees_its_own_maps_and_sessions(
 
 
 @pytest.mark.slow
-def test_many_robots_at_once_do_not_disturb_each_other(stocked: Any, body: Any) -> None:
+def test_concurrent_requests_do_not_mix_their_sessions(stocked: Any, body: Any) -> None:
     expected = stocked.post("/localize", json=body).json()
     answers: list[Any] = []
 

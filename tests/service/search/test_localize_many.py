@@ -102,7 +102,7 @@ def test_B1_equal_floors_are_ambiguous_and_the_rival_is_named(
 
 
 @pytest.mark.parametrize("names", [("a", "z"), ("z", "a")])
-def test_B1_where_the_difference_decides_the_right_floor_is_told(
+def test_B1_floors_that_differ_enough_give_the_right_floor(
     service: Any, floor: CompactMap, body: Any, names: tuple[str, str]
 ) -> None:
     put(service, names[0], seen_again(floor, 1, "ann"))
@@ -154,7 +154,7 @@ def test_B1_a_merged_map_and_its_source_are_one_place(
     assert by_map["a"]["rival"]["map"] == by_map["site"]["rival"]["map"] == "b"
 
 
-def test_B1_a_map_that_took_a_source_s_name_is_another_place(
+def test_B1_map_under_a_source_s_name_is_another_place(
     service: Any, floor: CompactMap, body: Any
 ) -> None:
     put(service, "site", merged_from(seen_again(floor, 1, "ann"), "a"))
@@ -204,7 +204,7 @@ def test_B1_a_rival_that_the_key_does_not_open_is_neither_searched_nor_named(
 def test_B1_evidence_against_a_wrong_floor_adds_up(
     service: Any, manifest: Manifest, floor: CompactMap
 ) -> None:
-    """The robot has passed landmarks of floor a; of what it sees now, both floors have the same."""
+    """The robot has passed landmarks of floor a; both floors have the segments that it sees now."""
     landmarks = with_landmarks(floor)
     put(service, "b", take(landmarks, np.arange(200, 400)))
     put(service, "a", take(landmarks, np.arange(200, 420)))
@@ -223,7 +223,7 @@ def test_B1_evidence_against_a_wrong_floor_adds_up(
 
 
 def many(manifest: Manifest, count: int = 40) -> dict[str, CompactMap]:
-    """Maps of one kind, whose descriptors are all different."""
+    """Return maps whose descriptors are all different."""
     return {f"map-{number:03}": street_map(manifest, 100 + number) for number in range(count)}
 
 
@@ -234,7 +234,7 @@ def stocked(service: Any, manifest: Manifest) -> Any:
     return service
 
 
-def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_told(
+def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_found(
     stocked: Any, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from service.search import localization
@@ -331,7 +331,7 @@ def test_B13_match_over_many_maps_is_exact_with_ties_by_map_then_id(
     check()
 
 
-def test_B13_maps_of_other_keys_do_not_crowd_out_one_s_own(
+def test_B13_maps_of_other_keys_do_not_displace_own_maps(
     start: Any, tmp_path: Path, manifest: Manifest, floor: CompactMap, body: Any
 ) -> None:
     file = tmp_path / "keys.toml"
@@ -401,7 +401,7 @@ def test_B13_votes_are_counted_in_parts_where_there_are_too_many(
     assert votes.argmax() == 1
 
 
-def test_the_best_maps_by_hand() -> None:
+def test_best_maps_by_hand() -> None:
     votes = np.array([3, 20, 9, 8, 7, 20, 2])
     assert best_of(votes, 4).tolist() == [1, 2, 3, 5]
     assert best_of(votes, 4, most=2).tolist() == [1, 5]

@@ -32,7 +32,7 @@ def by_codes(codes: Int8, manifest: Manifest, **more: Any) -> dict[str, Any]:
 
 
 def brute_force(maps: dict[str, Int8], query: Int8, k: int) -> list[tuple[float, str, int]]:
-    """Distance, map, id of the nearest, compared in whole numbers."""
+    """Distance, map and id of the nearest segments, compared in whole numbers."""
     found = []
     for name, codes in maps.items():
         squared = ((codes.astype(np.int64) - query.astype(np.int64)) ** 2).sum(axis=1)
@@ -57,7 +57,7 @@ def stocked(service: Any, manifest: Manifest) -> Any:
 
 @pytest.mark.parametrize("names", [None, ["a"], ["c", "b"], ["a", "a"]])
 @pytest.mark.parametrize("k", [1, 10, 100])
-def test_candidates_are_those_of_brute_force(
+def test_candidates_equal_those_of_brute_force(
     stocked: Any, manifest: Manifest, names: list[str] | None, k: int
 ) -> None:
     queries = np.concatenate([random_codes(20, 4), random_codes(20, 5) // 64])
@@ -75,7 +75,7 @@ def test_candidates_are_those_of_brute_force(
         assert [each[0] for each in got] == pytest.approx([each[0] for each in expected])
 
 
-def test_a_candidate_says_where_it_is(service: Any, manifest: Manifest) -> None:
+def test_candidate_has_map_frame_and_centroid(service: Any, manifest: Manifest) -> None:
     codes = random_codes(4)
     put(service, "yard", codes, manifest, first_id=40, robot="zoe", frame="hall")
     response = service.post("/match", json=by_codes(codes[2:3], manifest, k=1)).json()
@@ -97,7 +97,9 @@ def test_a_candidate_says_where_it_is(service: Any, manifest: Manifest) -> None:
     ]
 
 
-def test_segments_are_matched_as_their_codes_are(stocked: Any, manifest: Manifest) -> None:
+def test_segments_and_their_codes_give_the_same_candidates(
+    stocked: Any, manifest: Manifest
+) -> None:
     clouds = [cloud(0), cloud(1)[:3], cloud(2)]
     described = stocked.post("/describe", json=request_of(clouds)).json()["descriptors"]
     codes = np.array([described[0]["codes"], described[2]["codes"]], np.int8)
@@ -110,7 +112,7 @@ def test_segments_are_matched_as_their_codes_are(stocked: Any, manifest: Manifes
     assert matched[0]["candidates"][0]["distance"] == 0
 
 
-def test_without_maps_there_are_no_candidates(service: Any, manifest: Manifest) -> None:
+def test_match_without_maps_has_no_candidates(service: Any, manifest: Manifest) -> None:
     response = service.post("/match", json=by_codes(random_codes(2), manifest)).json()
     assert response["queries"] == [{"candidates": []}, {"candidates": []}]
     put(service, "empty", random_codes(0), manifest)
@@ -119,7 +121,7 @@ def test_without_maps_there_are_no_candidates(service: Any, manifest: Manifest) 
     assert response["queries"] == [{"candidates": []}, {"candidates": []}]
 
 
-def test_ten_candidates_unless_said(stocked: Any, manifest: Manifest) -> None:
+def test_k_defaults_to_ten(stocked: Any, manifest: Manifest) -> None:
     response = stocked.post("/match", json=by_codes(random_codes(1), manifest)).json()
     assert len(response["queries"][0]["candidates"]) == 10
 
@@ -147,7 +149,7 @@ def test_ten_candidates_unless_said(stocked: Any, manifest: Manifest) -> None:
         (request_of([cloud(0)]), 422, "invalid-request", "either"),
     ],
 )
-def test_bad_queries_are_refused_with_the_reason(
+def test_bad_query_is_refused_with_the_reason(
     stocked: Any,
     manifest: Manifest,
     changes: dict[str, Any],
@@ -199,7 +201,7 @@ def test_many_maps_give_the_nearest_of_all(service: Any, manifest: Manifest) -> 
 @pytest.mark.parametrize("media_type", ["application/json", "application/msgpack"])
 def test_A7_items_of_an_answer_are_made_one_at_a_time(media_type: str) -> None:
     class Item(dict[str, int]):
-        """A dictionary that can be watched."""
+        """Dictionary that a weak reference can watch."""
 
     made: list[weakref.ref[Item]] = []
 

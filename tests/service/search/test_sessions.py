@@ -7,7 +7,7 @@ from placecell.localization import Hypothesis, LocalizationParameters, Pose
 from service.search.sessions import SessionKey, Sessions
 
 BEFORE, NOW = np.zeros(3), np.array([5.0, 0.0, 0.0])
-"""The middle of what a robot saw, and sees now that it has moved on."""
+"""Middle of the segments that a robot saw before, and now that it has moved."""
 
 
 class Clock:
@@ -41,7 +41,7 @@ def sessions(clock: Clock) -> Sessions:
     return Sessions(3, LocalizationParameters(memory=10.0), clock)
 
 
-def test_what_was_found_is_evidence(sessions: Sessions) -> None:
+def test_earlier_request_is_evidence(sessions: Sessions) -> None:
     assert sessions.evidence(key(), NOW) is None
     sessions.remember(key(), BEFORE, [hypothesis()])
     evidence = sessions.evidence(key(), NOW)
@@ -49,7 +49,7 @@ def test_what_was_found_is_evidence(sessions: Sessions) -> None:
     assert evidence.support(hypothesis()) > 0
 
 
-def test_a_request_that_is_sent_again_is_no_evidence(sessions: Sessions) -> None:
+def test_repeated_request_is_no_evidence(sessions: Sessions) -> None:
     for _ in range(10):
         sessions.remember(key(), BEFORE, [hypothesis()])
     evidence = sessions.evidence(key(), BEFORE)
@@ -60,12 +60,12 @@ def test_a_request_that_is_sent_again_is_no_evidence(sessions: Sessions) -> None
 @pytest.mark.parametrize(
     "other", [key("bob"), key(holder="another key"), key(map_="hall"), key(since=2)]
 )
-def test_nobody_else_has_it(sessions: Sessions, other: SessionKey) -> None:
+def test_other_session_key_has_no_evidence(sessions: Sessions, other: SessionKey) -> None:
     sessions.remember(key(), BEFORE, [hypothesis()])
     assert sessions.evidence(other, NOW) is None
 
 
-def test_it_is_forgotten_in_time(sessions: Sessions, clock: Clock) -> None:
+def test_evidence_expires(sessions: Sessions, clock: Clock) -> None:
     sessions.remember(key(), BEFORE, [hypothesis()])
     clock.now += 10.1
     evidence = sessions.evidence(key(), NOW)
@@ -76,7 +76,7 @@ def test_it_is_forgotten_in_time(sessions: Sessions, clock: Clock) -> None:
     assert len(sessions) == 1
 
 
-def test_of_too_many_the_one_silent_longest_goes(sessions: Sessions, clock: Clock) -> None:
+def test_oldest_of_too_many_sessions_is_dropped(sessions: Sessions, clock: Clock) -> None:
     for name in ("a", "b", "c"):
         sessions.remember(key(name), BEFORE, [hypothesis()])
         clock.now += 1
@@ -87,7 +87,7 @@ def test_of_too_many_the_one_silent_longest_goes(sessions: Sessions, clock: Cloc
     assert sessions.evidence(key("a"), NOW) is not None
 
 
-def test_A25_a_key_with_many_sessions_displaces_its_own_alone(clock: Clock) -> None:
+def test_A25_key_with_many_sessions_displaces_only_its_own(clock: Clock) -> None:
     sessions = Sessions(6, LocalizationParameters(memory=10.0), clock)
     for name in ("a", "b"):
         sessions.remember(key(name, holder="quiet"), BEFORE, [hypothesis()])
@@ -112,7 +112,7 @@ def test_A25_a_key_with_many_sessions_displaces_its_own_alone(clock: Clock) -> N
     assert {*sessions._of_holder} == {"last"}
 
 
-def test_a_session_keeps_so_many_requests(sessions: Sessions, clock: Clock) -> None:
+def test_session_keeps_a_limited_number_of_requests(sessions: Sessions, clock: Clock) -> None:
     for _ in range(1_000):
         clock.now += 0.001
         sessions.remember(key(), BEFORE, [hypothesis()] * 3)
@@ -121,7 +121,7 @@ def test_a_session_keeps_so_many_requests(sessions: Sessions, clock: Clock) -> N
     assert len(evidence.past) == LocalizationParameters().remembered
 
 
-def test_many_threads_at_once() -> None:
+def test_concurrent_threads_keep_the_limit() -> None:
     sessions = Sessions(50)
     failures: list[BaseException] = []
 
