@@ -1,4 +1,4 @@
-"""The service killed again and again while robots write: what was lost, if anything."""
+"""Crash benchmark: kills the service repeatedly while robots write, and counts lost writes."""
 
 import random
 import tempfile
@@ -20,12 +20,12 @@ def run_crashes(
     options: tuple[str, ...] = (),
     progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,
 ) -> dict[str, Any]:
-    """Run it; the report as `placecell bench crash` writes it.
+    """Run the crashes; return the report that `placecell bench crash` writes.
 
     Args:
-        plan: what is done.
-        seed: of everything that is drawn; what threads and disks do is not.
-        options: further ones of `placecell serve`.
+        plan: extent of the run.
+        seed: random seed of all choices; the timing of threads and disks stays random.
+        options: further options of `placecell serve`.
         progress: wraps the loop.
     """
     with tempfile.TemporaryDirectory(prefix="placecell-crash-") as folder:
@@ -33,22 +33,22 @@ def run_crashes(
         for number in progress(range(plan.kills), plan.kills, "kills"):
             crasher.crash(MOMENTS[number % len(MOMENTS)])
         crasher.finish()
-    tally, journals = crasher.tally, [writer.journal for writer in crasher.writers]
+    findings, journals = crasher.findings, [writer.journal for writer in crasher.writers]
     acknowledged = sum((journal.acknowledged for journal in journals), Counter[str]())
     return {
         "kills": plan.kills,
-        "killed_during": dict(sorted(tally.killed.items())),
+        "killed_during": dict(sorted(findings.killed.items())),
         "writes_acknowledged": acknowledged.total(),
         "operations_acknowledged": dict(sorted(acknowledged.items())),
         "in_flight_that_landed": sum(journal.landed for journal in journals),
-        "versions_compared": tally.versions,
+        "versions_compared": findings.versions,
         "reads": crasher.reader.reads,
-        "losses": tally.lost,
-        "half_seen": tally.half + len(crasher.reader.half),
-        "wrong": tally.told + crasher.reader.half,
+        "losses": findings.lost,
+        "half_seen": findings.half + len(crasher.reader.half),
+        "wrong": findings.faults + crasher.reader.half,
         "restart_seconds": {
-            "p50": round(float(np.median(tally.starts)), 3),
-            "max": round(max(tally.starts), 3),
+            "p50": round(float(np.median(findings.starts)), 3),
+            "max": round(max(findings.starts), 3),
         },
         "machine": machine(),
         "seed": seed,

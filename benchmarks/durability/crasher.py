@@ -1,6 +1,6 @@
-"""Kills the service while robots write, and checks what it promised when it is back.
+"""Crasher: kills the service while robots write, restarts it, and checks its promise.
 
-The promise: a write that was answered with 2xx survives, and a map is seen whole or not at all.
+The promise: an acknowledged (2xx) write survives, and no reader sees part of a write.
 """
 
 import random
@@ -24,7 +24,7 @@ from benchmarks.synthetic_maps.random_maps import MapTemplate
 from service.child_process import Service
 
 ONCE = Retries(attempts=1)
-"""A request that fails is not repeated: the journal tells each apart."""
+"""Retry policy without retries: the journal records each attempt by itself."""
 
 WANTED = {
     "put": "put",
@@ -35,27 +35,27 @@ WANTED = {
     "age": "age",
     "delete": "delete",
 }
-"""What writers do much of where it is to be killed in the midst of that, or of what comes of it."""
+"""Operation that the writers prefer before a kill at each moment: the one that leads to it."""
 
 MOMENTS = (
     *("put", "cache", "compact", "start", "edit", "any"),
     *("put", "cache", "restore", "age", "edit", "delete"),
 )
-"""To kill at, in turn."""
+"""Moments of the kills, in turn."""
 
-PATIENCE = 5.0
-"""Seconds to wait for the moment before it is killed at any other."""
+MOMENT_TIMEOUT_S = 5.0
+"""Longest wait for the moment, seconds; after it the kill comes at any moment."""
 
 
 @dataclass(frozen=True, slots=True)
 class CrashPlan:
-    """What is done.
+    """Extent of a crash run.
 
     Attributes:
-        kills: how many.
-        writers: each with a map of its own.
+        kills: number of kills.
+        writers: number of writing robots, each with a map of its own.
         large: segments of a large map.
-        seconds: of writing before the moment to kill at is waited for, at most.
+        seconds: longest time of writes before the wait for the moment of the kill.
     """
 
     kills: int = 200
@@ -66,20 +66,20 @@ class CrashPlan:
 
 @dataclass(slots=True)
 class CrashFindings:
-    """What came of it, so far.
+    """Findings of a crash run so far.
 
     Attributes:
-        lost, half: as of `Verdict`.
-        told: all that is wrong.
-        starts: seconds of each start, from the process to its first answer.
-        killed: how often each was going on when the service was killed.
-        versions: how many were downloaded and compared.
-        seconds: of each write that was acknowledged, by operation.
+        lost, half: sums of `Discrepancy.lost` and `Discrepancy.half`.
+        faults: description of each fault.
+        starts: time of each start of the service until its first answer, seconds.
+        killed: number of kills during each operation.
+        versions: number of compared versions.
+        seconds: times of the acknowledged writes, by operation, seconds.
     """
 
     lost: int = 0
     half: int = 0
-    told: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
     starts: list[float] = field(default_factory=list)
     killed: Counter[str] = field(default_factory=Counter)
     versions: int = 0
@@ -87,12 +87,12 @@ class CrashFindings:
 
 
 class Crasher:
-    """Writers, a reader, and a service that they outlive."""
+    """Writing robots, a reading robot, and a service that is killed and restarted."""
 
     def __init__(
         self, data_dir: Path, options: tuple[str, ...], plan: CrashPlan, draw: random.Random
     ) -> None:
-        self.tally = CrashFindings()
+        self.findings = CrashFindings()
         self._plan = plan
         self._options = options
         self._data_dir = data_dir
@@ -102,7 +102,10 @@ class Crasher:
             template = MapTemplate.from_info(client.info())
         self.writers = [
             WritingRobot(
-                *(f"robot-{number}", template, Journal(f"map-{number}"), plan.large),
+                robot=f"robot-{number}",
+                template=template,
+                journal=Journal(f"map-{number}"),
+                large=plan.large,
                 draw=random.Random(self._draw.getrandbits(64)),
             )
             for number in range(plan.writers)
@@ -111,7 +114,7 @@ class Crasher:
         self.reader = ReadingRobot(template, has_been, random.Random(self._draw.getrandbits(64)))
 
     def crash(self, moment: str) -> None:
-        """Start the service, check everything, write, and kill it at such a moment."""
+        """Start the service, check all maps, let robots write, and kill it at the moment."""
         if moment == "start":
             self._crash_start()
             return
@@ -130,30 +133,30 @@ class Crasher:
                 thread.join()
         for writer in self.writers:
             if writer.journal.in_flight is not None:
-                self.tally.killed[writer.journal.in_flight.operation] += 1
-        self.tally.killed["cache"] += self._saves_cache()
+                self.findings.killed[writer.journal.in_flight.operation] += 1
+        self.findings.killed["cache"] += self._saves_cache()
 
     def finish(self) -> None:
-        """Start it once more, and check everything."""
+        """Start the service once more and check all maps."""
         with self._started() as (_, address):
             self.check(address)
 
     def check(self, address: str) -> None:
-        """Hold every version of every map against the journals."""
+        """Compare every version of every map with the journals."""
         with Client(address) as client:
             for writer in self.writers:
                 found = history_of(client, writer.journal.name)
-                verdict = writer.journal.settle(found)
-                self.tally.versions += len(found.versions) if found is not None else 0
-                self.tally.lost += verdict.lost
-                self.tally.half += verdict.half
-                self.tally.told += [verdict.told] if verdict.told else []
+                difference = writer.journal.settle(found)
+                self.findings.versions += len(found.versions) if found is not None else 0
+                self.findings.lost += difference.lost
+                self.findings.half += difference.half
+                self.findings.faults += [difference.fault] if difference.fault else []
 
     def _crash_start(self) -> None:
         service = Service(self._data_dir, *self._options)
-        time.sleep(self._draw.uniform(0, 1.1 * float(np.median(self.tally.starts))))
+        time.sleep(self._draw.uniform(0, 1.1 * float(np.median(self.findings.starts))))
         service.kill()
-        self.tally.killed["start"] += 1
+        self.findings.killed["start"] += 1
 
     def _write(self, writer: WritingRobot, address: str, moment: str) -> None:
         with Client(address, retries=ONCE) as client:
@@ -165,9 +168,9 @@ class Crasher:
                 except httpx.TransportError:
                     return
                 except ServiceError as error:
-                    self.tally.told.append(f"{operation} of {writer.journal.name!r}: {error}")
+                    self.findings.faults.append(f"{operation} of {writer.journal.name!r}: {error}")
                     return
-                self.tally.seconds.setdefault(operation, []).append(time.perf_counter() - begun)
+                self.findings.seconds.setdefault(operation, []).append(time.perf_counter() - begun)
 
     def _read(self, address: str) -> None:
         with Client(address, retries=ONCE) as client:
@@ -177,18 +180,18 @@ class Crasher:
                 except httpx.TransportError:
                     return
                 except ServiceError as error:
-                    self.tally.told.append(f"a read: {error}")
+                    self.findings.faults.append(f"Read: {error}")
                     return
 
     def _wait_for(self, moment: str) -> None:
-        """Wait for the moment, and a while that ends with luck in the midst of it."""
+        """Wait for the moment, and for a random time that likely ends within it."""
         time.sleep(self._draw.uniform(0, self._plan.seconds))
         if moment == "any":
             return
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + MOMENT_TIMEOUT_S
         while not self._is_now(moment) and time.monotonic() < deadline:
             time.sleep(0.0005)
-        usual = float(np.median(self.tally.seconds.get(WANTED[moment], [0.02])))
+        usual = float(np.median(self.findings.seconds.get(WANTED[moment], [0.02])))
         time.sleep(self._draw.uniform(0, 0.005 if moment == "cache" else usual))
 
     def _is_now(self, moment: str) -> bool:
@@ -198,14 +201,14 @@ class Crasher:
         return any(write is not None and write.operation == moment for write in writes)
 
     def _saves_cache(self) -> bool:
-        """Whether a cache was begun since the service was started, and not finished."""
+        """Return whether the service has an unfinished cache file of its own."""
         return bool(self._unfinished() - self._left)
 
     def _unfinished(self) -> set[tuple[int, int]]:
-        """Of each half cache: its file, and when it was begun or last written to."""
+        """Return inode and modification time of each unfinished cache file."""
         found = set()
         for path in (self._data_dir / "cache").glob("*.unfinished"):
-            with suppress(FileNotFoundError):  # it was finished just now
+            with suppress(FileNotFoundError):  # the service has finished it meanwhile
                 status = path.stat()
                 found.add((status.st_ino, status.st_mtime_ns))
         return found
@@ -219,7 +222,7 @@ class Crasher:
             address = service.address()
             with Client(address) as client:
                 client.info()
-            self.tally.starts.append(time.perf_counter() - begun)
+            self.findings.starts.append(time.perf_counter() - begun)
             yield service, address
         finally:
             service.kill()

@@ -1,4 +1,4 @@
-"""A link that breaks: it passes bytes between robots and a service, and cuts at random."""
+"""Faulty link: a proxy between robots and a service that cuts connections at random."""
 
 import asyncio
 import random
@@ -8,19 +8,19 @@ from dataclasses import dataclass, field
 from threading import Event, Thread
 from urllib.parse import urlsplit
 
-PIECE = 1 << 14
-"""Bytes that are passed on at once, at most."""
+CHUNK_BYTES = 1 << 14
+"""Largest number of bytes passed on at once."""
 
 
 @dataclass(slots=True)
 class CuttingProxy:
-    """Listens on a port of its own, that stays the same while the service behind it comes and goes.
+    """Proxy with a fixed port, which stays the same while the service restarts.
 
     Attributes:
-        draw: when a connection is cut.
-        cut_bytes: that pass through a connection until then, on average; None: it is never cut.
-        service: address of the service, such as http://127.0.0.1:8123; None: there is none now.
-        cuts: how many connections were cut.
+        draw: random generator of the cuts.
+        cut_bytes: mean number of bytes until a connection is cut; None: no cuts.
+        service: address of the service, such as http://127.0.0.1:8123; None: the service is down.
+        cuts: number of connections that were cut.
     """
 
     draw: random.Random
@@ -32,12 +32,12 @@ class CuttingProxy:
 
     @property
     def address(self) -> str:
-        """Where it listens."""
+        """Return the address of the proxy."""
         return f"http://127.0.0.1:{self._port}"
 
     @contextmanager
     def running(self) -> Iterator[None]:
-        """At work until the block ends, in a thread of its own."""
+        """Run the proxy in its own thread until the block ends."""
         loop, listening = asyncio.new_event_loop(), Event()
         thread = Thread(target=loop.run_until_complete, args=(self._serve(listening),))
         thread.start()
@@ -59,7 +59,7 @@ class CuttingProxy:
         for task in others:
             task.cancel()
         await asyncio.gather(*others, return_exceptions=True)
-        for _ in range(2):  # so that what was aborted is closed
+        for _ in range(2):  # lets aborted connections close
             await asyncio.sleep(0)
 
     async def _connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
@@ -80,28 +80,28 @@ class CuttingProxy:
             )
             self.cuts += link.is_cut
         except OSError:
-            pass  # the service has gone
+            pass  # the service is down
         finally:
             for each in writers:
                 each.transport.abort()
 
 
 class _Link:
-    """A connection that bears so many bytes."""
+    """Connection that is cut after a number of bytes."""
 
     def __init__(self, left: float | None) -> None:
         self._left = left
         self.is_cut = False
 
     async def passes(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Until it is cut, or one end has gone."""
+        """Pass bytes on until the connection is cut or one end closes it."""
         with suppress(OSError):
-            while piece := await reader.read(PIECE):
-                if self._left is not None and self._left < len(piece):
-                    writer.write(piece[: int(self._left)])
+            while chunk := await reader.read(CHUNK_BYTES):
+                if self._left is not None and self._left < len(chunk):
+                    writer.write(chunk[: int(self._left)])
                     self.is_cut = True
                     return
                 if self._left is not None:
-                    self._left -= len(piece)
-                writer.write(piece)
+                    self._left -= len(chunk)
+                writer.write(chunk)
                 await writer.drain()

@@ -1,7 +1,7 @@
-"""Robots that share one map for minutes, over links that break, by a service that is restarted.
+"""Fleet benchmark: robots share one map over faulty links while the service restarts.
 
-Each adds, replaces and removes segments of its own and pulls what the others did. In the end all
-have the same map, byte for byte, and it holds what each was told that it holds.
+Each robot adds, replaces and removes its own segments and pulls the changes of the others. At the
+end all copies must equal the service's map byte by byte and hold every acknowledged segment.
 """
 
 import random
@@ -29,13 +29,13 @@ SITE = "site"
 
 @dataclass(frozen=True, slots=True)
 class FleetPlan:
-    """What is done.
+    """Extent of a fleet run.
 
     Attributes:
-        clients: robots.
-        seconds: for so long.
-        uptime: seconds from a start of the service to its end, on average.
-        cut_bytes: that a connection bears until it is cut, on average.
+        clients: number of robots.
+        seconds: duration.
+        uptime: mean time between a start of the service and its end, seconds.
+        cut_bytes: mean number of bytes until a connection is cut.
     """
 
     clients: int = 8
@@ -45,7 +45,7 @@ class FleetPlan:
 
 
 class Restarter:
-    """Keeps a service behind a proxy, and kills or stops it now and then."""
+    """Service behind a proxy that is killed or stopped at random, and restarted."""
 
     def __init__(self, data_dir: Path, options: tuple[str, ...], proxy: CuttingProxy) -> None:
         self._data_dir = data_dir
@@ -57,7 +57,7 @@ class Restarter:
 
     @contextmanager
     def restarting(self, uptime: float, draw: random.Random) -> Iterator[None]:
-        """At work until the block ends, in a thread of its own; then the service runs."""
+        """Restart the service at random until the block ends; the service then runs."""
         ended = Event()
         thread = Thread(target=self._run, args=(ended, uptime, draw))
         thread.start()
@@ -87,12 +87,12 @@ class Restarter:
 
 
 def run_fleet(plan: FleetPlan, seed: int = 0, options: tuple[str, ...] = ()) -> dict[str, Any]:
-    """Run it; the report as `placecell bench fleet` writes it.
+    """Run the fleet; return the report that `placecell bench fleet` writes.
 
     Args:
-        plan: what is done.
-        seed: of everything that is drawn; what threads, links and disks do is not.
-        options: further ones of `placecell serve`.
+        plan: extent of the run.
+        seed: random seed of all choices; the timing of threads, links and disks stays random.
+        options: further options of `placecell serve`.
     """
     draw = random.Random(seed)
     proxy = CuttingProxy(random.Random(draw.getrandbits(64)), None)
@@ -104,7 +104,10 @@ def run_fleet(plan: FleetPlan, seed: int = 0, options: tuple[str, ...] = ()) -> 
                 client.put_map(SITE, template.empty_map(), create_only=True)
             robots = [
                 SharingRobot(
-                    *(f"robot-{number}", SITE, template, random.Random(draw.getrandbits(64))),
+                    name=f"robot-{number}",
+                    map_name=SITE,
+                    template=template,
+                    draw=random.Random(draw.getrandbits(64)),
                     compacts=number == 0,
                 )
                 for number in range(plan.clients)
@@ -135,13 +138,13 @@ def _report(
     same = sum(_has(robot, file) for robot in robots)
     is_union = file == encode(union([robot.own for robot in robots]))
     twice = len(reserved) - len(np.unique(reserved))
-    wrong = [told for robot in robots for told in robot.wrong]
+    wrong = [fault for robot in robots for fault in robot.wrong]
     return {
         "clients": plan.clients,
         "seconds": plan.seconds,
         "edits_acknowledged": sum(robot.edits for robot in robots),
         "pulls": sum(robot.pulls for robot in robots),
-        "asked_again": sum(robot.again for robot in robots),
+        "asked_again": sum(robot.retries for robot in robots),
         "segments": sum(len(robot.own) for robot in robots),
         "map_bytes": len(file),
         "robots_with_the_service_s_map": same,

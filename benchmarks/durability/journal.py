@@ -1,4 +1,4 @@
-"""What a writer knows of its map: what was acknowledged, and what may have happened since."""
+"""Journal of a writer: acknowledged writes, and the write whose answer is missing."""
 
 import hashlib
 from collections import Counter
@@ -9,11 +9,11 @@ from benchmarks.durability.map_versions import MapVersion, VersionHistory
 
 @dataclass(frozen=True, slots=True)
 class PendingWrite:
-    """A write whose answer has not come.
+    """A write that was sent and not yet acknowledged.
 
     Attributes:
-        operation: what it does.
-        outcome: the map after it; None: there is none.
+        operation: name of the operation.
+        outcome: versions of the map after the write; None: the write deletes the map.
     """
 
     operation: str
@@ -22,29 +22,29 @@ class PendingWrite:
 
 @dataclass(frozen=True, slots=True)
 class Discrepancy:
-    """How a map that was found is other than it must be.
+    """Difference between the versions of a map and those that the journal expects.
 
     Attributes:
-        lost: versions that were acknowledged, and are not there or not as they were.
-        half: versions, or sets of versions, that never were.
-        told: which; empty if all is well.
+        lost: number of acknowledged versions that are missing or changed.
+        half: number of versions, or sets of versions, that never existed.
+        fault: description; empty if there is no difference.
     """
 
     lost: int = 0
     half: int = 0
-    told: str = ""
+    fault: str = ""
 
 
 @dataclass(slots=True)
 class Journal:
-    """Of one map that has one writer.
+    """Journal of one map with one writer.
 
     Attributes:
-        name: of the map.
-        known: the map after the last write that was acknowledged; None: there is none.
-        in_flight: the write after that, if one was sent.
-        acknowledged: how many were, by operation.
-        landed: how many writes were done whose answer never came.
+        name: name of the map.
+        known: versions after the last acknowledged write; None: there is no map.
+        in_flight: the write that was sent since, if any.
+        acknowledged: number of acknowledged writes, by operation.
+        landed: number of writes that took effect although their answer was lost.
     """
 
     name: str
@@ -55,28 +55,28 @@ class Journal:
     _sent: set[bytes] = field(default_factory=set)
 
     def begin(self, operation: str, outcome: VersionHistory | None) -> None:
-        """A write is about to be sent."""
+        """Record a write before it is sent."""
         if outcome is not None:
             self._sent.add(hashlib.sha256(outcome.newest.file).digest())
         self.in_flight = PendingWrite(operation, outcome)
 
     def has_been(self, file: bytes) -> bool:
-        """Whether the map ever was, or might have become, this file."""
+        """Return whether this file ever was, or may have become, a version of the map."""
         return hashlib.sha256(file).digest() in self._sent
 
     def acknowledge(self, tag: str | None = None) -> None:
-        """The write was answered with success; the map is at the version of this tag."""
+        """Record that the write was acknowledged; `tag` is the ETag of the new version."""
         assert self.in_flight is not None
         outcome = self.in_flight.outcome
-        self.known = outcome.told(tag) if outcome is not None and tag is not None else outcome
+        self.known = outcome.tagged(tag) if outcome is not None and tag is not None else outcome
         self.acknowledged[self.in_flight.operation] += 1
         self.in_flight = None
 
     def settle(self, found: VersionHistory | None) -> Discrepancy:
-        """Hold what is there after a crash against what was acknowledged, and go on from there.
+        """Compare the versions found after a crash with the journal, and continue from them.
 
-        The map must be as after the last write that was acknowledged, or as after the one in
-        flight, version by version.
+        The map must have the versions after the last acknowledged write, or those after the write
+        in flight.
         """
         write, known = self.in_flight, self.known
         self.in_flight, self.known = None, found
@@ -96,10 +96,10 @@ class Journal:
         operation = write.operation if write is not None else "nothing"
         return Discrepancy(
             len(lost),
-            # If all versions are real, they are not all of one moment.
+            # If all versions existed, they did not exist at one moment.
             len(made_up) or int(not lost),
-            f"map {self.name!r}: versions {lost} lost, {made_up} never were; "
-            f"{[each.sequence for each in there]} found; {operation} was in flight",
+            f"Map {self.name!r} has versions {[each.sequence for each in there]}: {lost} were "
+            f"lost, {made_up} never existed. In flight: {operation}.",
         )
 
 
@@ -107,8 +107,8 @@ def _is_same(expected: VersionHistory | None, found: VersionHistory | None) -> b
     return found is None if expected is None else expected.is_past(found)
 
 
-def _versions(past: VersionHistory | None) -> tuple[MapVersion, ...]:
-    return past.versions if past is not None else ()
+def _versions(history: VersionHistory | None) -> tuple[MapVersion, ...]:
+    return history.versions if history is not None else ()
 
 
 def _is_in(version: MapVersion, there: tuple[MapVersion, ...]) -> bool:

@@ -1,4 +1,4 @@
-"""What a map was and is: the versions that a service must have of it, and those that it has."""
+"""Versions of a map: those that a service must have, and those that it has."""
 
 from dataclasses import dataclass, field, replace
 
@@ -10,9 +10,9 @@ class MapVersion:
     """One version of a map.
 
     Attributes:
-        sequence: of it.
-        file: the map's, whole.
-        tag: that the service gave it; None as long as it was not told.
+        sequence: number of the version.
+        file: map file of the version.
+        tag: ETag of the version; None if unknown.
     """
 
     sequence: int
@@ -20,43 +20,43 @@ class MapVersion:
     tag: str | None = None
 
     def is_version(self, found: "MapVersion") -> bool:
-        """Whether what was found is this version."""
-        told = self.tag is None or self.tag == found.tag
-        return told and (self.sequence, self.file) == (found.sequence, found.file)
+        """Return whether a found version is this one."""
+        is_tagged = self.tag is None or self.tag == found.tag
+        return is_tagged and (self.sequence, self.file) == (found.sequence, found.file)
 
 
 @dataclass(frozen=True, slots=True)
 class VersionHistory:
-    """The versions of a map that are kept, oldest first, one at least."""
+    """Available versions of a map, oldest first; at least one."""
 
     versions: tuple[MapVersion, ...]
 
     @classmethod
     def begun(cls, file: bytes) -> "VersionHistory":
-        """Of a new map."""
+        """Return the history of a new map."""
         return cls((MapVersion(1, file),))
 
     @property
     def newest(self) -> MapVersion:
-        """The map as it is."""
+        """Return the newest version."""
         return self.versions[-1]
 
     def after(self, file: bytes) -> "VersionHistory":
-        """With another version; the same if it would be no other."""
+        """Return the history with another version; the same history if the file is unchanged."""
         if file == self.newest.file:
             return self
         return VersionHistory((*self.versions, MapVersion(self.newest.sequence + 1, file)))
 
     def shortened(self, keep: int) -> "VersionHistory":
-        """With the last versions only."""
+        """Return the history with its last `keep` versions only."""
         return VersionHistory(self.versions[-keep:])
 
-    def told(self, tag: str) -> "VersionHistory":
-        """With the tag of the newest version."""
+    def tagged(self, tag: str) -> "VersionHistory":
+        """Return the history with the ETag of the newest version."""
         return VersionHistory((*self.versions[:-1], replace(self.newest, tag=tag)))
 
     def is_past(self, found: "VersionHistory | None") -> bool:
-        """Whether what was found is this, version by version."""
+        """Return whether a found history has exactly these versions."""
         return (
             found is not None
             and len(found.versions) == len(self.versions)
@@ -65,7 +65,7 @@ class VersionHistory:
 
 
 def history_of(client: Client, name: str) -> VersionHistory | None:
-    """All versions that a service has of a map; None if it has no such map."""
+    """Download all versions of a map; return None if the service has no such map."""
     try:
         listed = client.versions(name)
     except ServiceError as error:

@@ -1,4 +1,4 @@
-"""A robot that reads other robots' maps all the time, and sees each whole or not at all."""
+"""Robot that reads the maps of others all the time and checks that each is complete."""
 
 import random
 from collections.abc import Callable, Mapping
@@ -19,19 +19,19 @@ from benchmarks.synthetic_maps.random_maps import MapTemplate
 
 QUERIES = 5
 PAGE = 3_000
-"""Segments in a part of what is pulled."""
+"""Segments per page of a pull."""
 
 
 @dataclass(slots=True)
 class ReadingRobot:
-    """Reads.
+    """Reading robot.
 
     Attributes:
-        template: of the maps' segments.
-        has_been: of each map, whether a file is one that its writers ever sent or made of it.
-        draw: what it reads next.
-        reads: how many there were.
-        half: maps that never were, told.
+        template: template of the maps.
+        has_been: for each map, returns whether a file ever was a version of it.
+        draw: random generator of the choices.
+        reads: number of reads.
+        half: description of each file that never was a version.
     """
 
     template: MapTemplate
@@ -42,20 +42,20 @@ class ReadingRobot:
     _copies: dict[str, MapCopy] = field(default_factory=dict)
 
     def read(self, client: Client) -> None:
-        """Look at one map, in one way.
+        """Read one map in one way, both chosen at random.
 
         Raises:
-            httpx.TransportError: the service is not there.
-            ServiceError: it failed.
+            httpx.TransportError: the service is down.
+            ServiceError: the service failed.
         """
         name = self.draw.choice([*self.has_been])
         try:
             self.draw.choice([self._download, self._sync, self._match])(client, name)
         except ServiceError as error:
-            if error.status != 404:  # it was removed just now
+            if error.status != 404:  # a writer has just deleted the map
                 raise
         except MapFileError as error:
-            self.half.append(f"map {name!r}: {error}")
+            self.half.append(f"Map {name!r}: {error}")
         self.reads += 1
 
     def _download(self, client: Client, name: str) -> None:
@@ -80,4 +80,4 @@ class ReadingRobot:
 
     def _check(self, name: str, file: bytes, how: str) -> None:
         if not self.has_been[name](file):
-            self.half.append(f"map {name!r}, {how}, never was so")
+            self.half.append(f"Map {name!r}, {how}, is not one of its versions.")

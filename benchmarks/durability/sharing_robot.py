@@ -1,4 +1,4 @@
-"""A robot that shares a map with others: it edits its own segments, and pulls those of all."""
+"""Robot that shares a map with others: edits its own segments and pulls all changes."""
 
 import random
 import time
@@ -18,47 +18,47 @@ from placecell.core.types import UInt32
 T = TypeVar("T")
 
 RETRIES = Retries(attempts=4, first_wait=0.05, longest_wait=0.5, longest_attempt=5.0)
-PASSING = {429, 502, 503, 504}
-"""Statuses after which the same is asked again."""
+TRANSIENT = {429, 502, 503, 504}
+"""Statuses after which a robot repeats its call."""
 
-PATIENCE = 60.0
-"""Seconds after which a robot no longer asks again."""
+RETRY_SECONDS = 60.0
+"""Time after which a robot no longer repeats a call, seconds."""
 
-PAUSE = 0.02
-"""Seconds between two calls, on average."""
+PAUSE_SECONDS = 0.02
+"""Mean time between two calls, seconds."""
 
-EDIT = 60
-"""Segments of an edit, at most."""
+EDIT_SEGMENTS = 60
+"""Largest number of segments of an edit."""
 
-MOST = 3_000
-"""Segments of its own, about."""
+MAX_SEGMENTS = 3_000
+"""Number of its own segments above which a robot removes some."""
 
-IDS = 400
-"""Reserved at once."""
+RESERVED_IDS = 400
+"""Number of ids that a robot reserves at once."""
 
 PAGE = 700
-"""Segments in a part of what is pulled: few, so that links are cut between the parts."""
+"""Segments per page of a pull: few, so that links are cut between pages."""
 
 
 @dataclass(slots=True)
 class SharingRobot:
-    """Does one thing after the other, each until it is done, however often it must ask.
+    """Sharing robot; repeats each call until it succeeds.
 
     Attributes:
-        name: of the robot.
-        site: name of the map.
-        template: of its segments.
-        draw: what it does.
-        compacts: whether it also lets go of old versions, so that others lose their way.
-        own: its segments, as the service has acknowledged them.
-        copy: of the whole map.
-        reserved: all ids that it was given.
-        edits, pulls, again: how many; and how often it had to ask again.
-        wrong: what should not have been.
+        name: name of the robot.
+        map_name: name of the map.
+        template: template of its segments.
+        draw: random generator of the choices.
+        compacts: whether it also drops old versions, so that the copies of others become outdated.
+        own: its own segments, as the service has acknowledged them.
+        copy: copy of the whole map.
+        reserved: all ids that it has reserved.
+        edits, pulls, retries: number of edits, pulls, and repeated calls.
+        wrong: description of each fault.
     """
 
     name: str
-    site: str
+    map_name: str
     template: MapTemplate
     draw: random.Random
     compacts: bool = False
@@ -67,38 +67,38 @@ class SharingRobot:
     reserved: list[UInt32] = field(default_factory=list)
     edits: int = 0
     pulls: int = 0
-    again: int = 0
+    retries: int = 0
     wrong: list[str] = field(default_factory=list)
     _free: UInt32 = field(default_factory=lambda: np.zeros(0, np.uint32))
     _random: np.random.Generator = field(init=False)
 
     def __post_init__(self) -> None:
         self.own = self.template.empty_map()
-        self.copy = MapCopy(self.site)
+        self.copy = MapCopy(self.map_name)
         self._random = np.random.default_rng(self.draw.getrandbits(64))
 
     def run(self, address: str, ended: Event) -> None:
-        """Edit and pull until it is over."""
+        """Edit and pull until the run ends."""
         with Client(address, timeout=20.0, retries=RETRIES) as client:
             try:
-                while not ended.wait(self.draw.expovariate(1 / PAUSE)):
+                while not ended.wait(self.draw.expovariate(1 / PAUSE_SECONDS)):
                     self._do(client)
             except (ServiceError, httpx.TransportError) as error:
                 self.wrong.append(f"{self.name} gave up: {error}")
 
     def pull(self, client: Client) -> None:
-        """Bring the copy up to date; its own segments must be as they were acknowledged."""
-        self._insist(lambda: client.pull(self.copy, PAGE))
+        """Update the copy and check that it holds the robot's own acknowledged segments."""
+        self._repeat(lambda: client.pull(self.copy, PAGE))
         self.pulls += 1
         if encode(self._mine()) != encode(self.own):
-            self.wrong.append(f"{self.name}: other segments of its own at {self.copy.etag}")
+            self.wrong.append(f"{self.name}: own segments differ at version {self.copy.etag}")
 
     def _do(self, client: Client) -> None:
         if self.draw.random() < 0.6:
             self._edit(client)
         elif self.compacts and self.draw.random() < 0.1:
             keep = self.draw.randint(1, 20)
-            self._insist(lambda: client.compact_map(self.site, keep))
+            self._repeat(lambda: client.compact_map(self.map_name, keep))
         else:
             self.pull(client)
 
@@ -110,32 +110,32 @@ class SharingRobot:
         return take(content, content.robot == content.robots.index(self.name))
 
     def _edit(self, client: Client) -> None:
-        """Some segments replaced, some added, some removed."""
-        count = self.draw.randint(1, EDIT)
+        """Replace, add and remove some segments."""
+        count = self.draw.randint(1, EDIT_SEGMENTS)
         order = self._random.permutation(self.own.ids)
         replaced = order[: count // 3]
-        too_many = max(len(self.own) - MOST, 0)
+        too_many = max(len(self.own) - MAX_SEGMENTS, 0)
         removed = np.sort(order[len(replaced) :][: count // 6 + too_many])
         added = self._ids(client, count - count // 3)
         changed = self.template.random_map(
             self.name, np.concatenate([replaced, added]), self._random
         )
         delta = Delta(changed, removed)
-        self._insist(lambda: client.edit_map(self.site, delta))
+        self._repeat(lambda: client.edit_map(self.map_name, delta))
         self.own = apply(self.own, delta)
         self.edits += 1
 
     def _ids(self, client: Client, count: int) -> UInt32:
-        """Some that nobody else has."""
+        """Return ids that no other robot has."""
         if len(self._free) < count:
-            given = self._insist(lambda: client.reserve_ids(self.site, IDS))
+            given = self._repeat(lambda: client.reserve_ids(self.map_name, RESERVED_IDS))
             self.reserved.append(given)
             self._free = np.concatenate([self._free, given])
         ids, self._free = self._free[:count], self._free[count:]
         return ids
 
-    def _insist(self, call: Callable[[], T]) -> T:
-        deadline = time.monotonic() + PATIENCE
+    def _repeat(self, call: Callable[[], T]) -> T:
+        deadline = time.monotonic() + RETRY_SECONDS
         while True:
             try:
                 return call()
@@ -143,6 +143,6 @@ class SharingRobot:
                 if time.monotonic() > deadline:
                     raise
             except ServiceError as error:
-                if error.status not in PASSING or time.monotonic() > deadline:
+                if error.status not in TRANSIENT or time.monotonic() > deadline:
                     raise
-            self.again += 1
+            self.retries += 1

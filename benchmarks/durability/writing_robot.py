@@ -1,4 +1,4 @@
-"""A robot that writes to a map of its own in every way there is, and keeps a journal."""
+"""Robot that writes to a map of its own with all operations, and keeps a journal."""
 
 import random
 from dataclasses import dataclass, field
@@ -12,11 +12,11 @@ from benchmarks.durability.map_versions import VersionHistory
 from benchmarks.synthetic_maps.random_maps import EPOCH, MapTemplate
 from placecell.core.types import UInt32
 
-KEPT = 10
-"""Versions, after which the writer has old ones let go before the service does so by itself."""
+MAX_VERSIONS = 10
+"""Number of versions at which the robot compacts the map, before the service does so by itself."""
 
 OPERATIONS = {
-    # How often, where there is a map.
+    # Relative frequency if there is a map.
     "put": 2,
     "edit": 8,
     "large edit": 1,
@@ -27,26 +27,26 @@ OPERATIONS = {
 }
 
 EDITS = (1, 30, 300)
-"""Segments of a delta."""
+"""Sizes of an edit, in segments."""
 
 LARGE_EDIT = 6_000
-"""After which the service folds the map's layers, and saves its cache."""
+"""Size of an edit after which the service merges the layers of the map and writes its cache."""
 
 LARGE_BYTES = 3 << 20
-"""Of a map, that grows no further."""
+"""Size of a map file from which the robot replaces the map, bytes."""
 
 
 @dataclass(slots=True)
 class WritingRobot:
-    """Does one operation after the other, each once the answer to the last has come.
+    """Writing robot; sends an operation when the answer to the last one has arrived.
 
     Attributes:
-        robot: its name.
-        template: of its segments.
-        journal: of its map.
-        large: segments of a map that is put whole.
-        draw: what it does next.
-        random: what the segments are.
+        robot: name of the robot.
+        template: template of its segments.
+        journal: journal of its map.
+        large: segments of a large map.
+        draw: random generator of the operations.
+        random: random generator of the segments.
     """
 
     robot: str
@@ -60,22 +60,22 @@ class WritingRobot:
         self.random = np.random.default_rng(self.draw.getrandbits(64))
 
     def choose(self, wanted: str | None = None) -> str:
-        """What to do next; as often as not what is wanted, where that can be."""
+        """Choose the next operation; half of the time `wanted`, if it is possible."""
         known = self.journal.known
         if known is None or len(known.newest.file) > LARGE_BYTES:
             return "put"
-        if len(known.versions) >= KEPT:
+        if len(known.versions) >= MAX_VERSIONS:
             return "compact"
         if wanted is not None and self.draw.random() < 0.5:
             return wanted
         return self.draw.choices([*OPERATIONS], [*OPERATIONS.values()])[0]
 
     def do(self, client: Client, operation: str) -> None:
-        """Do it, and write both down: that it is begun, and that it was acknowledged.
+        """Send an operation; record its begin and its acknowledgment in the journal.
 
         Raises:
-            httpx.TransportError: whether it was done is not known.
-            ServiceError: the service refused it, or failed.
+            httpx.TransportError: the answer is missing; the operation may have taken effect.
+            ServiceError: the service refused the operation or failed.
         """
         known = self.journal.known
         if known is None or operation == "put":
@@ -111,7 +111,7 @@ class WritingRobot:
         self.journal.acknowledge(client.edit_map(self.journal.name, delta).etag)
 
     def _delta(self, content: CompactMap, count: int) -> Delta:
-        """Some segments replaced, some added, some removed."""
+        """Return a delta that replaces, adds and removes some segments."""
         order = self.random.permutation(content.ids)
         replaced, removed = order[: count // 3], order[count // 3 : count // 2]
         first = int(content.ids[-1]) + 1 if len(content) else 0

@@ -1,4 +1,4 @@
-"""Short runs of the crasher, of power cuts and of a fleet, and that they see what is wrong."""
+"""Short runs of the crash, power loss and fleet benchmarks, and their ability to find faults."""
 
 import json
 import random
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.integration
 
 
 def report_of(file: Path, *words: str | float) -> dict[str, Any]:
-    """What `placecell bench` writes."""
+    """Run `placecell bench` and return its report."""
     result = CliRunner().invoke(app, ["bench", *map(str, words), "--json", str(file)])
     assert result.exit_code == 0, result.output
     content: dict[str, Any] = json.loads(file.read_text())
@@ -29,7 +29,7 @@ def report_of(file: Path, *words: str | float) -> dict[str, Any]:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("tiny")
-def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
+def test_killed_service_loses_nothing(tmp_path: Path) -> None:
     report = report_of(tmp_path / "crash.json", "crash", "--kills", 5, "--seed", 1)
     assert report["kills"] == 5
     assert report["losses"] == report["half_seen"] == 0
@@ -43,7 +43,7 @@ def test_nothing_is_lost_when_the_service_is_killed(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("tiny")
-def test_robots_that_share_a_map_end_with_the_same(tmp_path: Path) -> None:
+def test_robots_of_a_fleet_end_with_the_same_map(tmp_path: Path) -> None:
     words = ("fleet", "--minutes", 0.05, "--clients", 8, "--seed", 1)
     report = report_of(tmp_path / "fleet.json", *words)
     assert report["robots_with_the_service_s_map"] == 8
@@ -56,12 +56,12 @@ def test_robots_that_share_a_map_end_with_the_same(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def recorded(tiny: None, tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
-    """A short run; skips where strace cannot watch one."""
+    """A short recorded run; skips if strace cannot trace a process."""
     if which("strace") is None:
         pytest.skip("strace is not installed")
     tried = subprocess.run(["strace", "-D", "true"], capture_output=True, text=True, check=False)
     if tried.returncode:
-        pytest.skip(f"strace cannot watch a process here: {tried.stderr.strip()}")
+        pytest.skip(f"strace cannot trace a process here: {tried.stderr.strip()}")
     return record_run(tmp_path_factory.mktemp("run"), writes=16, large=300, seed=1)
 
 
@@ -69,25 +69,25 @@ PLAN = PowerLossPlan(cuts=30)
 
 
 @pytest.mark.slow
-def test_nothing_is_lost_when_the_power_fails(recorded: RecordedRun, tmp_path: Path) -> None:
-    tally = replay_power_cuts(recorded, PLAN, random.Random(0), tmp_path / "left")
-    assert tally.told == []
-    assert {*tally.results} <= {"good", "landed"}
-    assert len(tally.found) > 15
+def test_power_cut_loses_nothing(recorded: RecordedRun, tmp_path: Path) -> None:
+    findings = replay_power_cuts(recorded, PLAN, random.Random(0), tmp_path / "left")
+    assert findings.faults == []
+    assert {*findings.results} <= {"good", "landed"}
+    assert len(findings.found) > 15
 
 
-def test_what_is_not_synced_is_seen_to_be_lost(recorded: RecordedRun, tmp_path: Path) -> None:
-    """Else the cuts would show nothing."""
+def test_write_that_is_not_synced_is_found_lost(recorded: RecordedRun, tmp_path: Path) -> None:
+    """The benchmark finds a missing sync."""
     steps = [
         step for step in recorded.steps if not (step.kind == "sync" and step.path.endswith("-wal"))
     ]
     careless = replace(recorded, steps=steps)
-    tally = replay_power_cuts(careless, PLAN, random.Random(0), tmp_path / "left")
-    assert tally.results["lost"] > 0
-    assert any("were acknowledged" in told for told in tally.told)
+    findings = replay_power_cuts(careless, PLAN, random.Random(0), tmp_path / "left")
+    assert findings.results["lost"] > 0
+    assert any("were acknowledged" in fault for fault in findings.faults)
 
 
-def test_power_cuts_are_reported(
+def test_report_counts_the_power_cuts(
     tmp_path: Path, recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(power_cuts, "record_run", lambda *_: recorded)

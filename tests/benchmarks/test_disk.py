@@ -1,4 +1,4 @@
-"""The disk that loses what was not synced, and the log that tells what was done to it."""
+"""Simulated disk that loses unsynced changes, and the log of its steps."""
 
 import random
 from pathlib import Path
@@ -13,7 +13,7 @@ ROOT = "/data"
 
 
 def steps(*told: str) -> list[Step]:
-    """Such as `write a hello 3`: to file, what, from where; one after the other."""
+    """Parse steps such as `write a hello 3`: kind, file, data and offset."""
     made = []
     for number, line in enumerate(told):
         kind, name, *more = line.split()
@@ -30,7 +30,7 @@ def steps(*told: str) -> list[Step]:
 
 
 def left(keep: Keep, *told: str) -> dict[str, bytes]:
-    """What a power cut leaves, by name."""
+    """Return the files that a power cut leaves, by name."""
     disk = Disk(("-shm",))
     for step in steps(*told):
         disk.apply(step)
@@ -38,13 +38,13 @@ def left(keep: Keep, *told: str) -> dict[str, bytes]:
     return {path.removeprefix(f"{ROOT}/"): content for path, content in found.items()}
 
 
-def test_what_is_synced_is_kept() -> None:
+def test_synced_write_is_kept() -> None:
     done = ("open a", "write a hello 0", "sync a", "sync .")
     for keep in ("nothing", "everything", "names", "data"):
         assert left(keep, *done) == {"a": b"hello"}
 
 
-def test_what_is_not_synced_may_be_lost() -> None:
+def test_unsynced_write_may_be_lost() -> None:
     done = ("open a", "write a hello 0", "sync a", "sync .", "write a J 0", "write a ! 7")
     assert left("nothing", *done) == left("names", *done) == {"a": b"hello"}
     assert left("everything", *done) == left("data", *done) == {"a": b"Jello\0\0!"}
@@ -52,13 +52,13 @@ def test_what_is_not_synced_may_be_lost() -> None:
     assert some == {b"hello", b"Jello", b"hello\0\0!", b"Jello\0\0!"}
 
 
-def test_a_name_is_kept_by_its_folder() -> None:
+def test_name_is_kept_after_a_sync_of_its_folder() -> None:
     done = ("open a", "write a hello 0", "sync a")
     assert left("nothing", *done) == left("data", *done) == {}
     assert left("names", *done) == {"a": b"hello"}
     replaced = (*done, "sync .", "open b", "write b new 0", "rename b a")
     assert left("nothing", *replaced) == {"a": b"hello"}
-    # The rename has come to the disk, but not what it names: a file of no bytes.
+    # The rename has reached the disk, but not the content of the file: it is empty.
     assert left("names", *replaced) == {"a": b""}
     assert left("everything", *replaced) == {"a": b"new"}
     assert left("nothing", *replaced, "sync b", "sync .") == {"a": b""}
@@ -68,7 +68,7 @@ def test_a_name_is_kept_by_its_folder() -> None:
     assert left("nothing", *safe, "sync .") == {"a": b"new"}
 
 
-def test_removals_and_cuts_may_be_lost_too() -> None:
+def test_unsynced_removal_and_truncation_may_be_lost() -> None:
     done = ("open a", "write a hello 0", "sync a", "sync .", "cut a 2")
     assert left("nothing", *done) == {"a": b"hello"}
     assert left("data", *done) == {"a": b"he"}
@@ -78,7 +78,7 @@ def test_removals_and_cuts_may_be_lost_too() -> None:
     assert left("nothing", *done, "remove a", "sync .") == {}
 
 
-def test_a_file_is_lost_with_its_folder() -> None:
+def test_file_is_lost_with_its_folder() -> None:
     done = ("folder sub", "open sub/a", "write sub/a x 0", "sync sub/a", "sync sub")
     assert left("nothing", *done) == {}
     assert left("nothing", *done, "sync .") == {"sub/a": b"x"}
@@ -88,7 +88,7 @@ def test_shared_memory_is_not_kept() -> None:
     assert left("everything", "open a-shm", "write a-shm x 0") == {}
 
 
-def test_what_is_written_during_a_sync_may_come_too_late() -> None:
+def test_write_during_a_sync_may_be_lost() -> None:
     disk = Disk()
     for step in [
         *(Step("open", 0, 0, "/data/a"), Step("sync", 1, 1, "/data")),
@@ -99,7 +99,7 @@ def test_what_is_written_during_a_sync_may_come_too_late() -> None:
     assert disk.left("nothing", DRAW) == {"/data/a": b""}
 
 
-def test_sectors_of_one_write_are_kept_apart() -> None:
+def test_each_sector_of_a_write_may_be_kept_alone() -> None:
     disk = Disk()
     text = b"a" * SECTOR + b"b" * SECTOR
     for step in [
@@ -108,13 +108,13 @@ def test_sectors_of_one_write_are_kept_apart() -> None:
     ]:
         disk.apply(step)
     assert disk.left("everything", DRAW)["/data/a"] == bytes(100) + text
-    # Sectors begin at multiples of their size in the file, wherever the write does.
+    # Sectors begin at multiples of their size in the file, wherever the write begins.
     first, second, third = SECTOR - 100, 100, SECTOR - 100
     torn = bytes(100) + bytes(first) + b"a" * second + b"b" * third
     assert torn in {disk.left("some", DRAW)["/data/a"] for _ in range(2_000)}
 
 
-def test_files_are_put_into_another_folder(tmp_path: Path) -> None:
+def test_write_files_fills_another_folder(tmp_path: Path) -> None:
     write_files({"/data/a": b"1", "/data/sub/b": b"2"}, Path("/data"), tmp_path)
     assert (tmp_path / "a").read_bytes() == b"1"
     assert (tmp_path / "sub" / "b").read_bytes() == b"2"
@@ -129,7 +129,7 @@ def folder(tmp_path: Path) -> Path:
     return (tmp_path / "data").resolve()
 
 
-def test_the_log_of_strace_is_read(tmp_path: Path, folder: Path) -> None:
+def test_log_of_strace_becomes_steps(tmp_path: Path, folder: Path) -> None:
     file, other = coded(f"{folder}/a"), coded("/elsewhere/a")
     answer = coded("HTTP/1.1 200 OK\r\nX-Request-Id: write-7\r\n\r\n")
     lines = [

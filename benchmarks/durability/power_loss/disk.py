@@ -1,8 +1,8 @@
-"""A disk that loses what it was not told to keep.
+"""Simulated disk that may lose everything that was not synced.
 
-After a power cut a file holds what it held when it was last synced, and of what was written to it
-since any part: writes later than others that are lost, sectors of one write without the others. A
-name that is new, changed or removed is so for certain once its folder was synced.
+After a power cut a file holds its content of the last sync, and any part of the later writes: a
+later write without an earlier one, or some sectors of a write without the others. A new, changed or
+removed file name is certain only after a sync of its folder.
 """
 
 import random
@@ -14,17 +14,17 @@ from typing import Literal
 from benchmarks.durability.power_loss.disk_log import Step
 
 SECTOR = 512
-"""Bytes that a disk writes whole or not at all."""
+"""Number of bytes that a disk writes completely or not at all."""
 
 Keep = Literal["nothing", "everything", "names", "data", "some"]
-"""Of what was not synced: of names, of data, of both, of either by chance."""
+"""Unsynced changes that the disk keeps: none, all, those of names, those of data, or some."""
 
 KEEPS: tuple[Keep, ...] = ("nothing", "everything", "names", "data", "some")
 
 
 @dataclass(slots=True, eq=False)
 class _File:
-    """Content on the disk, and writes and cuts on their way there."""
+    """Synced content of a file, and the later writes and truncations."""
 
     synced: bytearray = field(default_factory=bytearray)
     pending: list[Step] = field(default_factory=list)
@@ -32,7 +32,7 @@ class _File:
 
 @dataclass(slots=True, eq=False)
 class _Change:
-    """Of names, at one moment: what each now stands for, if anything."""
+    """Change of names at one moment: the file of each name; None: the name is removed."""
 
     names: dict[str, _File | None]
     ended: int
@@ -40,10 +40,10 @@ class _Change:
 
 @dataclass(slots=True, eq=False)
 class Disk:
-    """Files of a folder and of folders in it, as the steps of a log made them.
+    """Files of a folder and its subfolders, built by the steps of a log.
 
     Attributes:
-        lost: endings of names that do not outlive their processes, whatever they hold.
+        lost: endings of the names of files that do not outlive their process.
     """
 
     lost: tuple[str, ...] = ()
@@ -53,7 +53,7 @@ class Disk:
     _folders: set[str] = field(default_factory=set)
 
     def apply(self, step: Step) -> bool:
-        """Do a step; whether it made a difference to what a power cut may leave."""
+        """Apply a step; return whether it changes the files that a power cut may leave."""
         if step.kind == "said" or step.path.endswith(self.lost):
             return False
         if step.kind in {"open", "folder"}:
@@ -73,7 +73,7 @@ class Disk:
         return True
 
     def left(self, keep: Keep, draw: random.Random) -> dict[str, bytes]:
-        """Files by their path, as a power cut at this moment may leave them."""
+        """Return the files that a power cut now may leave, by path."""
         names = dict(self._synced)
         for change in self._kept_names(keep, draw):
             _apply(change, names)
@@ -91,7 +91,7 @@ class Disk:
     def _sync(self, step: Step) -> None:
         file = self._names.get(step.path)
         if file is not None:
-            # What was still being written when the sync began may have come too late.
+            # A write that had not ended when the sync began may not be synced.
             done = [write for write in file.pending if write.ended < step.begun]
             file.synced = bytearray(_written(file.synced, done))
             file.pending = [write for write in file.pending if write.ended >= step.begun]
@@ -109,18 +109,24 @@ class Disk:
             return []
         if keep in {"everything", "names"}:
             return self._pending
-        if draw.random() < 0.5:  # as a file system with a journal: no later one without the earlier
+        if draw.random() < 0.5:  # like a journaling file system: a change needs all earlier ones
             return self._pending[: draw.randint(0, len(self._pending))]
         return [change for change in self._pending if draw.random() < 0.5]
 
     def _is_reached(self, path: str, names: Mapping[str, _File]) -> bool:
-        """Whether its folder is there, should that be one that was made."""
+        """Return whether the folder of a file exists, if the log made the folder."""
         folder = str(PurePosixPath(path).parent)
         return folder in names or folder not in self._folders
 
 
 def write_files(files: Mapping[str, bytes], root: Path, folder: Path) -> None:
-    """Put files of one folder into another, which is empty."""
+    """Write files into an empty folder.
+
+    Args:
+        files: content by path.
+        root: folder of these paths.
+        folder: an empty folder.
+    """
     for path, content in files.items():
         copy = folder / Path(path).relative_to(root)
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -148,7 +154,7 @@ def _content(file: _File, keep: Keep, draw: random.Random) -> bytes:
 
 
 def _some(pending: Sequence[Step], draw: random.Random) -> list[Step]:
-    """Writes that came to the disk: the first ones, any ones, or any sectors of them."""
+    """Return the writes that reached the disk: the first ones, any ones, or any sectors of them."""
     chance = draw.random()
     if chance < 0.3:
         return list(pending[: draw.randint(0, len(pending))])
@@ -166,7 +172,10 @@ def _sectors(step: Step) -> list[Step]:
     starts = [step.offset, *range((step.offset // SECTOR + 1) * SECTOR, end, SECTOR)]
     return [
         Step(
-            *("write", step.begun, step.ended, step.path),
+            kind="write",
+            begun=step.begun,
+            ended=step.ended,
+            path=step.path,
             offset=start,
             data=step.data[start - step.offset : stop - step.offset],
         )
@@ -179,7 +188,7 @@ def _written(before: bytes | bytearray, steps: Sequence[Step]) -> bytes:
     for step in steps:
         end = step.offset + len(step.data)
         if len(content) < end or step.kind == "cut":
-            # A hole reads as zeros.
+            # Unwritten bytes read as zeros.
             content = content[:end] + bytes(max(end - len(content), 0))
         content[step.offset : end] = step.data
     return bytes(content)

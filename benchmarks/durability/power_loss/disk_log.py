@@ -1,4 +1,4 @@
-"""What a process did to the files of a folder, in order, as strace tells it."""
+"""Log of all file operations of a process in a folder, read from strace."""
 
 import re
 import shutil
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-Kind = Literal["open", "write", "cut", "sync", "rename", "remove", "folder", "said"]
+StepKind = Literal["open", "write", "cut", "sync", "rename", "remove", "folder", "said"]
 
 TRACED = (
     *("openat", "write", "pwrite64", "lseek", "ftruncate", "fsync", "fdatasync"),
     *("rename", "unlink", "mkdir", "sendto"),
 )
-TOLD = re.compile(rb"^x-request-id: ([\w.-]+)\r$", re.IGNORECASE | re.MULTILINE)
-"""Of an answer of HTTP: the request that it answers."""
+ANSWERED = re.compile(rb"^x-request-id: ([\w.-]+)\r$", re.IGNORECASE | re.MULTILINE)
+"""Header of an HTTP answer: id of the request."""
 
 _PID = re.compile(r"(\d+) +(.*)", re.DOTALL)
 _UNFINISHED = " <unfinished ...>"
@@ -26,18 +26,18 @@ _TEXT = re.compile(r'"((?:\\x[0-9a-f]{2})*)"')
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One thing that was done.
+    """One operation on a file, or one HTTP answer (`said`).
 
     Attributes:
-        kind: what.
-        begun, ended: line numbers; what ended before another began was done before it.
-        path: of the file.
-        to: its new path, of `rename`; the request's id, of `said`.
-        offset: of `write`; the new size, of `cut`.
-        data: of `write`.
+        kind: kind of the operation; `cut` is a truncation.
+        begun, ended: line numbers in the log. A step that ended before another began is earlier.
+        path: path of the file.
+        to: new path of a `rename`; id of the request of a `said`.
+        offset: offset of a `write`; new size of a `cut`.
+        data: content of a `write`.
     """
 
-    kind: Kind
+    kind: StepKind
     begun: int
     ended: int
     path: str
@@ -47,25 +47,25 @@ class Step:
 
 
 def tracer(log: Path) -> tuple[str, ...]:
-    """What to put before a command so that strace writes down what it does.
+    """Return the command prefix with which strace writes the log of a command.
 
     Raises:
-        FileNotFoundError: there is no strace.
+        FileNotFoundError: strace is not installed.
     """
     program = shutil.which("strace")
     if program is None:
-        raise FileNotFoundError("strace is not installed")
-    # -D: the command stays a child of whoever started it; -xx: no character needs care.
+        raise FileNotFoundError("strace is not installed. Install the package 'strace'.")
+    # -D keeps the command a child of the caller; -xx escapes all characters.
     options = ("-f", "-D", "-y", "-xx", "-s", str(1 << 26), "--seccomp-bpf")
     return (program, *options, "-e", f"trace={','.join(TRACED)}", "-o", str(log))
 
 
 def steps_of(logs: Iterable[Path], folder: Path) -> list[Step]:
-    """The steps that concern the folder, and answers of HTTP, in the order in which they began.
+    """Return the steps in a folder and the HTTP answers, in the order of their begin.
 
     Args:
-        logs: of one process each, one after the other.
-        folder: with all that is in it.
+        logs: logs of successive processes.
+        folder: the folder; steps in its subfolders count too.
     """
     found: list[Step] = []
     first = 0
@@ -79,7 +79,7 @@ def steps_of(logs: Iterable[Path], folder: Path) -> list[Step]:
 
 
 def _calls(lines: Iterable[str]) -> Iterator[tuple[int, int, str]]:
-    """Each call that returned: the lines at which it began and ended, and its text."""
+    """Yield each call that returned: the lines of its begin and end, and its text."""
     begun: dict[str, tuple[int, str]] = {}
     for number, line in enumerate(lines):
         match = _PID.match(line.rstrip("\n"))
@@ -96,7 +96,7 @@ def _calls(lines: Iterable[str]) -> Iterator[tuple[int, int, str]]:
 
 
 class _Reader:
-    """Reads calls; knows where each open file is written next."""
+    """Reader of calls; keeps the write position of each open file."""
 
     def __init__(self, folder: str) -> None:
         self._folder = folder
@@ -104,7 +104,7 @@ class _Reader:
 
     def steps(self, begun: int, ended: int, text: str) -> Iterator[Step]:
         match = _CALL.match(text)
-        if match is None:  # it failed, or is no call at all
+        if match is None:  # a call that failed, or another line
             return
         name, arguments, result = match[1], match[2], int(match[3])
         if name == "openat":
@@ -140,9 +140,9 @@ class _Reader:
         elif name == "write":
             self._places[descriptor] = place + result
         if name in {"write", "sendto"}:
-            told = TOLD.search(_data(arguments)) if not path.startswith("/") else None
-            if told:
-                yield Step("said", begun, ended, path, told[1].decode())
+            answer = ANSWERED.search(_data(arguments)) if not path.startswith("/") else None
+            if answer:
+                yield Step("said", begun, ended, path, answer[1].decode())
         if not self._concerns(path):
             return
         numbers = arguments.rsplit(", ", 1)
@@ -166,5 +166,5 @@ def _data(arguments: str) -> bytes:
 
 
 def _bytes(text: str) -> bytes:
-    r"""Of `\x41\x42`."""
+    r"""Return the bytes of an escaped text such as `\x41\x42`."""
     return bytes.fromhex(text.replace("\\x", ""))

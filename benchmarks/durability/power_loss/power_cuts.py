@@ -1,8 +1,8 @@
-"""Power cuts at every moment of a recorded run, and whether what was acknowledged is still there.
+"""Power loss benchmark: cuts the power at every step of a recorded run, and counts lost writes.
 
-A service under strace is written to, one request at a time. Its writes, renames and syncs are then
-replayed onto a disk that keeps only what was synced, and of the rest what chance will; at every
-step the files that a power cut might leave are opened with the store.
+A service runs under strace while a robot writes, one request at a time. All writes, renames and
+syncs are then replayed onto a simulated disk that may lose everything unsynced. At every step the
+store opens the files that a power cut may leave.
 """
 
 import hashlib
@@ -33,21 +33,21 @@ from service.maps.snapshot import tag_of
 from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import Note, StoreError
 
-TOLD = 20
-"""Of what was wrong, in the report."""
+MAX_FAULTS = 20
+"""Largest number of faults in the report."""
 
 Progress = Callable[[Iterable[int], int, str], Iterable[int]]
 
 
 @dataclass(frozen=True, slots=True)
 class PowerLossPlan:
-    """What is done.
+    """Extent of the benchmark.
 
     Attributes:
-        writes: to the service.
+        writes: number of writes to the service.
         large: segments of a large map.
-        cuts: steps at which the power is cut, about; 0: at every one.
-        random_cuts: at each of these, beside those that keep all or nothing.
+        cuts: approximate number of steps at which the power is cut; 0: every step.
+        random_cuts: number of cuts per step that keep a random part of the unsynced changes.
     """
 
     writes: int = 60
@@ -58,12 +58,12 @@ class PowerLossPlan:
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """A moment at which the power fails.
+    """A power cut.
 
     Attributes:
-        answered: writes that were acknowledged before.
-        keep: what the disk keeps of what was not synced.
-        files: that it leaves, by path.
+        answered: number of writes acknowledged before.
+        keep: unsynced changes that the disk keeps.
+        files: files that remain, by path.
     """
 
     answered: int
@@ -73,21 +73,21 @@ class Cut:
 
 @dataclass(slots=True)
 class PowerLossFindings:
-    """What came of the cuts.
+    """Findings of the power cuts.
 
     Attributes:
-        cuts: how many there were, by what the disk kept.
-        found: the maps on each different disk, by its digest; or why they cannot be read.
-        results: how often the maps were as they must be (`good`), or so with a write that had not
-            yet been acknowledged (`landed`); how often an acknowledged one was not there (`lost`),
-            or they were of no one moment or not to be read (`half`).
-        told: what was wrong.
+        cuts: number of cuts, by the unsynced changes that the disk kept.
+        found: maps on each distinct disk by its digest, or the reason why they are unreadable.
+        results: number of cuts with each result. `good`: all acknowledged writes are there.
+            `landed`: so is a write that was not yet acknowledged. `lost`: an acknowledged write is
+            missing. `half`: the maps are of no single moment, or unreadable.
+        faults: description of each fault.
     """
 
     cuts: Counter[str] = field(default_factory=Counter)
     found: dict[bytes, Outline | str] = field(default_factory=dict)
     results: Counter[str] = field(default_factory=Counter)
-    told: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
 
 
 def run_power_cuts(
@@ -96,33 +96,33 @@ def run_power_cuts(
     options: tuple[str, ...] = (),
     progress: Progress = lambda items, *_: items,
 ) -> dict[str, Any]:
-    """Run it; the report as `placecell bench powerloss` writes it.
+    """Run the power cuts; return the report that `placecell bench powerloss` writes.
 
     Args:
-        plan: what is done.
-        seed: of everything that is drawn.
-        options: further ones of `placecell serve`.
+        plan: extent of the benchmark.
+        seed: random seed of all choices.
+        options: further options of `placecell serve`.
         progress: wraps the loop.
 
     Raises:
-        FileNotFoundError: there is no strace.
-        RuntimeError: strace cannot watch the service here.
+        FileNotFoundError: strace is not installed.
+        RuntimeError: strace cannot trace the service on this machine.
     """
     with tempfile.TemporaryDirectory(prefix="placecell-powerloss-") as name:
         recorded = record_run(Path(name), plan.writes, plan.large, seed, options)
-        tally = replay_power_cuts(
+        findings = replay_power_cuts(
             recorded, plan, random.Random(seed), Path(name) / "left", progress
         )
     return {
         "writes": plan.writes,
         "steps": dict(sorted(Counter(step.kind for step in recorded.steps).items())),
-        "power_cuts": tally.cuts.total(),
-        "kept": dict(sorted(tally.cuts.items())),
-        "distinct_disks": len(tally.found),
-        "losses": tally.results["lost"],
-        "half_seen": tally.results["half"],
-        "in_flight_that_landed": tally.results["landed"],
-        "wrong": tally.told[:TOLD],
+        "power_cuts": findings.cuts.total(),
+        "kept": dict(sorted(findings.cuts.items())),
+        "distinct_disks": len(findings.found),
+        "losses": findings.results["lost"],
+        "half_seen": findings.results["half"],
+        "in_flight_that_landed": findings.results["landed"],
+        "wrong": findings.faults[:MAX_FAULTS],
         "machine": machine(),
         "seed": seed,
         "plan": asdict(plan),
@@ -136,24 +136,32 @@ def replay_power_cuts(
     folder: Path,
     progress: Progress = lambda items, *_: items,
 ) -> PowerLossFindings:
-    """Cut the power at every moment, or some, and open what is left each time in the folder."""
-    tally = PowerLossFindings()
+    """Cut the power at every step, or some, and check the files that remain.
+
+    Args:
+        recorded: the run.
+        plan: extent of the benchmark.
+        draw: random generator of the cuts.
+        folder: folder in which the files are opened.
+        progress: wraps the loop.
+    """
+    findings = PowerLossFindings()
     for cut in cuts(recorded, plan, draw, progress):
-        tally.cuts[cut.keep] += 1
+        findings.cuts[cut.keep] += 1
         digest = _digest(cut.files)
-        if digest not in tally.found:
-            tally.found[digest] = read_maps_left(cut.files, recorded.folder, folder)
+        if digest not in findings.found:
+            findings.found[digest] = read_maps_left(cut.files, recorded.folder, folder)
             shutil.rmtree(folder)
-        result, told = judge_maps(recorded, cut.answered, tally.found[digest])
-        tally.results[result] += 1
-        tally.told += [f"{cut.keep} kept: {told}"] if told else []
-    return tally
+        result, fault = judge_maps(recorded, cut.answered, findings.found[digest])
+        findings.results[result] += 1
+        findings.faults += [f"Unsynced changes kept: {cut.keep}. {fault}"] if fault else []
+    return findings
 
 
 def cuts(
     recorded: RecordedRun, plan: PowerLossPlan, draw: random.Random, progress: Progress
 ) -> Iterator[Cut]:
-    """Every moment, or some, in order."""
+    """Yield the power cuts of every step, or of some, in order."""
     disk, answered, count = Disk(UNKEPT), 0, len(recorded.steps)
     chance = plan.cuts / count if plan.cuts else 1.0
     for number in progress(range(count), count, "steps"):
@@ -169,15 +177,15 @@ def cuts(
 
 
 def read_maps_left(files: Mapping[str, bytes], root: Path, folder: Path) -> Outline | str:
-    """The maps in files that a power cut left, after a write that must be possible.
+    """Read the maps in the files that a power cut left, and check that a write succeeds.
 
     Args:
-        files: by path.
-        root: the folder of these paths.
-        folder: an empty one, to open them in.
+        files: content by path.
+        root: folder of these paths.
+        folder: empty folder in which the files are opened.
 
     Returns:
-        The maps; or what is wrong, if they cannot be used or are damaged.
+        The maps, or the reason why they are unreadable or damaged.
     """
     write_files(files, root, folder)
     cache, maps = MapCache(folder), []
@@ -198,10 +206,10 @@ def read_maps_left(files: Mapping[str, bytes], root: Path, folder: Path) -> Outl
 
 
 def judge_maps(recorded: RecordedRun, answered: int, found: Outline | str) -> tuple[str, str]:
-    """Whether maps are as they must be after so many answers.
+    """Compare the maps with those after the acknowledged writes.
 
     Returns:
-        `good`, `landed`, `lost` or `half`, as `Tally` counts them; and what is wrong.
+        `good`, `landed`, `lost` or `half` (see `PowerLossFindings`), and the fault, if any.
     """
     if isinstance(found, str):
         return "half", found
@@ -211,8 +219,8 @@ def judge_maps(recorded: RecordedRun, answered: int, found: Outline | str) -> tu
         return "landed", ""
     if found in recorded.states[:answered]:
         before = recorded.states.index(found)
-        return "lost", f"as after {before} writes; {answered} were acknowledged"
-    return "half", f"as it never was; {answered} writes were acknowledged"
+        return "lost", f"{answered} writes were acknowledged, the maps hold {before}."
+    return "half", f"{answered} writes were acknowledged, the maps are of no single moment."
 
 
 def _number_of(step: Step) -> int:

@@ -1,4 +1,4 @@
-"""A run of the service whose every write, rename and sync is known, and every answer."""
+"""Recorded run of the service: every write, rename and sync, and every answer."""
 
 import hashlib
 import random
@@ -19,19 +19,19 @@ from benchmarks.synthetic_maps.random_maps import MapTemplate
 from service.child_process import Service
 
 UNKEPT = ("-shm", "/lock", "/reserve", "/service.log")
-"""Ends of files that nothing is read from after a start: SQLite's shared memory is made anew."""
+"""Endings of files that a start does not read, such as SQLite's shared memory."""
 
-TIDYING_SECONDS = 1.8
-"""For the service to fold layers and save its caches after the last write."""
+MAINTENANCE_SECONDS = 1.8
+"""Time for the service to merge layers and write its caches after the last write, seconds."""
 
 TRACER_SECONDS = 20.0
-"""For strace to end after the service has."""
+"""Time for strace to end after the service, seconds."""
 
 NAME = "write-"
-"""Begins the name of a request; the number of the write follows."""
+"""Prefix of a request id; the number of the write follows."""
 
 Outline = tuple[tuple[str, tuple[tuple[int, str | None], ...], str], ...]
-"""Of all maps by name: sequence and tag of each version, SHA-256 of the newest one's file."""
+"""All maps by name: number and ETag of each version, SHA-256 of the newest version's file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,27 +49,27 @@ class RecordedRun:
     states: Sequence[Outline]
 
     def check(self) -> None:
-        """See that the steps lead to the files that there are; a call may have been missed.
+        """Check that the steps lead to the files in the data directory.
 
         Raises:
-            RuntimeError: they do not.
+            RuntimeError: they do not, so strace has missed a call.
         """
         disk = Disk(UNKEPT)
         for step in self.steps:
             disk.apply(step)
-        told = disk.left("everything", random.Random(0))
+        logged = disk.left("everything", random.Random(0))
         there = {
             str(path): path.read_bytes()
             for path in self.folder.resolve().rglob("*")
             if path.is_file() and not str(path).endswith(UNKEPT)
         }
-        if told != there:
-            differ = [path for path in told | there if told.get(path) != there.get(path)]
-            raise RuntimeError(f"strace did not tell all that was done to {', '.join(differ)}")
+        if logged != there:
+            differ = [path for path in logged | there if logged.get(path) != there.get(path)]
+            raise RuntimeError(f"strace missed operations on {', '.join(differ)}.")
 
 
 class _Numbered(httpx.BaseTransport):
-    """Names each request after the write that it makes."""
+    """Transport that sets the request id to the number of the write."""
 
     def __init__(self) -> None:
         self._network = httpx.HTTPTransport()
@@ -84,7 +84,7 @@ class _Numbered(httpx.BaseTransport):
 
 
 class _Recorder:
-    """Writes to a service under strace, one request after the other."""
+    """Recorder: writes to a service under strace, one request after the other."""
 
     def __init__(self, data_dir: Path, options: tuple[str, ...], large: int, seed: int) -> None:
         self._data_dir = data_dir
@@ -96,12 +96,12 @@ class _Recorder:
         self.states: list[Outline] = [()]
 
     def run(self, log: Path, writes: int, is_killed: bool) -> None:
-        """From a start of the service to its end, with so many writes more."""
+        """Start the service, send `writes` writes, and stop or kill it."""
         service = Service(self._data_dir, *self._options, tracer=tracer(log))
         try:
             with Client(service.address(), transport=self._numbered) as client:
                 self._write(client, writes)
-            time.sleep(TIDYING_SECONDS)
+            time.sleep(MAINTENANCE_SECONDS)
         finally:
             service.kill() if is_killed else service.stop()
         _wait_for_end(log)
@@ -111,7 +111,10 @@ class _Recorder:
         if not self._writers:
             self._writers = [
                 WritingRobot(
-                    *(f"robot-{number}", template, Journal(f"map-{number}"), self._large),
+                    robot=f"robot-{number}",
+                    template=template,
+                    journal=Journal(f"map-{number}"),
+                    large=self._large,
                     draw=random.Random(self._draw.getrandbits(64)),
                 )
                 for number in range(2)
@@ -126,18 +129,18 @@ class _Recorder:
 def record_run(
     folder: Path, writes: int, large: int, seed: int = 0, options: tuple[str, ...] = ()
 ) -> RecordedRun:
-    """Write to a service that is killed in the middle, started again, and stopped.
+    """Record writes to a service that is killed half-way, restarted, and stopped.
 
     Args:
-        folder: an empty one.
-        writes: how many.
+        folder: an empty folder.
+        writes: number of writes.
         large: segments of a large map.
-        seed: of the writes.
-        options: further ones of `placecell serve`.
+        seed: random seed of the writes.
+        options: further options of `placecell serve`.
 
     Raises:
-        FileNotFoundError: there is no strace.
-        RuntimeError: the service did not start, or strace cannot watch it.
+        FileNotFoundError: strace is not installed.
+        RuntimeError: the service did not start, or strace cannot trace it.
     """
     data_dir = folder / "data"
     logs = [folder / "killed.log", folder / "stopped.log"]
@@ -150,7 +153,7 @@ def record_run(
 
 
 def _outline(journals: Sequence[Journal]) -> Outline:
-    """Of maps as they are known."""
+    """Return the outline of the maps that the journals expect."""
     return tuple(
         (
             journal.name,
@@ -163,9 +166,9 @@ def _outline(journals: Sequence[Journal]) -> Outline:
 
 
 def _wait_for_end(log: Path) -> None:
-    """Until strace has written down that the service has ended."""
+    """Wait until strace has logged the end of the service."""
     deadline = time.monotonic() + TRACER_SECONDS
     while not re.search(rb"\+\+\+ (exited|killed)[^\n]*\n\Z", log.read_bytes()[-200:]):
         if time.monotonic() > deadline:
-            raise RuntimeError("strace did not come to an end")
+            raise RuntimeError(f"strace did not end within {TRACER_SECONDS:g} s after the service.")
         time.sleep(0.05)
