@@ -97,16 +97,16 @@ def demo(
 def conclude(meeting: "Meeting") -> list[tuple[str, str]]:
     """Return the claims of the demo, each with the reason why it failed; empty if it holds."""
     poses = merged = ""
-    if not meeting.is_told:
-        wrong = sum(each.place is not None for each in meeting.told)
+    if not meeting.is_localized:
+        wrong = sum(each.position is not None for each in meeting.answers)
         poses = (
-            f"Robot B was never localized rightly: of {len(meeting.told)} answers {wrong} are "
+            f"Robot B was never localized rightly: of {len(meeting.answers)} answers {wrong} are "
             "wrong poses, the others are 'not localized'"
         )
-    if meeting.laid is None:
+    if meeting.alignment is None:
         merged = f"The two maps could not be aligned ({meeting.refusal})"
     elif not meeting.is_merged:
-        meters, degrees = meeting.off
+        meters, degrees = meeting.alignment_error
         merged = f"The alignment of the two maps is {meters:.1f} m and {degrees:.1f} deg off"
     return [
         ("Robot B is localized in robot A's map", poses),

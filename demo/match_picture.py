@@ -1,4 +1,4 @@
-"""The demo's first picture: both paths, both maps, and a line for each match."""
+"""First picture of the demo: both paths, both maps, and a line for each match."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,7 +22,17 @@ def draw_matches(
     right: Bool,
     title: str,
 ) -> None:
-    """Draw the asking robot's segments beside the map, each joined to its first candidate."""
+    """Draw robot B's segments beside robot A's map, each with a line to its first candidate.
+
+    Args:
+        file: PNG file to write.
+        mapper: robot A.
+        asker: robot B.
+        map_centroids: float64 (n, 3), segment centroids of robot A's map, in its frame.
+        answers: candidates of each query.
+        right: bool (queries,), whether the first candidate is right.
+        title: title of the picture.
+    """
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -32,7 +42,7 @@ def draw_matches(
 
     map_points = in_frame(mapper.to_common, map_centroids)[:, :2]
     queries = np.array([answer.centroid[:2] for answer in answers])
-    # The asker's half is moved aside along the shorter side of the map.
+    # Robot B's half is moved aside, along the shorter side of the map.
     extent = np.ptp(map_points, axis=0)
     axis = int(extent.argmin())
     aside = np.zeros(2)
@@ -43,11 +53,15 @@ def draw_matches(
         map_points[:, 1],
         s=3,
         color="0.6",
-        label=f"{mapper.name}: segments of the map",
+        label=f"segments of {mapper.name}: the map",
     )
-    asked = queries + aside
+    shifted = queries + aside
     axes.scatter(
-        asked[:, 0], asked[:, 1], s=3, color="0.8", label=f"{asker.name}: segments it sent"
+        shifted[:, 0],
+        shifted[:, 1],
+        s=3,
+        color="0.8",
+        label=f"segments of {asker.name}: the queries",
     )
     for robot, shift, color in ((mapper, 0 * aside, "#1f5fa8"), (asker, aside, "#7a3fa0")):
         for recording in robot.recordings:

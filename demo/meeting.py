@@ -1,4 +1,4 @@
-"""Two robots meet: the one is told its pose in the other's map, and both maps become one."""
+"""Second part of the demo: robot B localizes in robot A's map, and both maps are merged."""
 
 import time
 from collections.abc import Sequence
@@ -17,78 +17,78 @@ from placecell.localization import Pose
 from placecell.segmentation.recording import Recording
 
 SITE = "site"
-"""Name of the map of both."""
+"""Name of the merged map."""
 
 
 @dataclass(frozen=True, slots=True)
 class PoseAnswer:
-    """What the service told of one frame.
+    """Answer to one localization request, compared with the truth.
 
     Attributes:
-        sensor: float64 (3,), where the robot truly was, metres, in the map's frame.
-        place: float64 (3,), where it is by the pose; None: not localised.
-        metres, degrees: that the pose is off; infinite without one.
-        milliseconds: of the request.
+        sensor: float64 (3,), true sensor position in the map's frame, meters.
+        position: float64 (3,), sensor position by the answer; None: not localized.
+        error_m, error_deg: error of the pose, meters and degrees; infinite without a pose.
+        milliseconds: duration of the request.
     """
 
     sensor: Float64
-    place: Float64 | None
-    meters: float
-    degrees: float
+    position: Float64 | None
+    error_m: float
+    error_deg: float
     milliseconds: float
 
     @property
     def is_right(self) -> bool:
-        """Whether the pose is as near to the truth as a right one must be."""
-        return self.meters <= RIGHT[0] and self.degrees <= RIGHT[1]
+        """Return whether the pose is within the tolerance of a right pose."""
+        return self.error_m <= RIGHT[0] and self.error_deg <= RIGHT[1]
 
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """What came of it.
+    """Results of robot B's localization and of the merge.
 
     Attributes:
-        told: of each frame.
-        laid: from the asking robot's frame to the map's, as the merge found it; None: it did not.
-        off: metres and degrees between that and the truth, where the robot drove.
-        segments: of the site; 0 if there is none.
-        repeats: of the asking robot's segments, that the map's already showed.
-        refusal: why the maps were not merged, in the service's words; empty if they were.
+        answers: answer to each localization request.
+        alignment: transform from robot B's frame into the map's; None: the maps were not aligned.
+        alignment_error: error of the alignment along robot B's path, meters and degrees.
+        segments: number of segments of the merged map; 0: there is no merged map.
+        repeats: number of robot B's segments that the map already had.
+        refusal: reason of the service for not merging; empty if the maps were merged.
     """
 
-    told: Sequence[PoseAnswer]
-    laid: Pose | None
-    off: tuple[float, float]
+    answers: Sequence[PoseAnswer]
+    alignment: Pose | None
+    alignment_error: tuple[float, float]
     segments: int
     repeats: int
     refusal: str = ""
 
     @property
-    def is_told(self) -> bool:
-        """Whether the robot was told its right pose anywhere."""
-        return any(each.is_right for each in self.told)
+    def is_localized(self) -> bool:
+        """Return whether at least one answer is right."""
+        return any(each.is_right for each in self.answers)
 
     @property
     def is_merged(self) -> bool:
-        """Whether the maps lie on each other as near as a right pose must be."""
-        return self.off[0] <= RIGHT[0] and self.off[1] <= RIGHT[1]
+        """Return whether the alignment of the merged maps is within the tolerance of a pose."""
+        return self.alignment_error[0] <= RIGHT[0] and self.alignment_error[1] <= RIGHT[1]
 
     def figures(self) -> dict[str, Any]:
-        """For the terminal and for JSON."""
-        right = [each for each in self.told if each.is_right]
-        told = sum(each.place is not None for each in self.told)
-        milliseconds = [each.milliseconds for each in self.told]
+        """Return the figures for the terminal and for JSON."""
+        right = [each for each in self.answers if each.is_right]
+        localized = sum(each.position is not None for each in self.answers)
+        milliseconds = [each.milliseconds for each in self.answers]
         return {
-            "poses_asked": len(self.told),
+            "poses_asked": len(self.answers),
             "poses_right": len(right),
-            "poses_wrong": told - len(right),
-            "not_localised": len(self.told) - told,
-            "pose_median_m": _median([each.meters for each in right]),
-            "pose_median_deg": _median([each.degrees for each in right]),
+            "poses_wrong": localized - len(right),
+            "not_localised": len(self.answers) - localized,
+            "pose_median_m": _median([each.error_m for each in right]),
+            "pose_median_deg": _median([each.error_deg for each in right]),
             "localize_p50_ms": round(float(np.median(milliseconds)), 1),
-            "maps_merged": self.laid is not None,
-            "merged_off_m": round(self.off[0], 3) if self.laid else None,
-            "merged_off_deg": round(self.off[1], 3) if self.laid else None,
+            "maps_merged": self.alignment is not None,
+            "merged_off_m": round(self.alignment_error[0], 3) if self.alignment else None,
+            "merged_off_deg": round(self.alignment_error[1], 3) if self.alignment else None,
             "segments_in_site": self.segments,
             "repeats_left_out": self.repeats,
         }
@@ -101,14 +101,20 @@ def localize_and_merge(
     name: str,
     views: Sequence[tuple[int, Segments]],
 ) -> Meeting:
-    """Ask where the robot is, view by view; then upload its map, and merge both.
+    """Localize robot B in robot A's map, then upload robot B's map and merge both.
 
     Args:
-        name: of the mapper's map, which is there.
-        views: frames of the asker.
+        mapper: robot A.
+        asker: robot B.
+        client: client of the service.
+        name: name of robot A's map in the service.
+        views: scan and segments of each capture of robot B that is localized.
+
+    Raises:
+        ServiceError: the service failed; a refusal to merge is part of the result.
     """
     truth = Pose.of_matrix(mapper.to_common).inverse().after(Pose.of_matrix(asker.to_common))
-    told = [_ask(asker, client, name, scan, segments, truth) for scan, segments in views]
+    answers = [_localize(asker, client, name, scan, segments, truth) for scan, segments in views]
     own = asker.name.replace(" ", "_")
     client.put_map(own, encode(asker.build_map(client, frame=asker.name)))
     try:
@@ -117,17 +123,17 @@ def localize_and_merge(
         if not error.type.endswith(":not-aligned"):
             raise
         (pair,) = client.merge_maps(SITE, [name, own], dry_run=True).alignments
-        return Meeting(told, None, (np.inf, np.inf), 0, 0, pair.detail)
+        return Meeting(answers, None, (np.inf, np.inf), 0, 0, pair.detail)
     part = merge.parts[1]
-    assert part.pose is not None  # else the answer would be that error
-    laid = Pose.of_matrix(part.pose.matrix)
+    assert part.pose is not None  # an unaligned part is a service error
+    alignment = Pose.of_matrix(part.pose.matrix)
     middle = asker.drive.poses[:, :3, 3].mean(axis=0)
-    meters, angle = laid.difference(truth, middle)
-    off = meters, float(np.degrees(angle))
-    return Meeting(told, laid, off, merge.segments, part.repeats)
+    meters, angle = alignment.difference(truth, middle)
+    difference = meters, float(np.degrees(angle))
+    return Meeting(answers, alignment, difference, merge.segments, part.repeats)
 
 
-def _ask(
+def _localize(
     asker: Robot, client: Client, name: str, scan: int, segments: Segments, truth: Pose
 ) -> PoseAnswer:
     started = time.perf_counter()
@@ -143,10 +149,13 @@ def _ask(
 
 
 def in_own_frame(robot: Robot, frame: Pose) -> Robot:
-    """The same robot, with another world: nothing tells how that lies to anybody else's.
+    """Return the robot with its drive and segments moved into another frame.
+
+    The service then knows nothing about the transform between the frames of the robots.
 
     Args:
-        frame: from its world to the other.
+        robot: the robot.
+        frame: transform from the robot's frame into the other frame.
     """
     drive = copy(robot.drive)
     drive.poses = frame.matrix @ robot.drive.poses

@@ -1,4 +1,4 @@
-"""The demo's second picture: the merged map of both robots, and the poses of robot B."""
+"""Second picture of the demo: the merged map of both robots, and the poses of robot B."""
 
 from pathlib import Path
 
@@ -15,10 +15,14 @@ MAPPER, ASKER = "#1f5fa8", "#7a3fa0"
 def draw_site(
     file: Path, mapper: Robot, asker: Robot, centroids: Float64, meeting: Meeting
 ) -> None:
-    """Draw the segments of both robots, the mapper's path, and each pose of the asker.
+    """Draw the segments of both robots, the path of robot A, and each pose of robot B.
 
     Args:
-        centroids: float64 (n, 3), segments of the mapper's map, in its frame.
+        file: PNG file to write.
+        mapper: robot A.
+        asker: robot B.
+        centroids: float64 (n, 3), segment centroids of robot A's map, in its frame.
+        meeting: results of the localization and the merge.
     """
     import matplotlib as mpl
 
@@ -28,22 +32,25 @@ def draw_site(
     figure, axes = plt.subplots(figsize=(11, 8), layout="constrained")
     axes.scatter(centroids[:, 0], centroids[:, 1], s=14, color="0.6", linewidths=0)
     axes.plot([], [], "o", color="0.6", markersize=4, label=f"segments of {mapper.name}")
-    way = mapper.drive.poses[np.unique(np.concatenate([r.captures for r in mapper.recordings]))]
-    axes.plot(*way[:, :2, 3].T, ".", color=MAPPER, markersize=3, label=f"path of {mapper.name}")
-    if meeting.laid is not None:
+    path = mapper.drive.poses[np.unique(np.concatenate([r.captures for r in mapper.recordings]))]
+    axes.plot(*path[:, :2, 3].T, ".", color=MAPPER, markersize=3, label=f"path of {mapper.name}")
+    if meeting.alignment is not None:
         seen = np.concatenate([each.segments.centroids() for each in asker.recordings])
-        seen = meeting.laid.apply(seen)
+        seen = meeting.alignment.apply(seen)
         axes.scatter(seen[:, 0], seen[:, 1], s=3, color=ASKER, linewidths=0)
         label = f"segments of {asker.name}, aligned"
         axes.plot([], [], "o", color=ASKER, markersize=4, label=label)
-    told = [each for each in meeting.told if each.place is not None]
-    for right, color, what in ((True, RIGHT, "right"), (False, WRONG, "wrong")):
-        places = np.array([each.place for each in told if each.is_right == right]).reshape(-1, 3)
-        label = f"pose of {asker.name}, {what}: {len(places)}"
+    localized = [each for each in meeting.answers if each.position is not None]
+    for right, color, name in ((True, RIGHT, "right"), (False, WRONG, "wrong")):
+        shown = [each.position for each in localized if each.is_right == right]
+        places = np.array(shown).reshape(-1, 3)
+        label = f"poses of {asker.name}, {name}: {len(places)}"
         axes.plot(
             *places[:, :2].T, "o", color=color, markersize=7, markeredgecolor="black", label=label
         )
-    unknown = np.array([each.sensor for each in meeting.told if each.place is None]).reshape(-1, 3)
+    unknown = np.array([each.sensor for each in meeting.answers if each.position is None]).reshape(
+        -1, 3
+    )
     label = f"not localized: {len(unknown)}"
     axes.plot(*unknown[:, :2].T, "x", color="black", markersize=7, label=label)
     axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.14))

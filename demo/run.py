@@ -1,4 +1,4 @@
-"""The demo: robot A shares its map through the service, robot B finds its place in it."""
+"""First part of the demo: robot A shares its map through the service, robot B matches in it."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,20 +16,20 @@ from service.child_process import running_service
 MAP = "robot_a"
 K = 25
 REQUESTS = 60
-"""Frames that robot B asks about: enough for percentiles, few enough to wait for."""
+"""Largest number of requests of robot B: enough for percentiles, few enough to wait for."""
 
 SHORT_METERS = 24.0
-"""Below two blocks of 12 m a drive is short."""
+"""Length below which a drive is short, meters: two blocks of 12 m."""
 
 
 @dataclass(frozen=True, slots=True)
 class DemoResult:
-    """What the demo measured.
+    """Results of the demo.
 
     Attributes:
-        score: candidates right.
-        figures: of the map, the requests, the drive; for the terminal and for JSON.
-        meeting: poses, and the map of both; None if they were not asked for.
+        score: score of the candidates.
+        figures: figures of the drive, the map and the requests, for the terminal and for JSON.
+        meeting: results of the localization and the merge; None if they were not run.
     """
 
     score: Score
@@ -40,13 +40,15 @@ class DemoResult:
 def run_demo(
     mapper: Robot, asker: Robot, folder: Path, model: str, pictures: Path | None = None
 ) -> DemoResult:
-    """Start the service, upload A's map, let B ask, score.
+    """Start the service, upload robot A's map, match robot B's segments, and score the matches.
 
     Args:
-        folder: for the service's data.
-        model: by name.
-        pictures: folder of the pictures. With one, robot B asks for its pose too, and both maps
-            are merged.
+        mapper: robot A.
+        asker: robot B.
+        folder: data directory of the service.
+        model: name of the model.
+        pictures: folder of the pictures; if given, robot B is also localized, and both maps are
+            merged.
 
     Raises:
         ValueError: a robot saw no segments.
@@ -85,7 +87,7 @@ def run_demo(
         from demo.match_picture import draw_matches
         from demo.merged_map_picture import draw_site
 
-        title = f"Segments of {asker.name}, matched in the map of {mapper.name}"
+        title = f"Segments of {asker.name}, matched to the map of {mapper.name}"
         right = result.first_is_right
         matches = pictures / "matches.png"
         draw_matches(matches, mapper, asker, compact.centroids, answers, right, title)
@@ -95,5 +97,5 @@ def run_demo(
 
 
 def is_short(drive: Drive) -> bool:
-    """Whether a drive has less than two whole blocks."""
+    """Return whether a drive has less than two whole blocks."""
     return drive.path_length() < SHORT_METERS

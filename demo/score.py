@@ -1,4 +1,4 @@
-"""Candidates between robots: right if its centroid lies within 1.5 m of the query's."""
+"""Score of matches between robots: a candidate within 1.5 m of the query is right."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,15 +16,15 @@ BETTER_THAN_CHANCE = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """How many queries were answered rightly.
+    """Shares of queries with right candidates.
 
     Attributes:
-        queries: all of them.
-        findable: those with a segment of the map within 1.5 m at all.
-        chance: the share of the findable ones that a random candidate would be right for.
-        right: by cut, the share of the findable ones with a right candidate among the first so
-            many; empty if none was findable.
-        first_is_right: bool (queries,).
+        queries: number of queries.
+        findable: number of queries with a map segment within 1.5 m.
+        chance: probability that a random candidate of a findable query is right.
+        right: for each cut k, the share of findable queries with a right candidate among the first
+            k; empty if no query is findable.
+        first_is_right: bool (queries,), whether the first candidate is right.
     """
 
     queries: int
@@ -35,16 +35,17 @@ class Score:
 
     @property
     def recognized(self) -> bool:
-        """Whether first candidates are right far more often than by chance."""
+        """Return whether first candidates are right far more often than by chance."""
         return bool(self.right) and self.right[1] > BETTER_THAN_CHANCE * self.chance
 
 
 def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64) -> Score:
-    """Compare the answers with the true places.
+    """Compare candidates with the true positions.
 
     Args:
-        map_centroids: of the map's segments, float64 (n, 3), in the map's frame.
-        to_common: transform (4, 4) from the map's frame to the common one.
+        answers: candidates of each query.
+        map_centroids: float64 (n, 3), segment centroids of the map, in its frame.
+        to_common: transform (4, 4) from the map's frame to the common frame.
     """
     truth = cKDTree(in_frame(to_common, map_centroids))
     around = np.array(
@@ -58,12 +59,12 @@ def score(answers: Sequence[Answer], map_centroids: Float64, to_common: Float64)
 
 
 def first_right(answer: Answer, to_common: Float64) -> float:
-    """Rank of the first right candidate, from 0; infinite if there is none."""
+    """Return the rank of the first right candidate, from 0; infinite if there is none."""
     offsets = in_frame(to_common, answer.candidates) - answer.centroid
     right = np.flatnonzero(np.linalg.norm(offsets, axis=1) <= RIGHT_METERS)
     return float(right[0]) if len(right) else np.inf
 
 
 def in_frame(transform: Float64, points: Float64) -> Float64:
-    """Points (n, 3) moved by a rigid transform (4, 4)."""
+    """Return points (n, 3) transformed by a rigid transform (4, 4)."""
     return np.asarray(points @ transform[:3, :3].T + transform[:3, 3])

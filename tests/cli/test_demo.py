@@ -22,9 +22,9 @@ WRONG = PoseAnswer(HERE, HERE + 30, 52.0, 0.1, 5.0)
 LOST = PoseAnswer(HERE, None, np.inf, np.inf, 5.0)
 
 LAID = Meeting([LOST, RIGHT], Pose.of_matrix(np.eye(4)), (0.1, 0.2), 9, 1)
-NOWHERE = Meeting([LOST, WRONG, LOST], LAID.laid, LAID.off, 9, 1)
+NOWHERE = Meeting([LOST, WRONG, LOST], LAID.alignment, LAID.alignment_error, 9, 1)
 APART = Meeting([RIGHT], None, (np.inf, np.inf), 0, 0, "7 segments in a map.")
-ASIDE = Meeting([RIGHT], LAID.laid, (4.25, 0.5), 9, 1)
+ASIDE = Meeting([RIGHT], LAID.alignment, (4.25, 0.5), 9, 1)
 NOTHING = Meeting([LOST], None, (np.inf, np.inf), 0, 0, "7 segments in a map.")
 
 SHORT, LONG = 20, 30

@@ -1,4 +1,4 @@
-"""Two robots meet, and the service refuses to merge their maps."""
+"""Results of the demo if the service refuses to merge the maps."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,7 +15,7 @@ from tests.service.service_builders import write_eigenvalue_model
 
 
 class Refusing:
-    """A service that merges nothing, and tells why when it is asked what it would do."""
+    """Service that refuses to merge, and gives the reason in a dry run."""
 
     def __init__(self, engine: Engine, kind: str) -> None:
         self.describe, self.info = engine.describe, engine.info
@@ -42,13 +42,13 @@ def meeting(folder: Path, kind: str) -> Any:
         )
 
 
-def test_maps_that_cannot_be_laid_are_told_with_the_reason(tmp_path: Path) -> None:
+def test_maps_that_cannot_be_aligned_are_reported_with_the_reason(tmp_path: Path) -> None:
     met = meeting(tmp_path, "not-aligned")
-    assert (met.laid, met.refusal) == (None, "They lie apart.")
+    assert (met.alignment, met.refusal) == (None, "They lie apart.")
     assert not met.is_merged
-    assert not met.is_told
+    assert not met.is_localized
 
 
-def test_another_refusal_is_no_outcome(tmp_path: Path) -> None:
+def test_other_service_error_is_raised(tmp_path: Path) -> None:
     with pytest.raises(ServiceError):
         meeting(tmp_path, "other-model")

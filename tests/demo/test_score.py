@@ -1,4 +1,4 @@
-"""The demo's score, by hand."""
+"""Score of the demo, compared with values computed by hand."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ def answer(centroid: list[float], *candidates: list[float]) -> Answer:
     return Answer(np.array(centroid), np.array(candidates).reshape(-1, 3), np.zeros(3))
 
 
-def test_candidates_count_within_a_meter_and_a_half_of_the_true_place() -> None:
+def test_candidate_within_one_and_a_half_meters_is_right() -> None:
     # The map's frame lies 100 m east of the common one.
     to_common = np.eye(4)
     to_common[0, 3] = 100.0
@@ -31,7 +31,7 @@ def test_candidates_count_within_a_meter_and_a_half_of_the_true_place() -> None:
     assert result.first_is_right.tolist() == [True, False, False, False]
 
 
-def test_a_query_without_candidates_is_wrong_and_nothing_findable_gives_no_shares() -> None:
+def test_query_without_candidates_is_wrong_and_no_findable_query_gives_no_shares() -> None:
     nothing = score([answer([0.0, 0.0, 0.0])], np.array([[50.0, 0.0, 0.0]]), np.eye(4))
     assert nothing.findable == 0
     assert nothing.right == {}
@@ -39,7 +39,7 @@ def test_a_query_without_candidates_is_wrong_and_nothing_findable_gives_no_share
     assert missed.right[25] == 0.0
 
 
-def test_recognized_means_far_better_than_chance() -> None:
+def test_score_is_recognized_if_far_better_than_chance() -> None:
     mapped = np.stack([np.arange(0.0, 100.0, 10.0), np.zeros(10), np.zeros(10)], axis=1)
     right = [answer([10.0 * at, 0.0, 0.0], [10.0 * at, 0.0, 0.0]) for at in range(4)]
     wrong = [answer([10.0 * at, 0.0, 0.0], [90.0, 0.0, 0.0]) for at in range(4, 9)]

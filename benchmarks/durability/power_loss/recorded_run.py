@@ -36,12 +36,12 @@ Outline = tuple[tuple[str, tuple[tuple[int, str | None], ...], str], ...]
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """What a service did to its disk.
+    """Recorded run of a service.
 
     Attributes:
-        folder: its data directory.
-        steps: in order; those of template `said` tell of an answer.
-        states: the maps after so many answers.
+        folder: data directory of the service.
+        steps: file operations and answers (`said`), in order.
+        states: maps after each number of acknowledged writes.
     """
 
     folder: Path
