@@ -8,7 +8,7 @@ from typing import Annotated, ParamSpec, TypeVar
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
-from service.api.admission.admission import Lane
+from service.api.admission.admission import Lane, admitted
 from service.api.audit import record, record_write
 from service.api.path_parameters import Name
 from service.api.state import State
@@ -114,7 +114,9 @@ class MapWrite:
         **kwargs: Parameters.kwargs,
     ) -> Result:
         """Run a write in the threads of the lane."""
-        result = await self.state.run(work, *args, **kwargs)
+        request = admitted()
+        assert request is not None  # `receive` or `enter` has entered a lane
+        result = await request.run(lambda: work(*args, **kwargs))
         self.timing.lap("commit")
         return result
 

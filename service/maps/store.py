@@ -281,3 +281,23 @@ def mark_of(link: str, note: Note) -> str:
     """
     told = [float(note.time), note.author, note.operation, note.changed, note.removed]
     return hashlib.sha256(f"{link}\n{json.dumps(told)}".encode()).hexdigest()
+
+
+def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
+    """Build the commit that follows the version with this mark."""
+    # With the number type that the database returns.
+    note = Note(float(note.time), note.author, note.operation, note.changed, note.removed)
+    link = link_of(before, sequence, blob)
+    return Commit(sequence, note, size, mark_of(link, note), link)
+
+
+def is_own_mark(commit: Commit) -> bool:
+    """Check a commit's note and link against its mark; true for commits of version 1."""
+    return not commit.link or mark_of(commit.link, commit.note) == commit.mark
+
+
+def follows(before: str, commit: Commit, blob: bytes) -> bool:
+    """Check that a commit with this blob follows the version with this mark."""
+    link = link_of(before, commit.sequence, blob)
+    known = commit.link or commit.mark
+    return link == known and is_own_mark(commit) and commit.bytes == len(blob)

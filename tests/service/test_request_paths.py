@@ -17,8 +17,11 @@ from tests.service.service_builders import cloud, map_of, random_codes, request_
 MOST = 15
 """Largest number of files that a request for recognition passes."""
 
-MOST_OF_UPLOAD = 18
-"""Largest number of files that an upload passes."""
+MOST_OF_UPLOAD = 12
+"""Largest number of files that an upload of a new map passes."""
+
+MOST_OF_REPLACEMENT = 15
+"""Largest number of files that an upload passes that replaces a map: it is compared as well."""
 
 
 def ended_by(trace: Trace, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -87,4 +90,5 @@ def test_upload_passes_few_files_from_route_to_sqlite(
                 assert answer.status_code == (200 if seed else 201)
     assert trace.has_ended
     assert "service/maps/sqlite/store.py" in trace.passed
-    assert len(trace.passed) <= MOST_OF_UPLOAD, trace.passed
+    most = MOST_OF_REPLACEMENT if replaces else MOST_OF_UPLOAD
+    assert len(trace.passed) <= most, trace.passed

@@ -4,8 +4,8 @@ import hashlib
 import sqlite3
 from collections.abc import Iterator
 
-from service.maps.sqlite.tables import COMMIT, commit_from, follows, is_own_mark
-from service.maps.store import Commit, MapHead, StoreError
+from service.maps.sqlite.tables import COMMIT, commit_from
+from service.maps.store import Commit, MapHead, StoreError, follows, is_own_mark
 
 
 class SqliteHistory:

@@ -19,7 +19,6 @@ from service.maps.sqlite.tables import (
     HEAD,
     SCHEMA,
     VERSION,
-    commit_after,
     fill,
     head_from,
     head_of,
@@ -39,6 +38,7 @@ from service.maps.store import (
     Owner,
     StoreError,
     TooManyIdsError,
+    commit_after,
 )
 
 FILE = "maps.sqlite"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from service.maps.sqlite.owners import Owners
-from service.maps.store import Commit, MapHead, Note, StoreError, link_of, mark_of
+from service.maps.store import Commit, MapHead, Note, StoreError
 
 VERSION = 2
 
@@ -158,26 +158,6 @@ def commit_from(row: Sequence[Any]) -> Commit:
     """Build a commit from a row of `COMMIT`."""
     sequence, *note, size, mark, link = row
     return Commit(sequence, Note(*note), size, mark, link)
-
-
-def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:
-    """Build the commit that follows the version with this mark."""
-    # With the number type that the database returns.
-    note = Note(float(note.time), note.author, note.operation, note.changed, note.removed)
-    link = link_of(before, sequence, blob)
-    return Commit(sequence, note, size, mark_of(link, note), link)
-
-
-def is_own_mark(commit: Commit) -> bool:
-    """Check a commit's note and link against its mark; true for commits of version 1."""
-    return not commit.link or mark_of(commit.link, commit.note) == commit.mark
-
-
-def follows(before: str, commit: Commit, blob: bytes) -> bool:
-    """Check that a commit with this blob follows the version with this mark."""
-    link = link_of(before, commit.sequence, blob)
-    known = commit.link or commit.mark
-    return link == known and is_own_mark(commit) and commit.bytes == len(blob)
 
 
 def insert_commit(

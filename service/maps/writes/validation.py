@@ -1,44 +1,37 @@
 """Validation of uploaded map and delta files against the loaded models."""
 
-from placecell_client import CompactMap, Delta, MapFileError, decode, decode_delta
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Literal
+
+from placecell_client import CompactMap, Delta, MapFileError
 
 from service.core.problems import Problem
-from service.inference.model_registry import Models
+from service.inference.model_registry import Model
+
+FileKind = Literal["map", "delta"]
 
 
-def read_map_file(data: bytes, models: Models) -> CompactMap:
-    """Decode an uploaded map file.
+@contextmanager
+def reading(kind: FileKind) -> Iterator[None]:
+    """Turn an error of an uploaded file's decoding into a problem.
 
     Raises:
-        Problem: 422 if the bytes are not a valid map file, 409 if its model is not loaded.
+        Problem: 422 if the bytes are not a valid file of this kind.
     """
     try:
-        content = decode(data)
+        yield
     except MapFileError as error:
         raise Problem(
             422,
-            "invalid-map-file",
-            f"The body is not a complete map file: {error}. Encode the map again and resend it.",
+            f"invalid-{kind}-file",
+            f"The body is not a complete {kind} file: {error}. "
+            f"Encode the {kind} again and resend it.",
         ) from error
-    _check_model(content, models, "invalid-map-file")
-    return content
 
 
-def read_delta_file(data: bytes, models: Models) -> Delta:
-    """Decode an uploaded delta file that applies to any version.
-
-    Raises:
-        Problem: 422 if the bytes are not a valid delta file, 409 if its model is not loaded.
-    """
-    try:
-        delta = decode_delta(data)
-    except MapFileError as error:
-        raise Problem(
-            422,
-            "invalid-delta-file",
-            f"The body is not a complete delta file: {error}. "
-            "Encode the delta again and resend it.",
-        ) from error
+def check_applies_to_any(delta: Delta) -> None:
+    """Check that an edit is a delta for any version; 422 if not."""
     if delta.since or delta.until:
         raise Problem(
             422,
@@ -46,8 +39,25 @@ def read_delta_file(data: bytes, models: Models) -> Delta:
             f"The delta leads from version {delta.since} to version {delta.until}; in an edit, "
             "both must be 0. Name the version that the edit is for with If-Match.",
         )
-    _check_model(delta.changed, models, "invalid-delta-file")
-    return delta
+
+
+def check_model(content: CompactMap, model: Model, kind: FileKind) -> None:
+    """Check that segments were made as their model makes them; 422 if not."""
+    manifest = model.manifest
+    if content.code_bytes != manifest.code_bytes:
+        raise Problem(
+            422,
+            f"invalid-{kind}-file",
+            f"The codes have {content.code_bytes} bytes per segment; model {manifest.model_id!r} "
+            f"has {manifest.code_bytes}.",
+        )
+    if content.preprocessing != manifest.preprocessing["version"]:
+        raise Problem(
+            422,
+            f"invalid-{kind}-file",
+            f"The segments have preprocessing version {content.preprocessing}; model "
+            f"{manifest.model_id!r} has version {manifest.preprocessing['version']}.",
+        )
 
 
 def check_joins(content: CompactMap, name: str, other: CompactMap) -> None:
@@ -70,24 +80,3 @@ def check_joins(content: CompactMap, name: str, other: CompactMap) -> None:
                 f"The segments have {attribute} {given!r:.100}; map {name!r} has {expected!r:.100}."
                 " Write them to another map.",
             )
-
-
-def _check_model(content: CompactMap, models: Models, kind: str) -> None:
-    model = models.find(content.model_id)
-    if model is None:
-        raise models.unknown(content.model_id)
-    manifest = model.manifest
-    if content.code_bytes != manifest.code_bytes:
-        raise Problem(
-            422,
-            kind,
-            f"The codes have {content.code_bytes} bytes per segment; model {manifest.model_id!r} "
-            f"has {manifest.code_bytes}.",
-        )
-    if content.preprocessing != manifest.preprocessing["version"]:
-        raise Problem(
-            422,
-            kind,
-            f"The segments have preprocessing version {content.preprocessing}; model "
-            f"{manifest.model_id!r} has version {manifest.preprocessing['version']}.",
-        )

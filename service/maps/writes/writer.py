@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
-from placecell_client import CompactMap, Delta, encode
+from placecell_client import CompactMap, Delta, decode, decode_delta, encode
 from placecell_client.maps.edit import apply, take
 
 from placecell.core.types import UInt32
@@ -23,7 +23,13 @@ from service.maps.store import IDS, MapHead, OutOfIdsError, TooManyIdsError
 from service.maps.visibility import restore_names
 from service.maps.writes.clock_check import check_times
 from service.maps.writes.id_rules import check_authors, check_new, check_only_new, check_own
-from service.maps.writes.validation import check_joins, read_delta_file, read_map_file
+from service.maps.writes.validation import (
+    FileKind,
+    check_applies_to_any,
+    check_joins,
+    check_model,
+    reading,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +93,9 @@ class MapWriter:
 
     def put(self, name: str, data: bytes) -> WriteResult:
         """Create a map from a file, or replace its content if the request names its version."""
-        content = read_map_file(data, self.models)
+        with reading("map"):
+            content = decode(data)
+        self._check_model(content, "map")
         with self.maps.writing(name):
             snapshot = self.maps.find(name)
             restored = restore_names(self.holder, snapshot, content)
@@ -106,7 +114,10 @@ class MapWriter:
             data: a delta file.
             options: options of the edit.
         """
-        edit = read_delta_file(data, self.models)
+        with reading("delta"):
+            edit = decode_delta(data)
+        check_applies_to_any(edit)
+        self._check_model(edit.changed, "delta")
         self.holder.check_robots(robots_of(edit.changed))
         check_times(edit.changed)
         owners = {options.robot, self.holder.key.robot, *edit.changed.robots} - {None}
@@ -246,6 +257,12 @@ class MapWriter:
             return WriteResult(snapshot, 0, 0)
         self._authorize(snapshot, change, replaces=replaces)
         return self._store(snapshot, change, operation)
+
+    def _check_model(self, content: CompactMap, kind: FileKind) -> None:
+        model = self.models.find(content.model_id)
+        if model is None:
+            raise self.models.unknown(content.model_id)
+        check_model(content, model, kind)
 
     def _deduplicated(self, edit: Delta, layers: MapLayers) -> Deduplicated:
         upload = edit.changed
