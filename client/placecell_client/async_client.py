@@ -89,11 +89,11 @@ class AsyncClient(BaseClient):
         await self._http.aclose()
 
     async def info(self) -> Info:
-        """`Client.info`."""
+        """See `Client.info`."""
         return await self._send(self._calls.info())
 
     async def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
-        """`Client.describe`."""
+        """See `Client.describe`."""
         return await self._send(self._calls.describe(segments, sensors))
 
     async def match(
@@ -105,7 +105,7 @@ class AsyncClient(BaseClient):
         maps: Sequence[str] | None = None,
         k: int = 10,
     ) -> Matches:
-        """`Client.match`."""
+        """See `Client.match`."""
         return await self._send(self._calls.match(description, segments, sensors, maps, k))
 
     async def localize(
@@ -119,13 +119,13 @@ class AsyncClient(BaseClient):
         motion: Motion = "yaw",
         session: str | None = None,
     ) -> Localizations:
-        """`Client.localize`."""
+        """See `Client.localize`."""
         return await self._send(
             self._calls.localize(description, segments, sensors, maps, k, motion, session)
         )
 
     async def maps(self) -> Maps:
-        """`Client.maps`."""
+        """See `Client.maps`."""
         return await self._send(self._calls.maps())
 
     async def put_map(
@@ -136,16 +136,16 @@ class AsyncClient(BaseClient):
         if_match: str | None = None,
         create_only: bool = False,
     ) -> MapSummary:
-        """`Client.put_map`."""
+        """See `Client.put_map`."""
         steps = transfers.put_map(self._calls, name, compact_map, if_match, create_only)
         return await self._run(steps)
 
     async def uploads(self, name: str) -> tuple[PartialUpload, ...]:
-        """`Client.uploads`."""
+        """See `Client.uploads`."""
         return await self._send(self._calls.uploads(name))
 
     async def delete_upload(self, name: str, digest: str) -> None:
-        """`Client.delete_upload`."""
+        """See `Client.delete_upload`."""
         await self._send(self._calls.delete_upload(name, digest))
 
     async def edit_map(
@@ -159,21 +159,21 @@ class AsyncClient(BaseClient):
         only_new: bool = False,
         if_match: str | None = None,
     ) -> Written:
-        """`Client.edit_map`."""
+        """See `Client.edit_map`."""
         return await self._send(
             self._calls.edit_map(name, delta, robot, create, deduplicate, only_new, if_match)
         )
 
     async def reserve_ids(self, name: str, count: int) -> NDArray[np.uint32]:
-        """`Client.reserve_ids`."""
+        """See `Client.reserve_ids`."""
         return await self._send(self._calls.reserve_ids(name, count))
 
     async def reset_ids(self, name: str) -> range:
-        """`Client.reset_ids`."""
+        """See `Client.reset_ids`."""
         return await self._send(self._calls.reset_ids(name))
 
     async def pull(self, copy: MapCopy | str, limit: int = PAGE_SEGMENTS) -> MapCopy:
-        """`Client.pull`."""
+        """See `Client.pull`."""
         return await self._run(transfers.pull(self._calls, copy, limit))
 
     async def changes(
@@ -183,23 +183,23 @@ class AsyncClient(BaseClient):
         cursor: str | None = None,
         limit: int = PAGE_SEGMENTS,
     ) -> ChangesPage:
-        """`Client.changes`."""
+        """See `Client.changes`."""
         return await self._send(self._calls.changes(name, since, cursor, limit))
 
     async def get_map(self, name: str, version: int | None = None) -> CompactMap:
-        """`Client.get_map`."""
+        """See `Client.get_map`."""
         return await self._send(self._calls.get_map(name, version))
 
     async def get_map_file(self, name: str, version: int | None = None) -> bytes:
-        """`Client.get_map_file`."""
+        """See `Client.get_map_file`."""
         return await self._send(self._calls.get_map_file(name, version))
 
     async def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
-        """`Client.versions`."""
+        """See `Client.versions`."""
         return await self._send(self._calls.versions(name, limit))
 
     async def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
-        """`Client.restore_map`."""
+        """See `Client.restore_map`."""
         return await self._send(self._calls.restore_map(name, version, if_match))
 
     async def prune_map(
@@ -210,7 +210,7 @@ class AsyncClient(BaseClient):
         *,
         if_match: str | None = None,
     ) -> Written:
-        """`Client.prune_map`."""
+        """See `Client.prune_map`."""
         return await self._send(self._calls.prune_map(name, unseen_since, dry_run, if_match))
 
     async def align_maps(
@@ -222,7 +222,7 @@ class AsyncClient(BaseClient):
         pairs: bool = False,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> MapAlignment:
-        """`Client.align_maps`."""
+        """See `Client.align_maps`."""
         return await self._send(self._calls.align_maps(name, other, motion, pairs, timeout))
 
     async def merge_maps(
@@ -236,18 +236,18 @@ class AsyncClient(BaseClient):
         if_match: str | None = None,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> Merge:
-        """`Client.merge_maps`."""
+        """See `Client.merge_maps`."""
         call = self._calls.merge_maps(
             merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
         )
         return await self._send(call)
 
     async def compact_map(self, name: str, keep: int = 1) -> int:
-        """`Client.compact_map`."""
+        """See `Client.compact_map`."""
         return await self._send(self._calls.compact_map(name, keep))
 
     async def delete_map(self, name: str, if_match: str | None = None) -> None:
-        """`Client.delete_map`."""
+        """See `Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
 
     async def _run(self, steps: transfers.Steps[T]) -> T:

@@ -1,4 +1,4 @@
-"""Time that passes at once, and clients that speak to a function."""
+"""Fakes: a clock without waiting, and clients whose transport is a function."""
 
 import asyncio
 from collections.abc import Callable
@@ -107,7 +107,7 @@ def packed(content: object) -> httpx.Response:
 
 
 class Time:
-    """A clock that sleeping advances, and what was slept, seconds."""
+    """Clock that advances only by sleeping; keeps the sleeps, seconds."""
 
     def __init__(self) -> None:
         self.now = 1000.0
@@ -125,7 +125,7 @@ class Time:
 
 
 def client_of(handler: Handler, time: Time | None = None, **options: Any) -> Client:
-    """Jitter is always the longest."""
+    """Return the largest jitter."""
     time = time or Time()
     options = {"jitter": lambda: 1.0, "sleep": time.sleep, "clock": time.clock} | options
     return Client("http://service", transport=_transport(handler), **options)
@@ -138,7 +138,7 @@ def async_client_of(handler: Handler, time: Time | None = None, **options: Any) 
 
 
 def _transport(handler: Handler) -> httpx.MockTransport:
-    """Each request its own response, so that tests may give the same one twice."""
+    """Copy a response for each request, so that tests may use the same one twice."""
 
     def answer(request: httpx.Request) -> httpx.Response:
         given = handler(request)
@@ -152,7 +152,7 @@ def _transport(handler: Handler) -> httpx.MockTransport:
 
 
 class Blocking:
-    """An `AsyncClient` whose methods are called as those of `Client`: what holds for one, holds."""
+    """`AsyncClient` with synchronous methods, so that tests run with both clients."""
 
     def __init__(self, handler: Handler, time: Time | None = None, **options: Any) -> None:
         self._arguments = (handler, time)

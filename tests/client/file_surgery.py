@@ -1,4 +1,4 @@
-"""Files with other headers, written without the codec."""
+"""Writes files with other headers without the codec."""
 
 import hashlib
 import json
@@ -26,7 +26,7 @@ def with_outer_header(data: bytes, outer: dict[str, Any]) -> bytes:
 
 
 def checksum(data: bytes, header: dict[str, Any]) -> str:
-    """As docs/reference/map-file.md says; of the file's columns and another header."""
+    """Compute the checksum as docs/reference/map-file.md defines it, with another header."""
     digest = hashlib.sha256(compact_json(header).encode())
     outer, length = outer_header(data), header_length(data)
     for name in sorted(set(outer) - {"__metadata__"}):
@@ -39,7 +39,7 @@ def checksum(data: bytes, header: dict[str, Any]) -> str:
 
 
 def with_inner_header(data: bytes, *without: str, **changes: object) -> bytes:
-    """The file with other values in its header, or without, and a checksum that fits them."""
+    """Change or remove values of a file's header and correct its checksum."""
     header = inner_header(data) | changes
     for key in (*without, "sha256"):
         del header[key]

@@ -1,4 +1,4 @@
-"""Maps: random ones, and ones that have much in common."""
+"""Builders of random maps, and of maps with common segments."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -11,7 +11,7 @@ from placecell_client.maps.compact_map import OPTIONAL
 
 PROVENANCE = ("source", "source_ids")
 GROUPS = [*((name,) for name in OPTIONAL if name not in PROVENANCE), PROVENANCE]
-"""Optional columns that come together."""
+"""Groups of optional columns that come together."""
 SOURCES = ("west", "unused", "east")
 
 
@@ -24,7 +24,7 @@ def random_map(
     robots: tuple[str, ...] = ("zoe", "ann"),
     optional: Iterable[str] = (),
 ) -> CompactMap:
-    """A map whose sensors lie anywhere within `extent`, and whose segments within 40 m of them."""
+    """Build a random map: sensors within `extent`, segments within 40 m of their sensor."""
     random = np.random.default_rng(seed)
     quaternions = random.normal(size=(frames, 4))
     quaternions /= np.linalg.norm(quaternions, axis=1, keepdims=True)
@@ -58,7 +58,7 @@ def random_map(
 
 
 def column_sets(*groups: tuple[str, ...]) -> st.SearchStrategy[set[str]]:
-    """Sets of optional columns, of none to all of these groups."""
+    """Draw a set of optional columns: none to all of these groups."""
     return st.sets(st.sampled_from(groups)).map(
         lambda some: {name for each in some for name in each}
     )
@@ -70,7 +70,7 @@ ORIENTATIONS = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [1, 0, 0, 0], [-0.0, 0, 0,
 
 @st.composite
 def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -> CompactMap:
-    """Small maps from so few values that two of them have ids, segments and frames in common."""
+    """Draw small maps from few values, so that two maps share ids, segments and captures."""
     ids = draw(st.lists(st.integers(0, 12), unique=True, max_size=10))
     n = len(ids)
 
@@ -113,7 +113,7 @@ def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -
 def deltas(
     draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS, since: int = 0
 ) -> Delta:
-    """To whatever is there, or from `since` to the sequence after it."""
+    """Draw a delta for any version, or from `since` to the next version."""
     changed = draw(maps(optional))
     removed = draw(st.sets(st.integers(0, 12))) - set(changed.ids.tolist())
     until = since + 1 if since else 0

@@ -1,4 +1,4 @@
-"""`align_maps` and `merge_maps`: what is sent, what they give, and how long they wait."""
+"""Tests of `align_maps` and `merge_maps`: requests, results and timeouts."""
 
 import json
 from collections.abc import Callable
@@ -25,7 +25,7 @@ def without(content: dict[str, Any], name: str) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("encoding", ["msgpack", "json"])
-def test_what_is_asked_is_sent(make: Make, encoding: str) -> None:
+def test_align_and_merge_send_their_arguments(make: Make, encoding: str) -> None:
     seen: list[Any] = []
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -58,7 +58,7 @@ def test_what_is_asked_is_sent(make: Make, encoding: str) -> None:
     ]
 
 
-def test_how_a_map_lies_is_typed(make: Make) -> None:
+def test_alignment_is_parsed_into_typed_values(make: Make) -> None:
     found = make(lambda _: httpx.Response(200, json=ALIGNED)).align_maps("yard", "hall", pairs=True)
     assert (found.map, found.etag, found.frame) == ("yard", "e-3", "f")
     assert (found.other, found.other_etag, found.other_frame) == ("hall", "h-1", "g")
@@ -78,7 +78,7 @@ def test_how_a_map_lies_is_typed(make: Make) -> None:
     assert not isinstance(other, Hypothesis)
 
 
-def test_maps_that_are_not_aligned_have_no_pose(make: Make) -> None:
+def test_unaligned_maps_have_no_pose(make: Make) -> None:
     nothing = {
         "aligned": False, "reason": "too-few-segments", "detail": "3 segments in a map.",
         "pose": None, "covariance": None, "overlap": None, "score": 0.0, "agreement": 0.0,
@@ -90,7 +90,7 @@ def test_maps_that_are_not_aligned_have_no_pose(make: Make) -> None:
     assert (len(found.inliers), found.others) == (0, ())
 
 
-def test_what_a_merge_did_is_typed(make: Make) -> None:
+def test_merge_is_parsed_into_typed_values(make: Make) -> None:
     merged = make(lambda _: httpx.Response(201, json=MERGED)).merge_maps("site", ["yard", "shed"])
     assert (merged.map, merged.frame, merged.dry_run) == ("site", "f", False)
     assert (merged.sequence, merged.etag, merged.previous) == (4, "s-4", 3)
@@ -112,7 +112,7 @@ def test_what_a_merge_did_is_typed(make: Make) -> None:
     assert merged.loops == (MapLoop(("site", "yard", "hall"), 0.5, 0.25, closes=True),)
 
 
-def test_a_dry_run_has_no_version(make: Make) -> None:
+def test_dry_run_has_no_version(make: Make) -> None:
     dry = MERGED | {"dry_run": True, "sequence": None, "etag": None, "previous": None}
     merged = make(lambda _: httpx.Response(200, json=dry)).merge_maps("site", ["a"], dry_run=True)
     assert (merged.dry_run, merged.sequence, merged.etag, merged.previous) == (
@@ -131,7 +131,7 @@ def test_a_dry_run_has_no_version(make: Make) -> None:
         ALIGNED | {"others": [LAID | {"pose": None}]},
     ],
 )
-def test_an_alignment_that_is_none_is_told(make: Make, content: Any) -> None:
+def test_malformed_alignment_is_an_error(make: Make, content: Any) -> None:
     with pytest.raises(ServiceError, match="Unreadable"):
         make(lambda _: httpx.Response(200, json=content)).align_maps("yard", "hall")
 
@@ -147,7 +147,7 @@ def test_an_alignment_that_is_none_is_told(make: Make, content: Any) -> None:
         MERGED | {"loops": [{"maps": 3, "meters": 0, "degrees": 0, "closes": True}]},
     ],
 )
-def test_a_merge_that_is_none_is_told(make: Make, content: Any) -> None:
+def test_malformed_merge_is_an_error(make: Make, content: Any) -> None:
     with pytest.raises(ServiceError, match="Unreadable"):
         make(lambda _: httpx.Response(200, json=content)).merge_maps("site", ["yard"])
 
@@ -159,7 +159,9 @@ CALLS: list[Callable[..., Any]] = [
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_they_have_minutes_however_long_others_have(make: Make, call: Callable[..., Any]) -> None:
+def test_align_and_merge_have_their_own_timeout_of_minutes(
+    make: Make, call: Callable[..., Any]
+) -> None:
     waited: list[str] = []
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -177,7 +179,7 @@ def test_they_have_minutes_however_long_others_have(make: Make, call: Callable[.
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_retries_end_within_their_time(make: Make, call: Callable[..., Any]) -> None:
+def test_retries_end_within_the_timeout(make: Make, call: Callable[..., Any]) -> None:
     time = Time()
 
     def answer(_: httpx.Request) -> httpx.Response:
@@ -192,6 +194,6 @@ def test_retries_end_within_their_time(make: Make, call: Callable[..., Any]) -> 
 
 @pytest.mark.parametrize("timeout", [0, -1, float("inf"), float("nan")])
 @pytest.mark.parametrize("call", CALLS)
-def test_their_timeout_is_checked(make: Make, call: Callable[..., Any], timeout: float) -> None:
+def test_invalid_timeout_is_refused(make: Make, call: Callable[..., Any], timeout: float) -> None:
     with pytest.raises(ValueError, match="timeout"):
         call(make(lambda _: httpx.Response(500)), timeout=timeout)

@@ -1,4 +1,4 @@
-"""Answers that are none of a service's: each is a ServiceError that says what came."""
+"""Unreadable answers: each is a ServiceError that describes the answer."""
 
 import contextlib
 import json
@@ -57,7 +57,7 @@ def error_of(call: str, response: httpx.Response) -> ServiceError:
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_a_page_that_says_success_is_told(call: str) -> None:
+def test_html_page_with_success_status_is_an_error(call: str) -> None:
     error = error_of(call, httpx.Response(200, html="<h1>Log in\n to the network</h1>"))
     assert (error.status, error.title) == (200, "Unreadable answer")
     assert error.type == "urn:placecell:problem:unreadable-answer"
@@ -67,7 +67,7 @@ def test_a_page_that_says_success_is_told(call: str) -> None:
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_an_error_page_of_a_proxy_is_told(call: str) -> None:
+def test_error_page_of_a_proxy_is_an_error(call: str) -> None:
     error = error_of(call, httpx.Response(502, html="<h1>nginx</h1>"))
     assert (error.status, error.title, error.type) == (502, "Bad Gateway", "about:blank")
     assert "text/html" in error.detail
@@ -85,18 +85,18 @@ def test_an_error_page_of_a_proxy_is_told(call: str) -> None:
         httpx.Response(500),
     ],
 )
-def test_a_refusal_in_any_words_is_an_error(response: httpx.Response) -> None:
+def test_refusal_of_any_form_is_an_error(response: httpx.Response) -> None:
     error = error_of("info", response)
     assert (error.status, error.title, error.type) == (500, "Internal Server Error", "about:blank")
     assert error.detail
 
 
-def test_an_unknown_status_is_an_error() -> None:
+def test_unknown_status_is_an_error() -> None:
     assert str(error_of("info", httpx.Response(299 + 300))).startswith("599 Unknown status")
 
 
 @pytest.mark.parametrize("call", READING)
-def test_every_cut_of_an_answer_is_told(call: str) -> None:
+def test_truncated_answer_is_an_error(call: str) -> None:
     whole = CALLS[call][1]
     headers = {"Content-Type": whole.headers["Content-Type"]}
     for length in range(len(whole.content)):
@@ -106,7 +106,7 @@ def test_every_cut_of_an_answer_is_told(call: str) -> None:
 
 @pytest.mark.parametrize("call", READING)
 @pytest.mark.parametrize("body", [{}, [], None, 7, "text"])
-def test_a_body_that_holds_something_else_is_told(call: str, body: object) -> None:
+def test_body_with_other_content_is_an_error(call: str, body: object) -> None:
     for response in (packed(body), httpx.Response(200, json=body)):
         assert error_of(call, response).title == "Unreadable answer"
 
@@ -121,14 +121,14 @@ def without(content: Any, path: tuple[Any, ...]) -> Any:
 
 
 @pytest.mark.parametrize("key", DESCRIBED["descriptors"][0])  # type: ignore[index]
-def test_a_key_that_is_missing_is_named(key: str) -> None:
+def test_error_names_a_missing_key(key: str) -> None:
     error = error_of("describe", packed(without(DESCRIBED, ("descriptors", 0, key))))
     assert f"The key '{key}' is missing" in error.detail
     assert MSGPACK in error.detail
 
 
 @pytest.mark.parametrize("key", CANDIDATE)
-def test_a_key_of_a_candidate_that_is_missing_is_named(key: str) -> None:
+def test_error_names_a_missing_key_of_a_candidate(key: str) -> None:
     error = error_of("match", packed(without(MATCHED, ("queries", 0, "candidates", 0, key))))
     assert f"The key '{key}' is missing" in error.detail
 
@@ -147,7 +147,7 @@ def test_a_key_of_a_candidate_that_is_missing_is_named(key: str) -> None:
         ({"error": {"type": "t"}}, ""),
     ],
 )
-def test_a_descriptor_that_is_none_is_told(changes: dict[str, Any], message: str) -> None:
+def test_malformed_descriptor_is_an_error(changes: dict[str, Any], message: str) -> None:
     good: dict[str, Any] = DESCRIBED["descriptors"][0]  # type: ignore[index]
     body = DESCRIBED | {"descriptors": [good, good | changes]}
 
@@ -163,12 +163,12 @@ def test_a_descriptor_that_is_none_is_told(changes: dict[str, Any], message: str
 
 
 @pytest.mark.parametrize("dimension", [1, 10**18, -1, "2", None])
-def test_a_dimension_that_is_not_the_descriptors_is_told(dimension: Any) -> None:
+def test_wrong_dimension_is_an_error(dimension: Any) -> None:
     error = error_of("describe", packed(DESCRIBED | {"dimension": dimension}))
     assert "dimensions" in error.detail
 
 
-def test_results_are_as_many_as_segments() -> None:
+def test_wrong_number_of_results_is_an_error() -> None:
     twice = DESCRIBED["descriptors"] * 2  # type: ignore[operator]
     assert (
         "2 results for 1" in error_of("describe", packed(DESCRIBED | {"descriptors": twice})).detail
@@ -176,7 +176,7 @@ def test_results_are_as_many_as_segments() -> None:
     assert "0 results for 1" in error_of("match", packed(MATCHED | {"queries": []})).detail
 
 
-def test_a_body_that_is_not_as_encoded_is_told() -> None:
+def test_body_in_another_encoding_is_an_error() -> None:
     response = httpx.Response(
         200,
         headers={"Content-Type": "application/json", "Content-Encoding": "gzip"},
@@ -185,7 +185,7 @@ def test_a_body_that_is_not_as_encoded_is_told() -> None:
     assert error_of("info", response).title == "Unreadable answer"
 
 
-def test_a_file_that_is_no_map_is_told() -> None:
+def test_other_file_instead_of_a_map_is_an_error() -> None:
     headers = {"Content-Type": "application/vnd.placecell.map"}
     broken = httpx.Response(200, content=b"broken", headers=headers)
     with client_of(lambda _: broken) as client, pytest.raises(MapFileError):
@@ -221,7 +221,7 @@ def test_a_file_that_is_no_map_is_told() -> None:
         ),
     )
 )
-def test_any_answer_is_read_or_is_an_error(content: object) -> None:
+def test_any_content_is_parsed_or_is_an_error(content: object) -> None:
     for call in READING:
         with client_of(lambda _: packed(content)) as client, contextlib.suppress(ServiceError):
             CALLS[call][0](client)
@@ -229,13 +229,13 @@ def test_any_answer_is_read_or_is_an_error(content: object) -> None:
 
 @pytest.mark.slow
 @given(st.binary(max_size=50), st.sampled_from([MSGPACK, "application/json", "text/html", ""]))
-def test_any_bytes_are_an_error(content: bytes, media_type: str) -> None:
+def test_random_bytes_are_an_error(content: bytes, media_type: str) -> None:
     response = httpx.Response(200, content=content, headers={"Content-Type": media_type})
     for call in READING:
         error_of(call, response)
 
 
-def test_the_answers_that_are_broken_here_can_be_read() -> None:
+def test_unbroken_answers_of_this_file_are_parsed() -> None:
     for name in READING:
         call, response = CALLS[name]
         with client_of(lambda _, response=response: response) as client:  # type: ignore[misc]

@@ -1,4 +1,4 @@
-"""The client for asyncio is the other client."""
+"""`AsyncClient` behaves like `Client`."""
 
 import asyncio
 import gzip
@@ -42,11 +42,11 @@ CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
 MAP = random_map()
 OWN = {"x-request-id", "placecell-timeout"}
 PATIENCE = 10
-"""Seconds of silence, of which no test waits for the end."""
+"""Silence of the server, seconds; no test waits for its end."""
 
 
 def public(kind: type) -> dict[str, list[tuple[str, Any, Any]]]:
-    """Methods, and the names, kinds and defaults of their arguments."""
+    """Return the methods with names, kinds and defaults of their arguments."""
     return {
         name: [(part.name, part.kind, part.default) for part in signature.parameters.values()]
         for name, method in inspect.getmembers(kind, inspect.isfunction)
@@ -55,7 +55,7 @@ def public(kind: type) -> dict[str, list[tuple[str, Any, Any]]]:
     }
 
 
-def test_both_have_the_same_methods() -> None:
+def test_both_clients_have_the_same_methods() -> None:
     assert public(Client) == public(AsyncClient)
     constructors = [list(inspect.signature(kind).parameters) for kind in (Client, AsyncClient)]
     assert constructors[0] == constructors[1]
@@ -101,7 +101,7 @@ def answer(request: httpx.Request) -> httpx.Response:
 
 
 def plain(result: Any) -> Any:
-    """What can be compared."""
+    """Convert a result to values that can be compared."""
     if isinstance(result, Description):
         return [
             result.model_id, result.codes.tolist(), result.descriptors.tolist(),
@@ -120,7 +120,7 @@ def plain(result: Any) -> Any:
 
 
 @pytest.mark.parametrize("options", [{}, {"compress": True, "key": "k", "encoding": "json"}])
-def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
+def test_both_clients_send_and_return_the_same(options: dict[str, Any]) -> None:
     told: list[Any] = []
     for make in (client_of, Blocking):
         seen: list[Any] = []
@@ -161,7 +161,7 @@ def test_both_send_and_give_the_same(options: dict[str, Any]) -> None:
     assert len(told[0][1]) == 21
 
 
-def test_maps_are_compressed_if_asked() -> None:
+def test_option_compress_sends_maps_as_gzip() -> None:
     for make, large in ((client_of, True), (Blocking, True), (client_of, False)):
         sent: list[httpx.Request] = []
 
@@ -209,7 +209,7 @@ def test_a_call_can_be_cancelled() -> None:
         asyncio.run(call())
 
 
-def test_an_answer_that_does_not_come_is_given_up() -> None:
+def test_call_without_an_answer_times_out() -> None:
     async def call() -> None:
         transport = httpx.MockTransport(silent)
         async with AsyncClient("http://service", 0.05, transport=transport) as client:

@@ -47,13 +47,13 @@ def free_port() -> int:
 @pytest.mark.parametrize(
     "url", ["127.0.0.1:8000", "robot:8000", "", "robot", "ftp://robot", "http://", "http://[::1"]
 )
-def test_B16_a_url_without_scheme_or_host_is_refused(url: str) -> None:
+def test_B16_url_without_scheme_or_host_is_refused(url: str) -> None:
     for kind in (Client, AsyncClient):
         with pytest.raises(ValueError, match=r"Invalid URL .*xpected http://HOST:PORT"):
             kind(url)
 
 
-def test_B16_nothing_at_the_port(free_port: int) -> None:
+def test_B16_closed_port_gets_a_hint(free_port: int) -> None:
     with (
         Client(f"http://127.0.0.1:{free_port}", retries=ONCE) as client,
         pytest.raises(httpx.ConnectError, match=f"placecell serve.*127.0.0.1:{free_port}"),
@@ -61,7 +61,7 @@ def test_B16_nothing_at_the_port(free_port: int) -> None:
         client.info()
 
 
-def test_B16_https_on_a_port_that_speaks_http() -> None:
+def test_B16_https_to_an_http_port_gets_a_hint() -> None:
     with (
         answering(b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n") as port,
         Client(f"https://127.0.0.1:{port}", retries=ONCE) as client,
@@ -70,7 +70,7 @@ def test_B16_https_on_a_port_that_speaks_http() -> None:
         client.info()
 
 
-def test_B16_http_on_a_port_that_speaks_something_else() -> None:
+def test_B16_http_to_another_protocol_gets_a_hint() -> None:
     with (
         answering(b"\x15\x03\x01\x00\x02\x02\x46") as port,
         Client(f"http://127.0.0.1:{port}", retries=ONCE) as client,
@@ -79,9 +79,7 @@ def test_B16_http_on_a_port_that_speaks_something_else() -> None:
         client.info()
 
 
-def test_B16_loopback_goes_through_no_proxy(
-    monkeypatch: pytest.MonkeyPatch, free_port: int
-) -> None:
+def test_B16_loopback_ignores_the_proxy(monkeypatch: pytest.MonkeyPatch, free_port: int) -> None:
     monkeypatch.delenv("NO_PROXY", raising=False)
     monkeypatch.delenv("no_proxy", raising=False)
     for name in ("HTTP_PROXY", "http_proxy", "ALL_PROXY"):
@@ -94,7 +92,7 @@ def test_B16_loopback_goes_through_no_proxy(
                 assert len(client.maps()) == 0
 
 
-def test_B16_a_proxy_is_named_without_its_password(
+def test_B16_proxy_is_named_without_its_password(
     monkeypatch: pytest.MonkeyPatch, free_port: int
 ) -> None:
     for name in ("NO_PROXY", "no_proxy", "http_proxy"):
@@ -110,13 +108,13 @@ def test_B16_a_proxy_is_named_without_its_password(
     assert "secret" not in str(raised.value)
 
 
-def test_B16_a_certificate_that_is_not_trusted() -> None:
+def test_B16_untrusted_certificate_gets_a_hint() -> None:
     error = httpx.ConnectError("[SSL: CERTIFICATE_VERIFY_FAILED] self-signed certificate")
     error.__context__ = ssl.SSLError("self-signed")
     assert "SSL_CERT_FILE" in explained(error, httpx.URL("https://robot:8443"))
 
 
-def test_B16_time_that_is_over() -> None:
+def test_B16_timeouts_get_a_hint() -> None:
     url = httpx.URL("http://robot:8000")
     assert "firewall" in explained(httpx.ConnectTimeout("timed out"), url)
     assert "longer timeout" in explained(httpx.ReadTimeout("timed out"), url)
@@ -125,7 +123,7 @@ def test_B16_time_that_is_over() -> None:
     )
 
 
-def test_loopback_is_known_by_name_and_number() -> None:
+def test_loopback_is_recognized_by_name_and_address() -> None:
     for host in ("localhost", "127.0.0.1", "127.1.2.3", "::1"):
         assert is_loopback(host)
     for host in ("robot", "10.0.0.1", "127.0.0.1.example.org", "::2"):

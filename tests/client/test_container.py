@@ -1,4 +1,4 @@
-"""What map and delta files refuse, and that they refuse it before they allocate."""
+"""Invalid map and delta files are refused before memory is allocated."""
 
 import tracemalloc
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ from tests.client.map_builders import PROVENANCE, random_map
 
 @dataclass(frozen=True)
 class Kind:
-    """A file, and what reads and writes such files."""
+    """Kind of file with an example, its reader and its writer."""
 
     data: bytes
     decode: Callable[[bytes], Any]
@@ -42,7 +42,7 @@ each_kind = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
 
 
 def content_of(data: bytes) -> Content:
-    """A file's content, unchecked."""
+    """Return the content of a file without checks."""
     inner = container._json(outer_header(data)["__metadata__"]["placecell"].encode(), NOTHING)
     inner.pop("sha256")
     return Content(inner, safetensors.numpy.load(data))
@@ -56,7 +56,7 @@ NOTHING = container.FileFormat("x", "x", 0, frozenset(), frozenset())
 
 @contextmanager
 def little_memory() -> Iterator[None]:
-    """Less than a megabyte is allocated meanwhile."""
+    """Check that less than a megabyte is allocated."""
     tracemalloc.start()
     try:
         yield
@@ -67,7 +67,7 @@ def little_memory() -> Iterator[None]:
 
 @pytest.mark.slow
 @each_kind
-def test_every_flipped_bit_is_found(kind: Kind) -> None:
+def test_flipped_bit_is_refused(kind: Kind) -> None:
     for bit in range(len(kind.data) * 8):
         damaged = bytearray(kind.data)
         damaged[bit // 8] ^= 1 << bit % 8
@@ -76,13 +76,13 @@ def test_every_flipped_bit_is_found(kind: Kind) -> None:
 
 
 @each_kind
-def test_an_altered_code_is_told_by_the_checksum(kind: Kind) -> None:
+def test_altered_code_fails_the_checksum(kind: Kind) -> None:
     with pytest.raises(MapFileError, match="SHA-256"):
         kind.decode(kind.data[:-1] + bytes([kind.data[-1] ^ 1]))
 
 
 @each_kind
-def test_every_cut_is_found(kind: Kind) -> None:
+def test_truncated_file_is_refused(kind: Kind) -> None:
     for length in range(len(kind.data)):
         with pytest.raises(MapFileError):
             kind.decode(kind.data[:length])
@@ -95,7 +95,7 @@ def test_trailing_bytes_are_refused(kind: Kind) -> None:
 
 
 @each_kind
-def test_a_header_that_claims_a_huge_table_allocates_nothing(kind: Kind) -> None:
+def test_header_with_a_huge_table_allocates_nothing(kind: Kind) -> None:
     huge = {"dtype": "I8", "shape": [1 << 40, 4], "data_offsets": [0, 1 << 42]}
     claims = with_outer_header(kind.data, outer_header(kind.data) | {"codes": huge})
     with little_memory():
@@ -106,14 +106,14 @@ def test_a_header_that_claims_a_huge_table_allocates_nothing(kind: Kind) -> None
 
 
 @each_kind
-def test_a_header_that_is_too_long_is_not_parsed(kind: Kind) -> None:
+def test_too_long_header_is_not_parsed(kind: Kind) -> None:
     long = b"[" + b"{}," * (HEADER_LIMIT // 3) + b"{}]"
     data = len(long).to_bytes(8, "little") + long
     with little_memory(), pytest.raises(MapFileError, match="the limit is 1048576"):
         kind.decode(data)
 
 
-def test_a_header_of_too_many_sources_is_not_written() -> None:
+def test_header_with_too_many_sources_is_not_written() -> None:
     n = 6000
     crowd = replace(
         random_map(segments=n, optional=PROVENANCE),
@@ -124,7 +124,7 @@ def test_a_header_of_too_many_sources_is_not_written() -> None:
         encode(crowd)
 
 
-def test_a_header_that_would_be_too_long_is_not_written() -> None:
+def test_too_long_header_is_not_written() -> None:
     names = tuple(f"{number:0200}" for number in range(6000))
     crowd = random_map(segments=6000, robots=names)
     with pytest.raises(MapFileError, match="robots; the limit is 1048576"):
@@ -198,7 +198,7 @@ def test_columns_of_a_wrong_shape_are_refused(
         ("centroids", -32_768),
     ],
 )
-def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float) -> None:
+def test_impossible_values_are_refused(kind: Kind, name: str, value: float) -> None:
     content = content_of(kind.data)
     column = np.full_like(content.columns[name], value)
     with pytest.raises(MapFileError, match=name):
@@ -206,7 +206,7 @@ def test_values_that_no_map_has_are_refused(kind: Kind, name: str, value: float)
 
 
 @pytest.mark.parametrize("kind", [KINDS["map-all-columns"], KINDS["delta-all-columns"]])
-def test_sources_that_no_map_has_are_refused(kind: Kind) -> None:
+def test_impossible_sources_are_refused(kind: Kind) -> None:
     content = content_of(kind.data)
     source, ids = content.columns["source"], content.columns["source_ids"]
     for changed, message in [
@@ -226,7 +226,7 @@ def test_sources_that_no_map_has_are_refused(kind: Kind) -> None:
 
 @each_kind
 @pytest.mark.parametrize("name", ["ids", "frame_times", "frame_orientations"])
-def test_whole_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
+def test_files_in_another_form_are_refused(kind: Kind, name: str) -> None:
     content = content_of(kind.data)
     column = content.columns[name]
     other = -column if name == "frame_orientations" else column[::-1]
@@ -256,7 +256,7 @@ SHAPES = st.lists(st.integers(0, 4), max_size=3).map(tuple)
         max_size=3,
     )
 )
-def test_columns_of_any_shape_and_values_are_read_or_refused(
+def test_columns_of_any_shape_are_read_or_refused(
     kind: Kind, changes: dict[str, tuple[tuple[int, ...], bytes, bool]]
 ) -> None:
     content = content_of(kind.data)
@@ -273,7 +273,7 @@ def test_columns_of_any_shape_and_values_are_read_or_refused(
     assert kind.encode(read) == data
 
 
-def test_an_empty_map_does_not_claim_wide_codes() -> None:
+def test_empty_map_with_huge_codes_is_refused() -> None:
     data = encode(random_map(segments=0))
     outer = outer_header(data)
     outer["codes"]["shape"] = [0, 1 << 60]
@@ -281,7 +281,7 @@ def test_an_empty_map_does_not_claim_wide_codes() -> None:
         decode(with_outer_header(data, outer))
 
 
-def test_a_map_is_no_delta_and_a_delta_no_map() -> None:
+def test_map_file_is_not_read_as_delta_nor_delta_file_as_map() -> None:
     with pytest.raises(MapFileError, match="not a delta file: the format in its header"):
         decode_delta(KINDS["map"].data)
     with pytest.raises(MapFileError, match="not a map file: the format in its header"):

@@ -14,7 +14,7 @@ GONE = np.array([100, 200], np.uint32)
 SMALL = encode_delta(Delta(random_map(segments=3, frames=2), GONE, 3, 9))
 
 
-def test_a_delta_comes_back() -> None:
+def test_decoded_delta_equals_the_encoded_one() -> None:
     given_delta = Delta(random_map(optional=("seen", "views")), GONE, 3, 9)
     back = decode_delta(encode_delta(given_delta))
     assert encode(back.changed) == encode(given_delta.changed)
@@ -25,19 +25,19 @@ def test_a_delta_comes_back() -> None:
 
 @pytest.mark.slow
 @given(deltas())
-def test_encoding_what_was_decoded_changes_nothing(given_delta: Delta) -> None:
+def test_encoding_a_decoded_delta_gives_the_same_bytes(given_delta: Delta) -> None:
     data = encode_delta(given_delta)
     assert encode_delta(decode_delta(data)) == data
 
 
-def test_a_delta_without_segments_keeps_the_names_of_its_columns() -> None:
+def test_delta_without_segments_keeps_its_optional_columns() -> None:
     nothing = random_map(segments=0, optional=OPTIONAL)
     back = decode_delta(encode_delta(Delta(nothing, np.zeros(0, np.uint32))))
     assert len(back) == 0
     assert back.changed.optional == tuple(OPTIONAL)
 
 
-def test_what_the_header_says() -> None:
+def test_header_has_the_documented_fields() -> None:
     header = inner_header(SMALL)
     assert {key: header[key] for key in ("format", "version", "count", "removed")} == {
         "format": "placecell-delta",
@@ -66,7 +66,7 @@ def test_what_the_header_says() -> None:
         ({"scale_cm": 2}, "scale_cm"),
     ],
 )
-def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str) -> None:
+def test_wrong_header_is_refused(changes: dict[str, object], message: str) -> None:
     assert with_inner_header(SMALL) == SMALL
     with pytest.raises(MapFileError, match=message):
         decode_delta(with_inner_header(SMALL, **changes))
@@ -86,7 +86,7 @@ def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str)
         ({"changed": replace(random_map(segments=3), frame="")}, "frame"),
     ],
 )
-def test_deltas_that_are_not_valid_are_not_written(changes: dict[str, Any], message: str) -> None:
+def test_invalid_delta_is_not_written(changes: dict[str, Any], message: str) -> None:
     valid = Delta(random_map(segments=3), GONE, 3, 9)
     with pytest.raises(MapFileError, match=message):
         encode_delta(replace(valid, **changes))
@@ -95,6 +95,6 @@ def test_deltas_that_are_not_valid_are_not_written(changes: dict[str, Any], mess
 @pytest.mark.parametrize(
     ("since", "until", "is_whole"), [(0, 0, False), (0, 1, True), (1, 1, False), (1, 2, False)]
 )
-def test_what_is_from_nothing(since: int, until: int, is_whole: bool) -> None:
+def test_delta_since_zero_holds_the_whole_map(since: int, until: int, is_whole: bool) -> None:
     nothing = np.zeros(0, np.uint32)
     assert Delta(random_map(), nothing, since, until).is_whole is is_whole

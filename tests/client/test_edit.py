@@ -34,7 +34,7 @@ WIDE = column_sets(("points",)).map(lambda names: {"extents", "seen", *PROVENANC
 
 
 def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
-    """Segments by id, in values that say all of them."""
+    """Return the segments by id, each as a tuple of all its values."""
     segments = {}
     for row, key in enumerate(compact_map.ids.tolist()):
         frame = compact_map.frame_index[row]
@@ -54,7 +54,7 @@ def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
 
 
 def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
-    """What `apply` should give, by hand."""
+    """Compute the result of `apply` by hand."""
     segments = plain(compact_map)
     for key in delta.removed.tolist():
         segments.pop(key, None)
@@ -75,7 +75,7 @@ def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
 
 @pytest.mark.slow
 @given(maps(), deltas())
-def test_apply_is_what_it_is_by_hand(compact_map: CompactMap, delta: Delta) -> None:
+def test_apply_equals_a_computation_by_hand(compact_map: CompactMap, delta: Delta) -> None:
     after = apply(compact_map, delta)
     assert plain(after) == applied(compact_map, delta)
     assert encode(decode(encode(after))) == encode(after)
@@ -84,14 +84,14 @@ def test_apply_is_what_it_is_by_hand(compact_map: CompactMap, delta: Delta) -> N
 
 @pytest.mark.slow
 @given(maps(), deltas())
-def test_a_delta_twice_is_a_delta_once(compact_map: CompactMap, delta: Delta) -> None:
+def test_applying_a_delta_twice_changes_nothing(compact_map: CompactMap, delta: Delta) -> None:
     once = apply(compact_map, delta)
     assert encode(apply(once, delta)) == encode(once)
 
 
 @pytest.mark.slow
 @given(maps(NARROW), maps(WIDE))
-def test_a_difference_leads_to_the_new_map(old: CompactMap, new: CompactMap) -> None:
+def test_difference_turns_the_old_map_into_the_new(old: CompactMap, new: CompactMap) -> None:
     changed, removed = difference(old, new)
     assert encode(apply(old, Delta(changed, removed))) == encode(new)
     before, after = plain(with_optional(old, new.optional)), plain(new)
@@ -103,7 +103,7 @@ def test_a_difference_leads_to_the_new_map(old: CompactMap, new: CompactMap) -> 
 
 @pytest.mark.slow
 @given(maps(), maps(), st.booleans(), st.integers(0, 2))
-def test_a_delta_between_any_maps_leads_to_the_new_one(
+def test_delta_between_turns_any_map_into_the_new(
     old: CompactMap, new: CompactMap, is_other_model: bool, since: int
 ) -> None:
     if is_other_model:
@@ -117,14 +117,14 @@ def test_a_delta_between_any_maps_leads_to_the_new_one(
 
 @pytest.mark.slow
 @given(maps())
-def test_equal_maps_do_not_differ(compact_map: CompactMap) -> None:
+def test_equal_maps_have_an_empty_difference(compact_map: CompactMap) -> None:
     changed, removed = difference(compact_map, decode(encode(compact_map)))
     assert (len(changed), len(removed)) == (0, 0)
 
 
 @pytest.mark.slow
 @given(maps(), deltas(since=1), deltas(since=2), deltas(since=3))
-def test_composed_deltas_do_what_they_do_in_turn(
+def test_composed_deltas_equal_both_in_turn(
     compact_map: CompactMap, first: Delta, second: Delta, third: Delta
 ) -> None:
     in_turn = apply(apply(apply(compact_map, first), second), third)
@@ -137,7 +137,7 @@ def test_composed_deltas_do_what_they_do_in_turn(
 
 @pytest.mark.slow
 @given(maps(), maps(), deltas(since=5))
-def test_what_follows_a_delta_from_nothing_is_from_nothing(
+def test_compose_after_a_whole_map_gives_a_whole_map(
     compact_map: CompactMap, other: CompactMap, delta: Delta
 ) -> None:
     whole = Delta(compact_map, NOTHING, 0, 5)
@@ -148,7 +148,7 @@ def test_what_follows_a_delta_from_nothing_is_from_nothing(
     assert encode_delta(again) == encode_delta(Delta(other, NOTHING, 0, 7))
 
 
-def test_deltas_that_do_not_follow_are_not_composed() -> None:
+def test_deltas_that_are_not_consecutive_are_not_composed() -> None:
     one = Delta(random_map(), NOTHING, 1, 2)
     with pytest.raises(MapFileError, match="since version 3 does not follow one until version 2"):
         compose(one, replace(one, since=3, until=4))
@@ -156,7 +156,7 @@ def test_deltas_that_do_not_follow_are_not_composed() -> None:
 
 @pytest.mark.slow
 @given(maps(COLUMN_SETS), st.integers(1, 4))
-def test_a_delta_in_parts_is_joined(compact_map: CompactMap, count: int) -> None:
+def test_parts_of_a_delta_are_joined(compact_map: CompactMap, count: int) -> None:
     removed = np.arange(20, 30, dtype=np.uint32)
     whole = Delta(compact_map, removed, 2, 7)
     parts = [
@@ -176,14 +176,14 @@ def test_a_delta_in_parts_is_joined(compact_map: CompactMap, count: int) -> None
         ({"changed": random_map(segments=0, dimension=5)}, "code_bytes"),
     ],
 )
-def test_what_is_no_other_part_is_not_joined(changes: dict[str, Any], message: str) -> None:
+def test_parts_of_different_deltas_are_not_joined(changes: dict[str, Any], message: str) -> None:
     first = Delta(random_map(segments=4), np.array([50], np.uint32), 2, 7)
     second = replace(Delta(random_map(segments=0), NOTHING, 2, 7), **changes)
     with pytest.raises(MapFileError, match=message):
         join([first, second])
 
 
-def test_nothing_is_not_joined() -> None:
+def test_join_of_no_parts_is_refused() -> None:
     with pytest.raises(MapFileError, match="parts"):
         join([])
 
@@ -197,7 +197,7 @@ def test_nothing_is_not_joined() -> None:
         {"codes": np.zeros((20, 5), np.int8)},
     ],
 )
-def test_segments_of_another_kind_do_not_come_in(changes: dict[str, Any]) -> None:
+def test_segments_of_another_kind_are_refused(changes: dict[str, Any]) -> None:
     one = random_map()
     other = replace(one, **changes)
     what = next(iter(changes)).replace("codes", "code_bytes")
@@ -210,25 +210,25 @@ def test_segments_of_another_kind_do_not_come_in(changes: dict[str, Any]) -> Non
         delta_between(one, other, 0, 0)
 
 
-def test_a_difference_takes_no_column_away() -> None:
+def test_difference_that_removes_a_column_is_refused() -> None:
     with pytest.raises(MapFileError, match="points: a difference cannot"):
         difference(random_map(optional=("points",)), random_map())
 
 
-def test_a_delta_that_is_not_valid_is_not_applied() -> None:
+def test_invalid_delta_is_not_applied() -> None:
     broken = replace(random_map(), frame_index=np.full(20, 9, np.uint32))
     with pytest.raises(MapFileError, match="index 9"):
         apply(random_map(), Delta(broken, NOTHING))
 
 
-def test_more_robots_than_an_index_tells_apart() -> None:
+def test_too_many_robots_are_refused() -> None:
     one = random_map(robots=tuple(f"a{number}" for number in range(40_000)))
     other = replace(one, robots=tuple(f"b{number}" for number in range(40_000)))
     with pytest.raises(MapFileError, match="80000 names; the limit is 65536"):
         apply(one, Delta(other, NOTHING))
 
 
-def test_more_sources_than_a_number_tells_apart() -> None:
+def test_too_many_sources_are_refused() -> None:
     one = replace(
         random_map(optional=PROVENANCE), sources=tuple(f"a{number}" for number in range(40_000))
     )
@@ -237,7 +237,7 @@ def test_more_sources_than_a_number_tells_apart() -> None:
         apply(one, Delta(other, NOTHING))
 
 
-def test_as_many_sources_as_a_number_tells_apart() -> None:
+def test_largest_number_of_sources_is_accepted() -> None:
     n = 65_535
     one = replace(
         random_map(segments=n, dimension=1, optional=PROVENANCE),
@@ -251,7 +251,7 @@ def test_as_many_sources_as_a_number_tells_apart() -> None:
     assert back.sources == one.sources
 
 
-def test_segments_of_the_same_source_are_compared_by_its_name() -> None:
+def test_difference_compares_sources_by_name() -> None:
     one = replace(
         random_map(segments=3),
         ids=np.array([1, 2, 3], np.uint32),
@@ -271,7 +271,7 @@ def test_segments_of_the_same_source_are_compared_by_its_name() -> None:
     assert (after.source.tolist(), after.sources) == ([0, 0, 1], ("east",))
 
 
-def test_defaults_of_columns_that_a_map_lacks() -> None:
+def test_missing_columns_get_their_defaults() -> None:
     given_map = replace(
         random_map(segments=4, frames=4), frame_times=np.array([-3.5, 1.9, 1.7e9 + 0.5, 8e9])
     )
@@ -292,7 +292,7 @@ def test_defaults_of_columns_that_a_map_lacks() -> None:
     filled.check()
 
 
-def test_an_empty_map() -> None:
+def test_empty_map_has_the_asked_columns() -> None:
     nothing = empty("tiny-0123456789abcdef", "1", "town", 4, ("points",))
     assert len(decode(encode(nothing))) == 0
     given_map = random_map()
@@ -302,7 +302,7 @@ def test_an_empty_map() -> None:
 
 
 @pytest.mark.parametrize("rows", [np.array([3, 1]), slice(1, 4), np.arange(20) % 7 == 0])
-def test_some_of_a_maps_segments(rows: Any) -> None:
+def test_take_selects_segments(rows: Any) -> None:
     given_map = random_map(optional=OPTIONAL)
     some = take(given_map, rows)
     everything = plain(given_map)

@@ -1,4 +1,4 @@
-"""What the client sends and reads, in both encodings."""
+"""Requests and responses in both encodings."""
 
 import json
 from typing import Any
@@ -19,7 +19,7 @@ def points_of(segment: dict[str, Any]) -> Any:
     return np.frombuffer(segment["points"], "<f4").reshape(-1, 3)
 
 
-def test_float32_travels_as_it_is() -> None:
+def test_float32_is_sent_unchanged() -> None:
     cloud = CLOUD.astype(np.float32)
     for given in (cloud, np.asfortranarray(cloud), np.repeat(cloud, 2, axis=0)[::2]):
         body, _ = segments_of([given], FAR, "msgpack")
@@ -29,7 +29,7 @@ def test_float32_travels_as_it_is() -> None:
 
 
 @pytest.mark.parametrize("sensors", [FAR, np.stack([FAR + 3, FAR, FAR - 1.25])])
-def test_float64_travels_about_the_sensors(sensors: Any) -> None:
+def test_float64_is_sent_relative_to_a_sensor(sensors: Any) -> None:
     clouds = [CLOUD + FAR, (CLOUD[:7] + FAR).tolist(), np.zeros((0, 3), np.float32)]
     body, _ = segments_of(clouds, sensors, "msgpack")
     assert body["origin"] == FAR.tolist()
@@ -41,12 +41,12 @@ def test_float64_travels_about_the_sensors(sensors: Any) -> None:
         np.testing.assert_allclose(np.add(segment["sensor"], body["origin"]), sensor, atol=1e-9)
 
 
-def test_json_says_the_same_in_numbers() -> None:
+def test_json_holds_the_same_numbers() -> None:
     body, _ = segments_of([CLOUD + FAR], FAR, "json")
     assert body == {"segments": [{"points": (CLOUD + FAR).tolist(), "sensor": FAR.tolist()}]}
 
 
-def test_whole_numbers_and_lists_are_taken() -> None:
+def test_integers_and_lists_are_accepted() -> None:
     body, _ = segments_of([[[1, 2, 3]]], [0, 0, 1], "msgpack")
     assert points_of(body["segments"][0]).tolist() == [[1, 2, 2]]
     assert body["segments"][0]["sensor"] == [0, 0, 0]
@@ -63,12 +63,12 @@ def test_arrays_are_checked_before_they_are_sent(encoding: Encoding) -> None:
             client.describe([CLOUD], [0.0, np.inf, 0.0])
 
 
-def test_an_unknown_encoding_is_refused() -> None:
+def test_unknown_encoding_is_refused() -> None:
     with pytest.raises(ValueError, match="Invalid encoding 'cbor': expected one of msgpack, json"):
         Client("http://service", encoding="cbor")  # type: ignore[arg-type]
 
 
-def test_codes_are_a_blob_and_msgpack_is_asked_for() -> None:
+def test_msgpack_request_sends_codes_as_bytes() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         assert request.headers["content-type"] == request.headers["accept"] == MEDIA_TYPE
         assert msgpack.unpackb(request.content) == {"k": 10, "model_id": "m", "codes": b"\x03\xff"}
@@ -84,7 +84,7 @@ def test_codes_are_a_blob_and_msgpack_is_asked_for() -> None:
         assert client.match(description).queries == ((),)
 
 
-def test_problems_are_json_as_ever() -> None:
+def test_problems_are_json_in_both_encodings() -> None:
     problem = {"type": "urn:p", "title": "Not msgpack", "status": 400, "detail": "Cut short."}
     headers = {"Content-Type": "application/problem+json"}
     transport = httpx.MockTransport(

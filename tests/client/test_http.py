@@ -19,7 +19,7 @@ def client_of(answer: Handler) -> Client:
     return client_fakes.client_of(answer, encoding="json")
 
 
-def test_describe_sends_points_and_gives_arrays() -> None:
+def test_describe_sends_points_and_returns_arrays() -> None:
     sent = []
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -43,7 +43,7 @@ def test_describe_sends_points_and_gives_arrays() -> None:
     assert described.errors == {0: ItemError("urn:x", "Too few points", "4 points")}
 
 
-def test_match_of_a_description_leaves_out_what_has_no_descriptor() -> None:
+def test_match_skips_segments_without_descriptor() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         body = json.loads(request.content)
         assert body == {"k": 2, "maps": ["a"], "model_id": "m", "codes": [[3, 4]]}
@@ -70,7 +70,7 @@ def test_match_of_a_description_leaves_out_what_has_no_descriptor() -> None:
     assert matches.skipped[0].model_id == "n"
 
 
-def test_match_takes_one_kind_of_query() -> None:
+def test_match_refuses_both_or_no_kinds_of_query() -> None:
     with client_of(lambda _: httpx.Response(500)) as client:
         with pytest.raises(ValueError, match="either"):
             client.match()
@@ -92,7 +92,7 @@ def test_names_stay_one_part_of_the_path(name: str) -> None:
     assert seen[0].raw_path.count(b"/") == 2
 
 
-def test_maps_travel_as_files() -> None:
+def test_maps_are_sent_as_files() -> None:
     stored: dict[str, bytes] = {}
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -111,7 +111,7 @@ def test_maps_travel_as_files() -> None:
         assert encode(client.get_map("yard")) == encode(decode(encode(given)))
 
 
-def test_a_problem_becomes_an_error() -> None:
+def test_problem_becomes_a_service_error() -> None:
     problem = {"type": "urn:p", "title": "Unknown map", "status": 404, "detail": "No map 'x'."}
     with (
         client_of(lambda _: httpx.Response(404, json=problem)) as client,

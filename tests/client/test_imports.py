@@ -2,7 +2,7 @@ import subprocess
 import sys
 
 
-def test_the_client_needs_none_of_what_the_service_needs() -> None:
+def test_client_imports_nothing_of_the_service() -> None:
     program = (
         "import sys, placecell_client\n"
         "heavy = {'faiss', 'onnxruntime', 'torch', 'fastapi', 'pydantic', 'segments', 'service'}\n"

@@ -1,4 +1,4 @@
-"""Arrays that the client accepts, and errors for the others."""
+"""Arrays that the client accepts, and errors for all others."""
 
 import json
 import warnings
@@ -36,7 +36,7 @@ def structured(fields: list[Any], cloud: Any = CLOUD) -> Any:
 @pytest.mark.parametrize(
     "shape", [(3, 400), (40, 6), (40, 4), (40, 2), (40, 1), (120,), (3,), (), (1, 40, 3), (0, 4)]
 )
-def test_B3_other_shapes_are_refused_by_name(shape: tuple[int, ...]) -> None:
+def test_B3_wrong_shape_is_refused_by_name(shape: tuple[int, ...]) -> None:
     words = rf"segment 1 has shape \({', '.join(map(str, shape))},?\), expected \(n, 3\)"
     with pytest.raises(ValueError, match=words):
         segments_of([CLOUD, np.zeros(shape)], SENSOR, "msgpack")
@@ -59,13 +59,13 @@ def test_B3_other_shapes_are_refused_by_name(shape: tuple[int, ...]) -> None:
         ({1, 2, 3}, "shape"),
     ],
 )
-def test_B3_other_types_are_refused_by_name(points: Any, words: str) -> None:
+def test_B3_wrong_type_is_refused_by_name(points: Any, words: str) -> None:
     with pytest.raises(ValueError, match="segment 0") as raised:
         segments_of([points], SENSOR, "json")
     assert raised.match(words)
 
 
-def test_B3_a_cloud_given_for_a_list_of_clouds_is_refused() -> None:
+def test_B3_one_cloud_instead_of_a_list_is_refused() -> None:
     with pytest.raises(ValueError, match=r"segment 0 has shape \(3,\)"):
         segments_of(CLOUD, SENSOR, "msgpack")  # type: ignore[arg-type]
 
@@ -80,7 +80,7 @@ def test_B3_a_cloud_given_for_a_list_of_clouds_is_refused() -> None:
         [("y", "f4"), ("x", "f8"), ("z", ">f8"), ("rgb", "u1", 3)],
     ],
 )
-def test_B3_structured_arrays_are_taken(encoding: Encoding, fields: list[Any]) -> None:
+def test_B3_structured_arrays_are_accepted(encoding: Encoding, fields: list[Any]) -> None:
     array = structured(fields)
     np.testing.assert_allclose(sent(array, encoding), CLOUD, atol=4e-6)
     np.testing.assert_allclose(sent(array.reshape(8, 5), encoding), CLOUD, atol=4e-6)  # organized
@@ -88,7 +88,7 @@ def test_B3_structured_arrays_are_taken(encoding: Encoding, fields: list[Any]) -
     assert len(sent(array[:0], encoding)) == 0
 
 
-def test_B3_arrays_in_any_layout_are_taken(tmp_path: Path) -> None:
+def test_B3_arrays_in_any_memory_layout_are_accepted(tmp_path: Path) -> None:
     mapped = np.memmap(tmp_path / "cloud", np.float64, "w+", shape=CLOUD.shape)
     mapped[:] = CLOUD
     wide = np.zeros((40, 6))
@@ -160,12 +160,12 @@ def test_B10_the_result_counts_the_points_of_both_sides() -> None:
         ([True, True, True], "sensors has type bool"),
     ],
 )
-def test_B3_sensors_are_checked(sensors: Any, words: str) -> None:
+def test_B3_wrong_sensors_are_refused(sensors: Any, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         segments_of([CLOUD], sensors, "msgpack")
 
 
-def test_B3_codes_and_centroids_are_checked() -> None:
+def test_B3_wrong_codes_and_centroids_are_refused() -> None:
     for codes, words in (
         (np.zeros(4, np.int8), r"codes has shape \(4,\), expected \(n, any\)"),
         (np.zeros((4, 2)), "codes has type float64, expected integers"),
@@ -190,7 +190,7 @@ def test_B3_codes_and_centroids_are_checked() -> None:
 
 
 @pytest.mark.parametrize("encoding", ["json", "msgpack"])
-def test_B15_float32_of_utm_size_warns_and_float64_loses_nothing(encoding: Encoding) -> None:
+def test_B15_large_float32_coordinates_warn_and_float64_lose_nothing(encoding: Encoding) -> None:
     with pytest.warns(PrecisionWarning, match="Subtract an origin"):
         segments_of([(CLOUD + UTM).astype(np.float32)], UTM, encoding)
     with pytest.warns(PrecisionWarning):  # the digits were lost before

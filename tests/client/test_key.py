@@ -1,4 +1,4 @@
-"""The key goes to the service, and nowhere else."""
+"""The API key is sent to the service and appears nowhere else."""
 
 import traceback
 from typing import Any
@@ -27,7 +27,7 @@ def test_every_attempt_carries_the_key(make: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", [Client, AsyncClient])
-def test_reprs_tell_the_address_alone(kind: type[Client | AsyncClient]) -> None:
+def test_repr_shows_only_the_address(kind: type[Client | AsyncClient]) -> None:
     client = kind("http://robot:password@service/base", key=KEY)
     assert repr(client) == f"{kind.__name__}(URL('http://robot:[secure]@service/base/'))".replace(
         "base/", "base"
@@ -48,7 +48,7 @@ def test_reprs_tell_the_address_alone(kind: type[Client | AsyncClient]) -> None:
     ],
 )
 @pytest.mark.parametrize("make", [client_of, Blocking])
-def test_no_error_repeats_the_key(make: Any, response: httpx.Response) -> None:
+def test_service_errors_hide_the_key(make: Any, response: httpx.Response) -> None:
     with pytest.raises(ServiceError) as raised:
         make(lambda _: response, key=KEY).info()
     assert "s3cret" not in "".join(traceback.format_exception(raised.value))
@@ -56,7 +56,7 @@ def test_no_error_repeats_the_key(make: Any, response: httpx.Response) -> None:
     assert "[key]" in raised.value.detail
 
 
-def test_no_transport_error_tells_the_key() -> None:
+def test_transport_errors_hide_the_key() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         raise httpx.ConnectError("refused", request=request)
 
@@ -70,7 +70,7 @@ def test_no_transport_error_tells_the_key() -> None:
     "key", ["", "two words", "line's end\n", 'quo"te', "back\\slash", "schlüssel", "\x00"]
 )
 @pytest.mark.parametrize("kind", [Client, AsyncClient])
-def test_a_key_that_fits_no_header_is_refused_untold(
+def test_invalid_key_is_refused_without_showing_it(
     kind: type[Client | AsyncClient], key: str
 ) -> None:
     with pytest.raises(ValueError, match="Invalid key: expected one or more visible") as raised:

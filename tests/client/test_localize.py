@@ -1,4 +1,4 @@
-"""`Client.localize`: what is sent, and what it gives."""
+"""Tests of `Client.localize`: requests and results."""
 
 import json
 from typing import Any
@@ -21,7 +21,7 @@ DESCRIBED = Description(
 )
 
 
-def test_a_description_goes_with_its_centroids() -> None:
+def test_localize_sends_codes_with_centroids() -> None:
     def answer(request: httpx.Request) -> httpx.Response:
         assert request.url.path == "/localize"
         assert json.loads(request.content) == {
@@ -48,7 +48,7 @@ def test_a_description_goes_with_its_centroids() -> None:
     assert found.errors == {0: UNUSABLE}
 
 
-def test_in_msgpack_arrays_are_blobs() -> None:
+def test_msgpack_sends_arrays_as_bytes() -> None:
     sent: list[Any] = []
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -66,7 +66,7 @@ def test_in_msgpack_arrays_are_blobs() -> None:
     assert (sent[1]["motion"], sent[1]["k"], len(sent[1]["segments"])) == ("se3", 5, 1)
 
 
-def test_a_place_has_a_pose() -> None:
+def test_localized_robot_has_a_pose() -> None:
     with client_of(lambda _: packed(LOCALIZED)) as client:
         found = client.localize(segments=[CLOUD], sensors=np.zeros(3))
     best = found.best
@@ -84,8 +84,8 @@ def test_a_place_has_a_pose() -> None:
 
 
 @pytest.mark.parametrize("size", [4, 6])
-def test_uncertainty_is_told_of_any_point(size: int) -> None:
-    """A turn of 0.1 rad about z moves a point 10 m east of the origin by 1 m to the north."""
+def test_covariance_of_a_point_includes_the_rotation(size: int) -> None:
+    """A rotation of 0.1 rad about z moves a point 10 m east of the origin by 1 m to the north."""
     covariance = np.diag([0.04, 0.04, 0.01, *[0.0] * (size - 4), 0.01])
     flat = {"translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "yaw": 0.0}
     place = PLACE | {"pose": flat, "covariance": covariance.tolist()}
@@ -97,7 +97,7 @@ def test_uncertainty_is_told_of_any_point(size: int) -> None:
     np.testing.assert_allclose(best.covariance_at([0, 10, 0]), np.diag([1.04, 0.04, 0.01]))
 
 
-def test_not_localized_is_no_pose() -> None:
+def test_not_localized_has_no_pose_but_a_reason() -> None:
     nowhere = PLACE | {
         "localized": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
         "covariance": None, "inliers": [],
@@ -118,7 +118,7 @@ def test_not_localized_is_no_pose() -> None:
         found.maps[0].covariance_at([0, 0, 0])
 
 
-def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> None:
+def test_B1_two_equal_maps_are_ambiguous_and_the_rival_is_named() -> None:
     rival = {"map": "hall", "frame": "g", "pose": POSE, "score": 7.25, "inliers": 5}
     nowhere = {
         "localized": False, "reason": "ambiguous", "detail": "Two.", "pose": None,
@@ -139,8 +139,8 @@ def test_B1_two_maps_that_fit_equally_well_are_no_place_and_both_are_told() -> N
     assert found.maps[1].rival.map == "yard"
 
 
-def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
-    """The answer is that of a service without joint judgment."""
+def test_B1_equally_probable_maps_are_ordered_by_score() -> None:
+    """The answer is from a service that judges each map alone."""
     old = {name: value for name, value in PLACE.items() if name != "rival"}
     places = [old | {"map": "a", "score": 73.0}, old | {"map": "z", "score": 129.0}]
     with client_of(lambda _: packed(LOCALIZED | {"localizations": places})) as client:
@@ -150,7 +150,7 @@ def test_B1_equally_likely_maps_are_told_by_score_not_by_name() -> None:
     assert found.rival is None
 
 
-def test_it_takes_one_kind_of_query() -> None:
+def test_localize_refuses_both_or_no_kinds_of_query() -> None:
     with client_of(lambda _: httpx.Response(500)) as client:
         for arguments in ({}, {"segments": [CLOUD]}, {"description": DESCRIBED, "sensors": CLOUD}):
             with pytest.raises(ValueError, match="either"):

@@ -30,7 +30,7 @@ PROVENANCE_OF_3: dict[str, Any] = {
 MERGED = encode(random_map(segments=3, frames=2, optional=PROVENANCE))
 
 
-def test_a_map_comes_back_sorted_by_id() -> None:
+def test_decoded_map_is_sorted_by_id() -> None:
     given_map = random_map(segments=50)
     back = decode(encode(given_map))
     order = np.argsort(given_map.ids)
@@ -82,7 +82,7 @@ def test_equal_maps_are_equal_files() -> None:
     seed=st.integers(0, 1 << 32),
     optional=COLUMN_SETS,
 )
-def test_encoding_what_was_decoded_changes_nothing(
+def test_encoding_a_decoded_map_gives_the_same_bytes(
     segments: int, dimension: int, frames: int, extent: float, seed: int, optional: set[str]
 ) -> None:
     data = encode(random_map(segments, dimension, frames, extent, seed, optional=optional))
@@ -91,7 +91,7 @@ def test_encoding_what_was_decoded_changes_nothing(
 
 @pytest.mark.slow
 @given(maps())
-def test_small_maps_that_decode_again_are_equal_files(given_map: CompactMap) -> None:
+def test_small_decoded_maps_give_the_same_bytes(given_map: CompactMap) -> None:
     data = encode(given_map)
     back = decode(data)
     assert encode(back) == data
@@ -100,7 +100,7 @@ def test_small_maps_that_decode_again_are_equal_files(given_map: CompactMap) -> 
 
 @pytest.mark.slow
 @given(maps(st.just(set(OPTIONAL))), st.randoms(use_true_random=False))
-def test_the_order_of_rows_and_tables_makes_no_difference(
+def test_order_of_rows_and_tables_does_not_change_the_file(
     one: CompactMap, random: random_module.Random
 ) -> None:
     rows = random.sample(range(len(one)), len(one))
@@ -119,7 +119,7 @@ def test_the_order_of_rows_and_tables_makes_no_difference(
 
 
 @pytest.mark.parametrize("names", GROUPS)
-def test_an_optional_column_comes_back(names: tuple[str, ...]) -> None:
+def test_optional_columns_are_decoded(names: tuple[str, ...]) -> None:
     given_map = random_map(segments=20, optional=names)
     back = decode(encode(given_map))
     assert back.optional == names
@@ -129,7 +129,7 @@ def test_an_optional_column_comes_back(names: tuple[str, ...]) -> None:
         assert column.dtype == given_column.dtype
 
 
-def test_where_segments_were_merged_from_comes_back() -> None:
+def test_provenance_is_decoded() -> None:
     one = replace(
         random_map(segments=4),
         ids=np.array([9, 3, 5, 7], np.uint32),
@@ -149,7 +149,7 @@ def test_where_segments_were_merged_from_comes_back() -> None:
     assert "sources" not in inner_header(SMALL)
 
 
-def test_provenance_without_segments_comes_back() -> None:
+def test_provenance_without_segments_is_decoded() -> None:
     back = decode(encode(random_map(segments=0, optional=PROVENANCE)))
     assert (back.optional, back.sources) == (PROVENANCE, ())
 
@@ -164,7 +164,9 @@ def test_provenance_without_segments_comes_back() -> None:
         (PROVENANCE, 6, 3),  # the names are one more
     ],
 )
-def test_what_an_optional_column_costs(optional: tuple[str, ...], each: int, entries: int) -> None:
+def test_optional_column_has_the_documented_size(
+    optional: tuple[str, ...], each: int, entries: int
+) -> None:
     bare = encode(random_map(segments=10_000, dimension=32, frames=250))
     more = encode(random_map(segments=10_000, dimension=32, frames=250, optional=optional))
     assert 0 <= len(more) - len(bare) - 10_000 * each < 100 * entries
@@ -180,7 +182,7 @@ def test_a_map_of_any_extent_keeps_centimeters(extent: float) -> None:
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [1, -1])
-def test_segments_at_the_limit_from_their_sensor(axis: int, sign: int) -> None:
+def test_segment_at_the_largest_distance_from_its_sensor_is_accepted(axis: int, sign: int) -> None:
     one = random_map(segments=1, frames=1)
     sensor = np.array([5e5, 5.4e6, 300.0])
     for offset, is_near in {327.67: True, 327.6749: True, 327.6751: False, 327.68: False}.items():
@@ -194,7 +196,7 @@ def test_segments_at_the_limit_from_their_sensor(axis: int, sign: int) -> None:
                 encode(placed)
 
 
-def test_a_map_that_loses_segments_is_not_rounded_again() -> None:
+def test_removing_segments_does_not_round_a_map_again() -> None:
     once = decode(encode(random_map(segments=40, extent=600)))
     kept = slice(0, 25)
     less = replace(
@@ -213,7 +215,7 @@ def test_at_most_48_bytes_a_segment() -> None:
     assert len(data) / 10_000 <= 48
 
 
-def test_the_bytes_are_those_of_the_first_release() -> None:
+def test_file_bytes_equal_those_of_the_first_release() -> None:
     # Fixed values, no random ones: maps stored today must be readable for ever.
     given_map = CompactMap(
         model_id="m-0",
@@ -236,7 +238,7 @@ def test_the_bytes_are_those_of_the_first_release() -> None:
     )
 
 
-def test_other_readers_of_safetensors_can_read_it() -> None:
+def test_file_is_readable_by_the_safetensors_library() -> None:
     given_map = random_map(segments=9)
     columns = safetensors.numpy.load(encode(given_map))
     np.testing.assert_array_equal(columns["codes"], given_map.codes[np.argsort(given_map.ids)])
@@ -272,7 +274,7 @@ def test_other_readers_of_safetensors_can_read_it() -> None:
         ({"time_span_us": [0, 1]}, "canonical"),
     ],
 )
-def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str) -> None:
+def test_wrong_header_is_refused(changes: dict[str, object], message: str) -> None:
     assert with_inner_header(SMALL) == SMALL
     with pytest.raises(MapFileError, match=message):
         decode(with_inner_header(SMALL, **changes))
@@ -294,14 +296,14 @@ def test_a_header_that_lies_is_refused(changes: dict[str, object], message: str)
         ({"sources": [["east"], "west"]}, "sources is not a string"),
     ],
 )
-def test_names_of_sources_that_lie_are_refused(changes: dict[str, object], message: str) -> None:
+def test_wrong_source_names_are_refused(changes: dict[str, object], message: str) -> None:
     assert inner_header(MERGED)["sources"] == ["east", "west"]
     assert with_inner_header(MERGED) == MERGED
     with pytest.raises(MapFileError, match=message):
         decode(with_inner_header(MERGED, **changes))
 
 
-def test_columns_without_names_and_names_without_columns_are_refused() -> None:
+def test_source_names_and_columns_without_each_other_are_refused() -> None:
     with pytest.raises(
         MapFileError, match="sources: has names, but source and source_ids are missing"
     ):
@@ -355,12 +357,12 @@ def test_columns_without_names_and_names_without_columns_are_refused() -> None:
         (PROVENANCE_OF_3 | {"source_ids": np.ones(3, np.int64)}, "source_ids: int64"),
     ],
 )
-def test_maps_that_are_not_valid_are_not_written(changes: dict[str, Any], message: str) -> None:
+def test_invalid_map_is_not_written(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(MapFileError, match=message):
         encode(replace(random_map(segments=3, frames=2), **changes))
 
 
-def test_more_frames_than_an_uint16_counts() -> None:
+def test_more_captures_than_uint16_use_uint32() -> None:
     frames = (1 << 16) + 1
     data = encode(random_map(segments=frames, dimension=1, frames=frames))
     assert safetensors.numpy.load(data)["frame_index"].dtype == np.uint32

@@ -41,7 +41,7 @@ def block(name: str) -> str:
     return found[1]
 
 
-def test_the_example_is_the_codecs() -> None:
+def test_example_on_the_page_equals_the_codecs_bytes() -> None:
     data = b""
     for line in block("map").splitlines():
         parts = re.fullmatch(LINE, line)
@@ -52,12 +52,12 @@ def test_the_example_is_the_codecs() -> None:
     assert f"\n{len(data)} bytes. " in TEXT
 
 
-def test_the_deltas_header_is_the_codecs() -> None:
+def test_delta_header_on_the_page_equals_the_codecs() -> None:
     data = encode_delta(Delta(EXAMPLE, np.array([4, 5, 9], np.uint32), 3, 5))
     assert block("delta").replace("\n", "") == compact_json(inner_header(data))
 
 
-def test_the_columns_are_the_codecs() -> None:
+def test_columns_on_the_page_equal_the_codecs() -> None:
     rows = re.findall(r"^\| `(\w+)` \| ([A-Z]\d+)(?:; (U\d+) if [^|]*)? \|", TEXT, re.MULTILINE)
     told = {name: tuple(filter(None, dtypes)) for name, *dtypes in rows}
     assert list(told.items()) == list(container.DTYPES.items())
@@ -69,14 +69,14 @@ def test_the_columns_are_the_codecs() -> None:
     assert {name: int(cost) for name, cost in costs.items()} == sizes
 
 
-def test_the_media_types_are_the_codecs() -> None:
+def test_media_types_on_the_pages_equal_the_codecs() -> None:
     assert f"| map | `{map_file.MEDIA_TYPE}` |" in TEXT
     assert f"| delta | `{delta_file.MEDIA_TYPE}` |" in TEXT
     assert f"media type is `{delta_file.MEDIA_TYPE}`" in TEXT
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="no g++ to build the program with")
-def test_the_program_reads_map_files(tmp_path: Path) -> None:
+def test_program_on_the_page_reads_map_files(tmp_path: Path) -> None:
     source, program = tmp_path / "read_map.cpp", tmp_path / "read_map"
     source.write_text(block("cpp"))
     subprocess.run(

@@ -1,4 +1,4 @@
-"""What the clients ask of shared maps, and how a copy is kept up to date."""
+"""Requests for shared maps, and updates of a local copy."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -66,7 +66,7 @@ def test_conditions_and_queries_are_sent_as_asked(make: Callable[..., Any]) -> N
     ]
 
 
-def test_ids_that_were_taken_are_told(make: Callable[..., Any]) -> None:
+def test_error_lists_the_refused_ids(make: Callable[..., Any]) -> None:
     problem: dict[str, Any] = {
         "type": "urn:p",
         "title": "Id taken",
@@ -83,7 +83,7 @@ def test_ids_that_were_taken_are_told(make: Callable[..., Any]) -> None:
 
 
 def parts_of(delta: Delta, count: int) -> Iterator[Delta]:
-    """The delta in so many parts."""
+    """Split a delta into parts."""
     for part in range(count):
         changed = take(delta.changed, np.arange(part, len(delta.changed), count))
         removed = delta.removed[part::count]
@@ -91,7 +91,7 @@ def parts_of(delta: Delta, count: int) -> Iterator[Delta]:
 
 
 class Sharing:
-    """A service that knows versions 1 and 2, and gives changes in three parts."""
+    """Fake service that knows versions 1 and 2 and sends changes in three pages."""
 
     def __init__(self) -> None:
         self.asked: list[str] = []
@@ -117,7 +117,7 @@ class Sharing:
         return httpx.Response(200, content=content, headers=headers)
 
 
-def test_a_copy_is_made_and_brought_up_to_date(make: Callable[..., Any]) -> None:
+def test_pull_creates_and_updates_a_copy(make: Callable[..., Any]) -> None:
     service = Sharing()
     copy = make(service).pull("yard")
     assert (copy.name, copy.etag, copy.sequence) == ("yard", "e-2", 2)
@@ -129,7 +129,7 @@ def test_a_copy_is_made_and_brought_up_to_date(make: Callable[..., Any]) -> None
     assert service.asked[0] == "since=e-1"
 
 
-def test_where_the_link_was_cut_the_next_pull_goes_on(make: Callable[..., Any]) -> None:
+def test_pull_continues_with_the_missing_page(make: Callable[..., Any]) -> None:
     service, copy = Sharing(), MapCopy("yard", OLD, "e-1")
     service.fails = [0, 403]
     with pytest.raises(ServiceError):
@@ -142,7 +142,7 @@ def test_where_the_link_was_cut_the_next_pull_goes_on(make: Callable[..., Any]) 
     assert service.asked == ["since=e-1&cursor=e-1.1", "since=e-1&cursor=e-1.2"]
 
 
-def test_what_the_service_no_longer_knows_is_got_anew(make: Callable[..., Any]) -> None:
+def test_pull_restarts_when_the_service_dropped_the_version(make: Callable[..., Any]) -> None:
     service, copy = Sharing(), MapCopy("yard", OLD, "e-1")
     service.fails = [0, 410, 410]
     make(service).pull(copy)
@@ -163,8 +163,8 @@ def test_what_the_service_no_longer_knows_is_got_anew(make: Callable[..., Any]) 
         make(service).pull("yard")
 
 
-def test_a_copy_that_lost_its_way_often_is_not_given_up_for_good() -> None:
-    """Versions are let go of again and again while it is pulled over a link that is cut."""
+def test_copy_is_usable_after_too_many_restarts() -> None:
+    """The service drops versions during a pull over a link that breaks."""
     part, *_ = parts_of(Delta(NEW, NONE, 0, 2), 3)
     copy = MapCopy("yard", OLD, "e-1")
     for _ in range(3):
@@ -175,7 +175,7 @@ def test_a_copy_that_lost_its_way_often_is_not_given_up_for_good() -> None:
         assert losses == RESTARTS
 
 
-def test_what_cannot_be_followed_is_got_whole_until_it_is_there(make: Callable[..., Any]) -> None:
+def test_pull_gets_the_whole_map_when_changes_are_unavailable(make: Callable[..., Any]) -> None:
     service, copy = Sharing(), MapCopy("yard", OLD, "e-1")
     service.fails = [410, 0, 410]
     make(service).pull(copy)
@@ -185,7 +185,7 @@ def test_what_cannot_be_followed_is_got_whole_until_it_is_there(make: Callable[.
     ]
 
 
-def test_a_copy_takes_only_what_it_asked_for() -> None:
+def test_copy_refuses_pages_it_did_not_request() -> None:
     changed, removed = difference(OLD, NEW)
     copy = MapCopy("yard", OLD, "e-1")
     with pytest.raises(MapFileError, match="starts at version 7"):
@@ -199,7 +199,7 @@ def test_a_copy_takes_only_what_it_asked_for() -> None:
 
 
 @pytest.mark.parametrize("tag", [None, "", '"x"', '"e-"', '"-3"', '"e-3x"'])
-def test_a_tag_that_is_none_of_ours_is_not_taken(make: Callable[..., Any], tag: str | None) -> None:
+def test_foreign_etag_is_refused(make: Callable[..., Any], tag: str | None) -> None:
     headers = {"Content-Type": "application/vnd.placecell.delta"}
     headers |= {"ETag": tag} if tag is not None else {}
     content = encode_delta(Delta(NEW, NONE, 0, 2))
@@ -208,7 +208,7 @@ def test_a_tag_that_is_none_of_ours_is_not_taken(make: Callable[..., Any], tag: 
         client.pull("yard")
 
 
-def test_a_copy_of_another_map_of_that_name_is_replaced_whole() -> None:
+def test_copy_of_a_recreated_map_is_replaced() -> None:
     other: CompactMap = random_map(seed=3, dimension=9)
     copy = MapCopy("yard", OLD, "e-1")
     assert copy.take(ChangesPage(Delta(other, NONE, 0, 4), "f-4", None))

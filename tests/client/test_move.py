@@ -1,4 +1,4 @@
-"""Maps in other frames, and on their way into other maps."""
+"""Transforms of maps into other frames, and provenance before a merge."""
 
 from dataclasses import replace
 from typing import Any
@@ -23,7 +23,7 @@ Moves = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 @st.composite
 def moves(draw: st.DrawFn) -> Moves:
-    """Any rotation, among them half turns and none, and kilometres of translation."""
+    """Draw any rotation, with 0 and 180 degrees among them, and kilometers of translation."""
     angles = st.sampled_from([0.0, 90.0, 180.0]) | st.floats(-180, 180)
     turn = Rotation.from_euler("zyx", [draw(angles) for _ in range(3)], degrees=True)
     return turn.as_matrix(), np.array([draw(st.floats(-1e4, 1e4)) for _ in range(3)])
@@ -39,7 +39,7 @@ def assert_same_place(one: CompactMap, other: CompactMap) -> None:
     assert ((turns(one).inv() * turns(other)).magnitude() < 1e-6).all()
 
 
-def test_a_quarter_turn_by_hand() -> None:
+def test_rotation_by_90_degrees_equals_a_computation_by_hand() -> None:
     one = replace(
         random_map(segments=1, frames=3),
         centroids=np.array([[1.0, 2.0, 3.0]]),
@@ -58,7 +58,7 @@ def test_a_quarter_turn_by_hand() -> None:
 
 
 @given(moves(), st.integers(0, 9))
-def test_orientations_turn_along_and_stay_of_norm_one(move: Moves, seed: int) -> None:
+def test_orientations_are_rotated_and_stay_unit_quaternions(move: Moves, seed: int) -> None:
     one = random_map(seed=seed)
     other = moved(one, *move, "site")
     assert other.frame_orientations.dtype == np.float32
@@ -70,7 +70,7 @@ def test_orientations_turn_along_and_stay_of_norm_one(move: Moves, seed: int) ->
 
 
 @given(moves(), st.integers(0, 9))
-def test_there_and_back_is_where_it_was(move: Moves, seed: int) -> None:
+def test_transform_and_its_inverse_restore_the_map(move: Moves, seed: int) -> None:
     one = random_map(seed=seed)
     rotation, translation = move
     back = moved(moved(one, *move, "site"), rotation.T, -rotation.T @ translation, one.frame)
@@ -79,7 +79,7 @@ def test_there_and_back_is_where_it_was(move: Moves, seed: int) -> None:
 
 
 @given(moves(), moves(), st.integers(0, 9))
-def test_two_moves_are_one(first: Moves, second: Moves, seed: int) -> None:
+def test_two_transforms_equal_their_product(first: Moves, second: Moves, seed: int) -> None:
     one = random_map(seed=seed)
     in_turn = moved(moved(one, *first, "a"), *second, "b")
     at_once = moved(one, second[0] @ first[0], second[0] @ first[1] + second[1], "b")
@@ -88,7 +88,7 @@ def test_two_moves_are_one(first: Moves, second: Moves, seed: int) -> None:
 
 @pytest.mark.slow
 @given(maps(), moves())
-def test_nothing_else_changes(one: CompactMap, move: Moves) -> None:
+def test_transform_keeps_all_other_columns(one: CompactMap, move: Moves) -> None:
     other = moved(one, *move, "site")
     for name in ({*SEGMENT_COLUMNS, *OPTIONAL} - {"centroids"}) | {"frame_times"}:
         assert getattr(other, name) is getattr(one, name)
@@ -96,7 +96,7 @@ def test_nothing_else_changes(one: CompactMap, move: Moves) -> None:
     assert (other.robots, other.sources) == (one.robots, one.sources)
 
 
-def test_a_quaternion_is_made_of_norm_one_before_it_is_turned() -> None:
+def test_orientations_are_normalized_before_rotation() -> None:
     one = random_map(segments=1, frames=1)
     long = replace(one, frame_orientations=one.frame_orientations * np.float32(1.0009))
     long.check()
@@ -119,13 +119,13 @@ def test_a_quaternion_is_made_of_norm_one_before_it_is_turned() -> None:
         (np.eye(3), [0, 0, np.inf], "translation"),
     ],
 )
-def test_what_is_no_move_is_refused(rotation: Any, translation: Any, message: str) -> None:
+def test_invalid_transform_is_refused(rotation: Any, translation: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         moved(random_map(), rotation, translation, "site")
 
 
 def told(compact_map: CompactMap) -> dict[int, tuple[str, int]]:
-    """Source and id there, by id."""
+    """Return source and source id of each segment by its id."""
     assert compact_map.source is not None
     assert compact_map.source_ids is not None
     names = np.array(["", *compact_map.sources], object)[compact_map.source]
@@ -135,7 +135,7 @@ def told(compact_map: CompactMap) -> dict[int, tuple[str, int]]:
 
 @pytest.mark.slow
 @given(maps(), st.sampled_from(["yard", "east"]))
-def test_a_segment_keeps_where_it_first_was(one: CompactMap, name: str) -> None:
+def test_segment_keeps_its_first_source(one: CompactMap, name: str) -> None:
     before = told(one) if one.source is not None else {}
     after = originated(one, name)
     after.check()
@@ -147,7 +147,7 @@ def test_a_segment_keeps_where_it_first_was(one: CompactMap, name: str) -> None:
     assert encode(originated(after, "elsewhere")) == encode(after)
 
 
-def test_segments_of_two_maps_in_a_third() -> None:
+def test_merged_map_names_both_sources() -> None:
     yard, dock = random_map(segments=3), random_map(segments=2, seed=1)
     ids = np.array([1000, 1001], np.uint32)
     added = replace(originated(dock, "dock"), ids=ids)
@@ -158,19 +158,19 @@ def test_segments_of_two_maps_in_a_third() -> None:
     }
 
 
-def test_a_map_without_segments_has_no_source_to_tell() -> None:
+def test_empty_map_has_no_sources() -> None:
     nothing = originated(random_map(segments=0), "yard")
     assert nothing.optional == PROVENANCE
     assert told(nothing) == {}
 
 
 @pytest.mark.parametrize("name", ["", "a\nb", "n" * 201])
-def test_what_is_no_name_is_refused(name: str) -> None:
+def test_invalid_source_name_is_refused(name: str) -> None:
     with pytest.raises(MapFileError, match="sources"):
         originated(random_map(), name)
 
 
-def test_a_name_too_many_is_refused() -> None:
+def test_too_many_source_names_are_refused() -> None:
     full = replace(
         random_map(optional=PROVENANCE), sources=tuple(f"{number}" for number in range(65_535))
     )

@@ -1,4 +1,4 @@
-"""The bytes on the msgpack page are those that the client sends and reads."""
+"""The bytes on the msgpack page equal those that the client sends and reads."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,7 @@ CLOUD = np.array([[4.0, 2.0, 0.5], [4.25, 2.0, 0.75]])
 
 
 def example(name: str) -> bytes:
-    """The bytes of a block: each line has an offset, bytes, and two spaces behind, a comment."""
+    """Return the bytes of a block; a line has an offset, bytes, two spaces and a comment."""
     text = DOCUMENT.read_text()
     block = re.search(rf"```{name}\n(.*?)```\n\n(\d+) bytes", text, re.DOTALL)
     assert block is not None
@@ -32,7 +32,7 @@ def example(name: str) -> bytes:
     return data
 
 
-def test_the_request_is_the_clients() -> None:
+def test_request_on_the_page_equals_the_clients_bytes() -> None:
     content = msgpack.unpackb(example("request"))
     assert content["segments"][0]["points"] == CLOUD.astype("<f4").tobytes()
     assert content == {
@@ -43,7 +43,7 @@ def test_the_request_is_the_clients() -> None:
     assert msgpack.packb({"origin": ORIGIN} | sent) == example("request")
 
 
-def test_the_answer_is_read_by_the_client() -> None:
+def test_answer_on_the_page_is_read_by_the_client() -> None:
     def answer(_: httpx.Request) -> httpx.Response:
         headers = {"Content-Type": "application/msgpack"}
         return httpx.Response(200, content=example("answer"), headers=headers)
@@ -59,7 +59,7 @@ def test_the_answer_is_read_by_the_client() -> None:
     }
 
 
-def test_a_program_finds_the_descriptor_where_the_document_says() -> None:
+def test_descriptor_is_at_the_documented_offset() -> None:
     text = DOCUMENT.read_text()
     told = re.search(r"(\d+) bytes at offset (\d+), behind its `(.{5})`", text)
     assert told is not None
@@ -70,7 +70,7 @@ def test_a_program_finds_the_descriptor_where_the_document_says() -> None:
     assert f"answer.data() + {offset}, {length})" in text
 
 
-def test_the_levels_are_the_quantizers() -> None:
+def test_levels_on_the_page_equal_the_quantizers() -> None:
     rows = re.findall(
         r"^\| (\d) \| (\d+) \| (.*) \| (-\d+) \|$", DOCUMENT.read_text(), re.MULTILINE
     )
@@ -87,7 +87,7 @@ def test_the_levels_are_the_quantizers() -> None:
         np.testing.assert_array_equal(Quantizer(1.0, per_byte).levels(codes), levels[digits])
 
 
-def test_the_worked_byte_is_the_quantizers() -> None:
+def test_example_byte_on_the_page_equals_the_quantizers() -> None:
     told = re.search(r"four in a byte, `(..)` is .*: levels (.*)\.", DOCUMENT.read_text())
     assert told is not None
     code = np.frombuffer(bytes.fromhex(told[1]), np.int8)[None]

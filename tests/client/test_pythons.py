@@ -65,7 +65,7 @@ def smoke(python: str, folder: Path) -> str:
 
 
 @pytest.mark.pythons
-def test_B7_the_client_works_on_the_oldest_python(tmp_path: Path) -> None:
+def test_B7_client_works_on_the_oldest_python(tmp_path: Path) -> None:
     python = interpreters().get(OLDEST)
     if python is None:
         pytest.skip("no Python 3.10 on PATH or in pyenv")
@@ -73,13 +73,13 @@ def test_B7_the_client_works_on_the_oldest_python(tmp_path: Path) -> None:
 
 
 @pytest.mark.pythons
-def test_B7_the_client_works_on_the_newest_python(tmp_path: Path) -> None:
+def test_B7_client_works_on_the_newest_python(tmp_path: Path) -> None:
     version, python = max(interpreters().items(), default=((0, 0), ""))
     if version <= sys.version_info[:2]:
         pytest.skip("no Python newer than the tests' own on PATH or in pyenv")
     assert smoke(python, tmp_path / "venv").startswith(f"good {version[0]}.{version[1]}")
 
 
-def test_B7_the_client_says_the_oldest_python() -> None:
+def test_B7_client_declares_the_oldest_python() -> None:
     project = tomllib.loads((ROOT / "client/pyproject.toml").read_text())["project"]
     assert project["requires-python"] == f">={OLDEST[0]}.{OLDEST[1]}"

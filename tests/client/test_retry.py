@@ -1,4 +1,4 @@
-"""What is tried again, when, and until when; by both clients."""
+"""Retries of both clients: which calls, after which waits, until when."""
 
 import random
 from collections.abc import Callable, Iterable
@@ -27,7 +27,7 @@ def make(request: pytest.FixtureRequest) -> Make:
 
 
 class Service:
-    """Gives these outcomes, one after the other, the last one for ever; keeps the requests."""
+    """Transport with scripted outcomes; the last one repeats. It keeps the requests."""
 
     def __init__(self, *outcomes: Outcome) -> None:
         self.outcomes = list(outcomes)
@@ -61,14 +61,14 @@ PASSING: Iterable[Outcome] = [
 
 
 @pytest.mark.parametrize("passing", PASSING, ids=repr)
-def test_what_may_pass_is_tried_again(make: Make, passing: Outcome) -> None:
+def test_temporary_failure_is_repeated(make: Make, passing: Outcome) -> None:
     time, service = Time(), Service(passing, passing, OK)
     assert make(service, time).info().model_id == "m"
     assert time.slept == [0.1, 0.2]
 
 
 @pytest.mark.parametrize("status", [300, 400, 401, 404, 409, 413, 422, 500, 501, 507, 599])
-def test_what_will_not_pass_is_not(make: Make, status: int) -> None:
+def test_permanent_failure_is_not_repeated(make: Make, status: int) -> None:
     time, service = Time(), Service(busy(status, {"Retry-After": "1"}))
     with pytest.raises(ServiceError) as raised:
         make(service, time).info()
@@ -78,7 +78,7 @@ def test_what_will_not_pass_is_not(make: Make, status: int) -> None:
 
 
 @pytest.mark.parametrize("error", [httpx.UnsupportedProtocol("ftp"), httpx.LocalProtocolError("")])
-def test_an_own_mistake_is_not_tried_again(make: Make, error: Exception) -> None:
+def test_error_of_the_caller_is_not_repeated(make: Make, error: Exception) -> None:
     service = Service(error)
     with pytest.raises(type(error)):
         make(service).info()
@@ -107,7 +107,7 @@ def test_waits_grow_up_to_the_longest(make: Make) -> None:
     assert time.slept == [0.5, 1, 2, 3, 3, 3]
 
 
-def test_waits_are_drawn_from_zero_up(make: Make) -> None:
+def test_waits_are_drawn_from_zero_to_the_bound(make: Make) -> None:
     time, service = Time(), Service(busy())
     with pytest.raises(ServiceError):
         make(service, time, jitter=random.Random(7).random).info()
@@ -115,7 +115,7 @@ def test_waits_are_drawn_from_zero_up(make: Make) -> None:
     assert time.slept == [draws.random() * longest for longest in (0.1, 0.2, 0.4, 0.8)]
 
 
-def test_very_many_attempts_are_possible() -> None:
+def test_wait_after_very_many_attempts_is_finite() -> None:
     assert Retries(attempts=10**9).wait(10**9, 1.0) == 10
 
 
@@ -131,7 +131,7 @@ def test_very_many_attempts_are_possible() -> None:
         ("Wed, 21 Oct 2026 07:28:10 -0000", 10),
     ],
 )
-def test_retry_after_is_the_least_wait(make: Make, value: str, seconds: float) -> None:
+def test_retry_after_is_the_shortest_wait(make: Make, value: str, seconds: float) -> None:
     # The date is the service's; the robot's clock need not be right.
     time = Time()
     service = Service(after(value, Date="Wed, 21 Oct 2026 07:28:00 GMT"), OK)
@@ -139,7 +139,7 @@ def test_retry_after_is_the_least_wait(make: Make, value: str, seconds: float) -
     assert time.slept == [pytest.approx(seconds + 0.1)]
 
 
-def test_a_date_alone_is_by_the_robots_clock(make: Make) -> None:
+def test_retry_after_date_uses_the_robots_clock_without_a_date_header(make: Make) -> None:
     time = Time()
     make(Service(after("Wed, 21 Oct 2015 07:28:00 GMT"), OK), time).info()
     assert time.slept == [0.1]
@@ -150,13 +150,13 @@ def test_a_date_alone_is_by_the_robots_clock(make: Make) -> None:
 
 
 @pytest.mark.parametrize("value", ["", "soon", "-1", "1.5", "1e3", "9" * 5000, "Wed, 99 Oct 2026"])
-def test_a_retry_after_that_is_none_is_passed_over(make: Make, value: str) -> None:
+def test_invalid_retry_after_is_ignored(make: Make, value: str) -> None:
     time = Time()
     make(Service(after(value), OK), time).info()
     assert time.slept == [0.1]
 
 
-def test_a_wait_beyond_the_deadline_is_not_begun(make: Make) -> None:
+def test_wait_beyond_the_deadline_is_not_started(make: Make) -> None:
     time, service = Time(), Service(after("31"))
     with pytest.raises(ServiceError) as raised:
         make(service, time, timeout=30).info()
@@ -169,7 +169,7 @@ def test_a_wait_beyond_the_deadline_is_not_begun(make: Make) -> None:
     assert sum(time.slept) < 30
 
 
-def test_a_sleep_that_takes_too_long_ends_the_call(make: Make) -> None:
+def test_too_long_sleep_ends_the_call(make: Make) -> None:
     service = Service(busy())
 
     class Slow(Time):
@@ -181,7 +181,7 @@ def test_a_sleep_that_takes_too_long_ends_the_call(make: Make) -> None:
     assert len(service.requests) == 1
 
 
-def test_attempts_tell_how_long_they_are_waited_for(make: Make) -> None:
+def test_attempts_send_their_timeout(make: Make) -> None:
     time, service = Time(), Service(after("4"), after("20"), OK)
     make(service, time, timeout=30).info()
     assert service.sent("Placecell-Timeout") == ["30.000", "25.900", "5.700"]
@@ -195,7 +195,7 @@ def test_attempts_may_be_shorter_than_the_call(make: Make) -> None:
     assert service.sent("Placecell-Timeout") == ["5.000", "1.900"]
 
 
-def test_a_step_of_httpx_is_left_the_time_that_is_left(make: Make) -> None:
+def test_each_step_of_httpx_gets_the_remaining_time(make: Make) -> None:
     time = Time()
     left = []
 
@@ -210,7 +210,7 @@ def test_a_step_of_httpx_is_left_the_time_that_is_left(make: Make) -> None:
     assert left == [30, 21, 12]
 
 
-def test_a_body_is_sent_as_long_as_there_is_time() -> None:
+def test_body_is_sent_until_the_deadline() -> None:
     time = Time()
     parts = Attempt("PUT", "/maps/yard", {}, bytes(200_000), Deadline(1, time.clock)).parts()
     assert parts is not None
@@ -223,7 +223,7 @@ def test_a_body_is_sent_as_long_as_there_is_time() -> None:
         next(parts)
 
 
-def test_a_call_keeps_its_id(make: Make) -> None:
+def test_all_attempts_of_a_call_have_the_same_id(make: Make) -> None:
     service = Service(busy(), httpx.ConnectError("refused"), busy(500))
     client = make(service)
     with pytest.raises(ServiceError) as raised:
@@ -248,7 +248,7 @@ def test_repeated_uploads_are_the_same_bytes(make: Make, compress: bool) -> None
     assert all("Transfer-Encoding" not in request.headers for request in service.requests)
 
 
-def test_a_map_that_a_repeated_delete_finds_gone_is_deleted(make: Make) -> None:
+def test_repeated_delete_with_404_succeeds(make: Make) -> None:
     unknown = busy(404)
     make(Service(httpx.ReadTimeout("lost"), unknown)).delete_map("yard", "e-3")
     make(Service(httpx.ReadTimeout("lost"), busy(429), unknown)).delete_map("yard", "e-3")
@@ -273,7 +273,7 @@ WRITTEN_OVER: dict[str, Callable[[Any], Any]] = {
     "compact": lambda client: client.compact_map("yard"),
     "delete": lambda client: client.delete_map("yard"),
 }
-"""What would undo what others wrote since, if it were done again."""
+"""Calls that would undo later writes of others if they were repeated."""
 REPEATED: dict[str, Callable[[Any], Any]] = {
     "restore": lambda client: client.restore_map("yard", 3, "e-3"),
     "put": lambda client: client.put_map("yard", random_map(), if_match="e-3"),
@@ -300,7 +300,7 @@ UNDONE: list[Outcome] = [
 
 @pytest.mark.parametrize("outcome", UNKNOWN, ids=repr)
 @pytest.mark.parametrize("call", WRITTEN_OVER)
-def test_what_may_be_done_and_would_undo_is_not_sent_again(
+def test_unsafe_write_that_may_be_done_is_not_repeated(
     make: Make, call: str, outcome: Outcome
 ) -> None:
     time, service = Time(), Service(busy(429), outcome)
@@ -315,7 +315,7 @@ def test_what_may_be_done_and_would_undo_is_not_sent_again(
 
 
 @pytest.mark.parametrize("call", WRITTEN_OVER)
-def test_what_is_certainly_not_done_is_sent_again(make: Make, call: str) -> None:
+def test_unsafe_write_that_was_not_done_is_repeated(make: Make, call: str) -> None:
     service = Service(*UNDONE, busy(400))
     with pytest.raises(ServiceError) as raised:
         WRITTEN_OVER[call](make(service))
@@ -324,7 +324,7 @@ def test_what_is_certainly_not_done_is_sent_again(make: Make, call: str) -> None
 
 
 @pytest.mark.parametrize("call", REPEATED)
-def test_what_undoes_nothing_is_sent_again(make: Make, call: str) -> None:
+def test_safe_write_is_repeated(make: Make, call: str) -> None:
     service = Service(*UNKNOWN, busy(400))
     with pytest.raises(ServiceError) as raised:
         REPEATED[call](make(service, retries=Retries(attempts=9)))
@@ -341,12 +341,12 @@ def test_what_undoes_nothing_is_sent_again(make: Make, call: str) -> None:
         ({"longest_attempt": 0}, "longest_attempt"),
     ],
 )
-def test_retries_are_checked(wrong: dict[str, Any], message: str) -> None:
+def test_invalid_retries_are_refused(wrong: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Retries(**wrong)
 
 
 @pytest.mark.parametrize("timeout", [0, -1, float("nan"), float("inf")])
-def test_the_timeout_is_checked(make: Make, timeout: float) -> None:
+def test_invalid_timeout_is_refused(make: Make, timeout: float) -> None:
     with pytest.raises(ValueError, match="timeout"):
         make(Service(OK), timeout=timeout).info()

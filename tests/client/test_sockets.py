@@ -1,4 +1,4 @@
-"""Both clients and a server that breaks what can be broken, over real sockets."""
+"""Both clients against a server with faults, over real sockets."""
 
 import asyncio
 import hashlib
@@ -17,7 +17,7 @@ from placecell_client import AsyncClient, Client, Retries, ServiceError
 from tests.client.client_fakes import INFO, SUMMARY
 
 PATIENCE = 30
-"""Seconds after which a test that should end at once has failed, however busy the machine."""
+"""Time limit of a test that should end at once, seconds; long enough on a busy machine."""
 LARGE = bytes(range(256)) * 4096
 
 
@@ -41,7 +41,7 @@ class Server(ThreadingHTTPServer):
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Does what the plan says, the last of it for ever."""
+    """Server that follows a plan of faults; the last one repeats."""
 
     protocol_version = "HTTP/1.1"
     server: Server
@@ -104,7 +104,7 @@ def serving(*plan: str) -> Iterator[Server]:
 
 
 def call(kind: str, address: str, method: str, *arguments: Any, **options: Any) -> Any:
-    """One call of either client; waits are those of the network alone."""
+    """Call one of the clients; only the network takes time."""
     if kind == "sync":
         with Client(address, jitter=lambda: 0.0, **options) as client:
             return getattr(client, method)(*arguments)
@@ -121,14 +121,14 @@ both = pytest.mark.parametrize("kind", ["sync", "async"])
 
 @both
 @pytest.mark.parametrize("fault", ["close", "cut", "busy"])
-def test_what_breaks_is_tried_again(kind: str, fault: str) -> None:
+def test_broken_connection_is_repeated(kind: str, fault: str) -> None:
     with serving(fault, fault, "answer") as server:
         assert call(kind, server.address, "info").model_id == "m"
         assert len(server.bodies) == 3
 
 
 @both
-def test_uploads_arrive_the_same_each_time(kind: str) -> None:
+def test_repeated_uploads_are_the_same_bytes(kind: str) -> None:
     with serving("close", "busy", "cut", "answer") as server:
         assert call(kind, server.address, "put_map", "yard", LARGE).name == "yard"
         assert server.bodies == [hashlib.sha256(LARGE).hexdigest()] * 4
@@ -146,7 +146,7 @@ def test_the_timeout_ends_the_call(kind: str, fault: str) -> None:
 
 
 @both
-def test_an_attempt_in_silence_is_given_up_and_made_again(kind: str) -> None:
+def test_silent_attempt_is_ended_and_repeated(kind: str) -> None:
     with serving("silence", "answer") as server:
         retries = Retries(longest_attempt=0.3)
         assert call(kind, server.address, "info", timeout=PATIENCE, retries=retries)
@@ -154,7 +154,7 @@ def test_an_attempt_in_silence_is_given_up_and_made_again(kind: str) -> None:
 
 
 @both
-def test_attempts_end(kind: str) -> None:
+def test_number_of_attempts_is_limited(kind: str) -> None:
     with serving("busy") as server:
         with pytest.raises(ServiceError) as raised:
             call(kind, server.address, "info", retries=Retries(attempts=3))
@@ -163,7 +163,7 @@ def test_attempts_end(kind: str) -> None:
 
 
 @both
-def test_a_service_that_is_not_there_cannot_be_reached(kind: str) -> None:
+def test_absent_service_is_a_connect_error(kind: str) -> None:
     with serving("answer") as server:
         address = server.address
     with pytest.raises(httpx.ConnectError):

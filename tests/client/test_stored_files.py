@@ -1,4 +1,4 @@
-"""Files that were written by version 1, and must be readable for ever."""
+"""Files that version 1 wrote stay readable."""
 
 from pathlib import Path
 
@@ -55,7 +55,7 @@ CHANGED = CompactMap(
 )
 
 
-def test_a_stored_map() -> None:
+def test_stored_map_is_read() -> None:
     data = MAP_FILE.read_bytes()
     stored = decode(data)
     assert (stored.model_id, stored.preprocessing) == ("context-0123456789abcdef", "1")
@@ -69,7 +69,7 @@ def test_a_stored_map() -> None:
     assert encode(STORED) == data
 
 
-def test_a_stored_delta() -> None:
+def test_stored_delta_is_read() -> None:
     data = DELTA_FILE.read_bytes()
     delta = decode_delta(data)
     assert (delta.since, delta.until, delta.removed.tolist()) == (41, 43, [8, 12])
@@ -77,7 +77,7 @@ def test_a_stored_delta() -> None:
     assert encode_delta(Delta(CHANGED, np.array([8, 12], np.uint32), 41, 43)) == data
 
 
-def test_the_stored_delta_fits_the_stored_map() -> None:
+def test_stored_delta_applies_to_the_stored_map() -> None:
     after = apply(decode(MAP_FILE.read_bytes()), decode_delta(DELTA_FILE.read_bytes()))
     assert after.ids.tolist() == [0, 7, 9, 300, 4_294_967_295]
     assert after.codes.tolist() == [[-128, 127], [11, 12], [13, 14], [-4, 5], [60, -70]]

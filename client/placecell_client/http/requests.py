@@ -89,11 +89,11 @@ class Calls:
     compress: bool = False
 
     def info(self) -> Call[Info]:
-        """`GET /info`."""
+        """Build `GET /info`."""
         return Call("GET", "/info", parsing.info)
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
-        """`POST /describe`."""
+        """Build `POST /describe`."""
         body, dropped = segments_of(segments, sensors, self.encoding)
         count = len(segments)
         return self._post(
@@ -108,7 +108,7 @@ class Calls:
         maps: Sequence[str] | None,
         k: int,
     ) -> Call[Matches]:
-        """`POST /match`."""
+        """Build `POST /match`."""
         body = _search(maps, k)
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
@@ -134,7 +134,7 @@ class Calls:
         motion: Motion,
         session: str | None,
     ) -> Call[Localizations]:
-        """`POST /localize`."""
+        """Build `POST /localize`."""
         body = _search(maps, k) | {"motion": motion}
         if session is not None:
             body["session"] = session
@@ -155,7 +155,7 @@ class Calls:
         raise ValueError("Give either a description, or segments and sensors.")
 
     def maps(self) -> Call[Maps]:
-        """`GET /maps`."""
+        """Build `GET /maps`."""
         return Call("GET", "/maps", parsing.maps)
 
     def put_map(
@@ -165,18 +165,18 @@ class Calls:
         if_match: str | None,
         create_only: bool,
     ) -> Call[MapSummary]:
-        """`PUT /maps/{map}`."""
+        """Build `PUT /maps/{map}`."""
         data = encode(compact_map) if isinstance(compact_map, CompactMap) else compact_map
         headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
         call = self._upload("PUT", _path(name), data, map_file.MEDIA_TYPE, parsing.summary, headers)
         return replace(call, repeatable=if_match != ANY)
 
     def uploads(self, name: str) -> Call[tuple[PartialUpload, ...]]:
-        """`GET /maps/{map}/uploads`."""
+        """Build `GET /maps/{map}/uploads`."""
         return Call("GET", _path(name, "/uploads"), parsing.uploads)
 
     def put_part(self, name: str, digest: str, offset: int, part: bytes) -> Call[int]:
-        """`PUT /maps/{map}/uploads/{digest}`; the result is the number of received bytes."""
+        """Build `PUT /maps/{map}/uploads/{digest}`; the result is the number of received bytes."""
         path = _path(name, f"/uploads/{_quoted(digest)}", offset=offset)
         until = offset + len(part)
         return self._upload(
@@ -186,7 +186,7 @@ class Calls:
     def complete_upload(
         self, name: str, digest: str, if_match: str | None, create_only: bool, timeout: float
     ) -> Call[MapSummary]:
-        """`POST /maps/{map}/uploads/{digest}`."""
+        """Build `POST /maps/{map}/uploads/{digest}`."""
         headers = _conditions(if_match) | ({"If-None-Match": "*"} if create_only else {})
         return Call(
             "POST",
@@ -198,7 +198,7 @@ class Calls:
         )
 
     def delete_upload(self, name: str, digest: str) -> Call[None]:
-        """`DELETE /maps/{map}/uploads/{digest}`."""
+        """Build `DELETE /maps/{map}/uploads/{digest}`."""
         return Call("DELETE", _path(name, f"/uploads/{_quoted(digest)}"), parsing.gone)
 
     def edit_map(
@@ -211,7 +211,7 @@ class Calls:
         only_new: bool,
         if_match: str | None,
     ) -> Call[Written]:
-        """`POST /maps/{map}/segments`."""
+        """Build `POST /maps/{map}/segments`."""
         data = encode_delta(delta) if isinstance(delta, Delta) else delta
         asked = {"create": create, "deduplicate": deduplicate, "only_new": only_new}
         flags = {flag: "true" for flag, wanted in asked.items() if wanted}
@@ -222,42 +222,42 @@ class Calls:
         return replace(call, repeatable=if_match != ANY)
 
     def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
-        """`GET /maps/{map}`, decoded."""
+        """Build `GET /maps/{map}`; the result is the decoded map."""
         path = _path(name, version=version)
         return Call("GET", path, lambda answer: decode(parsing.file(answer)))
 
     def get_map_file(self, name: str, version: int | None) -> Call[bytes]:
-        """`GET /maps/{map}`."""
+        """Build `GET /maps/{map}`."""
         return Call("GET", _path(name, version=version), parsing.file)
 
     def changes(
         self, name: str, since: int | str, cursor: str | None, limit: int
     ) -> Call[ChangesPage]:
-        """`GET /maps/{map}/changes`."""
+        """Build `GET /maps/{map}/changes`."""
         path = _path(name, "/changes", since=since, cursor=cursor, limit=limit)
         return Call("GET", path, parsing.page)
 
     def reserve_ids(self, name: str, count: int) -> Call[NDArray[np.uint32]]:
-        """`POST /maps/{map}/ids`."""
+        """Build `POST /maps/{map}/ids`."""
         return Call("POST", _path(name, "/ids", count=count), parsing.ids)
 
     def reset_ids(self, name: str) -> Call[range]:
-        """`POST /maps/{map}/ids/reset`."""
+        """Build `POST /maps/{map}/ids/reset`."""
         return Call("POST", _path(name, "/ids/reset"), parsing.free_ids, repeatable=False)
 
     def versions(self, name: str, limit: int) -> Call[tuple[MapVersion, ...]]:
-        """`GET /maps/{map}/versions`."""
+        """Build `GET /maps/{map}/versions`."""
         return Call("GET", _path(name, "/versions", limit=limit), parsing.versions)
 
     def restore_map(self, name: str, version: int, if_match: str | None) -> Call[Written]:
-        """`POST /maps/{map}/versions/{version}/restore`."""
+        """Build `POST /maps/{map}/versions/{version}/restore`."""
         path = _path(name, f"/versions/{int(version)}/restore")
         return self._tied("POST", path, parsing.written, if_match)
 
     def prune_map(
         self, name: str, unseen_since: float, dry_run: bool, if_match: str | None
     ) -> Call[Written]:
-        """`POST /maps/{map}/age`."""
+        """Build `POST /maps/{map}/age`."""
         dry = "true" if dry_run else None
         path = _path(name, "/age", unseen_since=repr(float(unseen_since)), dry_run=dry)
         call = self._tied("POST", path, parsing.written, if_match)
@@ -266,7 +266,7 @@ class Calls:
     def align_maps(
         self, name: str, other: str, motion: Motion, pairs: bool, timeout: float
     ) -> Call[MapAlignment]:
-        """`POST /maps/{map}/align/{other}`."""
+        """Build `POST /maps/{map}/align/{other}`."""
         asked = "true" if pairs else None
         path = _path(name, f"/align/{_quoted(other)}", motion=motion, pairs=asked)
         return Call("POST", path, parsing.alignment, timeout=timeout)
@@ -281,7 +281,7 @@ class Calls:
         if_match: str | None,
         timeout: float,
     ) -> Call[Merge]:
-        """`POST /maps/{map}/merge`."""
+        """Build `POST /maps/{map}/merge`."""
         body = {
             "maps": list(maps),
             "dry_run": dry_run,
@@ -299,12 +299,12 @@ class Calls:
         )
 
     def compact_map(self, name: str, keep: int) -> Call[int]:
-        """`POST /maps/{map}/compact`."""
+        """Build `POST /maps/{map}/compact`."""
         path = _path(name, "/compact", keep=keep)
         return Call("POST", path, parsing.oldest, repeatable=False)
 
     def delete_map(self, name: str, if_match: str | None) -> Call[None]:
-        """`DELETE /maps/{map}`."""
+        """Build `DELETE /maps/{map}`."""
         return self._tied("DELETE", _path(name), parsing.gone, if_match)
 
     def _tied(
