@@ -35,6 +35,7 @@ app = typer.Typer(
     name="placecell",
     context_settings={"token_normalize_func": current_spelling},
     cls=Commands,
+    rich_markup_mode="markdown",
     help="Place recognition for robot teams: learned 3D segment descriptors, served over HTTP.",
     no_args_is_help=True,
     add_completion=False,
