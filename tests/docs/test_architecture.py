@@ -1,11 +1,35 @@
-"""The architecture page against the code: files of the steps, their number, dependencies."""
+"""The pages against the code: the ways of requests, dependencies, named files, lengths."""
 
 import re
+import sqlite3
 import tomllib
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import Any
+
+import faiss
+import pytest
+from placecell_client import encode
+
+from placecell.descriptors.manifest import Manifest
+from tests.service.conftest import manifest, models_dir, start
+from tests.service.request_tracing import traced
+from tests.service.service_builders import cloud, map_of, random_codes, request_of
+from tests.service.test_request_paths import ended_by
+
+__all__ = ["manifest", "models_dir", "start"]
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "explanation" / "architecture.md"
+MATCH, UPLOAD = "A `/match`, step by step", "An upload, step by step"
+LONGEST = {MATCH: 15, UPLOAD: 12}
+"""Largest number of files of a way."""
+
+
+@pytest.fixture
+def data_dir(tmp_path: Path) -> Path:
+    return tmp_path / "var"
 
 
 def section(title: str) -> str:
@@ -23,6 +47,51 @@ def files_of(title: str) -> list[str]:
     return [file for step in steps for file in re.findall(r"`([\w/]+\.py)`", step)]
 
 
+@pytest.mark.parametrize("title", [MATCH, UPLOAD])
+def test_way_is_short_and_its_files_exist(title: str) -> None:
+    files = files_of(title)
+    assert len(files) == len(set(files)) <= LONGEST[title]
+    assert f" {len(files)} files" in section(title)
+    assert all((ROOT / file).is_file() for file in files)
+
+
+def test_steps_of_a_match_are_those_of_a_traced_request(
+    start: Callable[..., Any], models_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    manifest = Manifest.load(models_dir / "onnx")
+    with traced(("service/api/routes/match.py", "match")) as trace:
+        monkeypatch.setattr(faiss.IndexFlat, "search", ended_by(trace, faiss.IndexFlat.search))
+        with start(model="onnx") as service:
+            codes = random_codes(50, dimension=manifest.code_bytes)
+            yard = encode(map_of(codes, manifest.model_id))
+            assert service.put("/maps/yard", content=yard).status_code == 201
+            request = request_of([cloud(seed) for seed in range(8)])
+            assert service.post("/match", json=request).status_code == 200
+    assert sorted(files_of(MATCH)) == sorted(trace.passed)
+
+
+def test_steps_of_an_upload_are_those_of_a_traced_request(
+    start: Callable[..., Any], manifest: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with traced(("service/api/routes/maps.py", "put_map")) as trace:
+
+        class Connection(sqlite3.Connection):
+            def execute(self, sql: str, *parameters: Any) -> sqlite3.Cursor:
+                if sql == "COMMIT":
+                    trace.stop()
+                return super().execute(sql, *parameters)
+
+        connect = partial(sqlite3.connect, factory=Connection)
+        monkeypatch.setattr("service.maps.sqlite.database.sqlite3.connect", connect)
+        with start() as service:
+            yard = encode(map_of(random_codes(20), manifest.model_id))
+            assert service.put("/maps/yard", content=yard).status_code == 201
+    assert trace.has_ended
+    # The client's codec is a distribution of its own.
+    passed = [file for file in trace.passed if not file.startswith("placecell_client/")]
+    assert sorted(files_of(UPLOAD)) == sorted(passed)
+
+
 def dependencies() -> set[str]:
     """Return the names of all direct dependencies of both distributions."""
     names = set()
@@ -38,6 +107,36 @@ def dependencies() -> set[str]:
 
 def test_every_dependency_has_a_reason() -> None:
     rows = re.findall(r"^\| ([\w, .-]+) \| (.+) \|$", section("Dependencies"), re.MULTILINE)
-    reasons = {name.strip().lower(): why for names, why in rows for name in names.split(",")}
+    reasons = {name.strip().lower(): why for names, why in rows[1:] for name in names.split(",")}
     assert not dependencies() - set(reasons)
-    assert all(len(why.split()) > 1 for name, why in reasons.items() if name != "package")
+    assert all(len(why.split()) > 2 for why in reasons.values())
+
+
+def words_of(file: Path) -> int:
+    return len(file.read_text(encoding="utf-8").split())
+
+
+def test_readme_is_read_in_a_minute() -> None:
+    assert words_of(ROOT / "README.md") <= 600
+
+
+@pytest.mark.parametrize(
+    "file", sorted((ROOT / "docs" / "decisions").glob("0*.md")), ids=lambda file: file.stem
+)
+def test_decision_record_is_short(file: Path) -> None:
+    titles = re.findall(r"^## (.+)$", file.read_text(encoding="utf-8"), re.MULTILINE)
+    assert titles == ["Context", "Decision", "Consequences"]
+    assert words_of(file) <= 300
+
+
+PATHS = sorted(
+    (file.relative_to(ROOT).as_posix(), path)
+    for folder in ("explanation", "decisions", "results")
+    for file in (ROOT / "docs" / folder).glob("*.md")
+    for path in set(re.findall(r"`((?:\w+/)+\w+\.py)`", file.read_text(encoding="utf-8")))
+)
+
+
+@pytest.mark.parametrize(("file", "path"), PATHS)
+def test_named_files_exist(file: str, path: str) -> None:
+    assert (ROOT / path).is_file() or (ROOT / "client" / path).is_file(), file
