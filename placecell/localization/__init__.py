@@ -1,10 +1,10 @@
-"""From candidates to a pose: where in a map the robot is, how sure that is, or "I do not know".
+"""Localization: the robot's pose in a map, its probability, or the reason why it is unknown.
 
     localization = localize(candidates)
 
-goes step by step (`localize.py`): correspondences and their weights, the graph of consistent
-distances, its heaviest clique, a rigid transform, refinement with all that agrees, a second look
-for another place that fits, and a probability. No step knows of models, maps or requests.
+The steps are in `localize.py`: weighted correspondences, the graph of consistent distances, its
+heaviest clique, a rigid transform, refinement with all inliers, guided matching, and a probability.
+No step depends on models, map files or requests.
 """
 
 from placecell.localization.candidates import Candidates

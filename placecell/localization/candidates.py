@@ -1,4 +1,4 @@
-"""What localization starts from: segments of the robot's surroundings, and what they may be."""
+"""Candidates: the most similar map segments of each segment of the robot's local map."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,13 +10,13 @@ from placecell.core.types import Float64, Int64
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Of n segments of a robot's local map, k segments of one map that look like each.
+    """The k most similar segments of one map for each of n segments of the robot (queries).
 
     Attributes:
-        centroids: float64 (n, 3), meters, in the robot's frame.
-        rows: int64 (n, k): rows of the map.
-        places: float64 (n, k, 3): the rows' centroids, meters, in the map's frame.
-        probabilities: float64 (n, k), that both are the same, 0 to 1.
+        centroids: float64 (n, 3), meters, centroid of each query in the robot's frame.
+        rows: int64 (n, k), row of each candidate in the map.
+        places: float64 (n, k, 3), meters, centroid of each candidate in the map's frame.
+        probabilities: float64 (n, k), match probability of query and candidate, 0 to 1.
     """
 
     centroids: Float64
@@ -25,24 +25,24 @@ class Candidates:
     probabilities: Float64
 
     def __post_init__(self) -> None:
-        """Refuse arrays that do not fit each other.
+        """Check the shapes of the arrays.
 
         Raises:
-            ValueError: they do not; the message names one.
+            ValueError: An array has another shape than `rows` requires.
         """
         n, k = self.rows.shape if self.rows.ndim == 2 else (-1, -1)
         shapes = {"centroids": (n, 3), "places": (n, k, 3), "probabilities": (n, k)}
         for name, shape in shapes.items():
             found = getattr(self, name).shape
             if found != shape:
-                raise ValueError(f"{name}: shape {found}, not {shape}")
+                raise ValueError(f"Invalid shape {found} of {name}: expected {shape}")
 
     def __len__(self) -> int:
         return len(self.rows)
 
     @cached_property
     def beliefs(self) -> Float64:
-        """The probabilities, float64 (n, k); 0 where anything of a candidate is no number."""
+        """Match probabilities, float64 (n, k); 0 where a value of a candidate is NaN."""
         seen = np.isfinite(self.centroids[:, None]).all(axis=2)
         usable = np.isfinite(self.places).all(axis=2) & seen
         return np.where(usable, np.nan_to_num(self.probabilities, nan=0.0).clip(0.0, 1.0), 0.0)

@@ -1,9 +1,9 @@
-"""The heaviest set of correspondences that all agree with each other: a clique of the graph.
+"""Heaviest clique: the heaviest set of correspondences that are all consistent with each other.
 
-Finding the very heaviest is NP-hard. This is the greedy search of CLIPPER+ (Fathian and Summers
-2024): a clique is grown from every vertex, and vertices that no heavier one can hold are left out.
-Here these grow in the order of how much agrees with each vertex *among the neighbors of the first*
-(the second-order compatibility of SC2-PCR, Chen et al. 2022), which wrong ones seldom have.
+The exact maximum is NP-hard. This is the greedy search of CLIPPER+ (Fathian and Summers 2024): a
+clique is grown from every vertex, and vertices whose upper bound is below the best weight are
+skipped. A clique adds vertices in the order of their support *among the neighbors of its first
+vertex* (second-order compatibility, SC2-PCR, Chen et al. 2022), which wrong vertices seldom have.
 """
 
 import numpy as np
@@ -16,15 +16,18 @@ from placecell.core.types import Bool, Float64, Int32, Int64
 def heaviest_clique(
     graph: Bool, weights: Float64, queries: Int64, left: Bool, effort: int
 ) -> Int64:
-    """Vertices of a clique, ascending, int64 (c,); none if no two of them agree.
+    """Return the vertices of a clique, ascending, int64 (c,); empty if no two are consistent.
 
     Args:
         graph: bool (m, m), symmetric, without edges between vertices of one query.
         weights: float64 (m,), more than 0.
-        queries: int64 (m,), the query that each vertex belongs to, from 0.
-        left: bool (m,), which vertices there still are.
-        effort: elementary steps at most; what was found by then is the answer. A count, not a
-            time, so that the answer is the same on any machine.
+        queries: int64 (m,), query of each vertex, from 0.
+        left: bool (m,), vertices that may be used.
+        effort: largest number of elementary steps; the best clique so far is returned then. It is
+            a count, not a time, so that the result is the same on every machine.
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     ends = np.zeros(len(left) + 1, dtype=np.int64)
     _count(graph, left, ends)
@@ -44,7 +47,7 @@ def heaviest_clique(
 
 @compiled
 def _count(graph: Bool, left: Bool, ends: Int64) -> None:
-    """Fill ends: vertex i has ends[i + 1] - ends[i] neighbors."""
+    """Fill `ends`: vertex i has ends[i + 1] - ends[i] neighbors."""
     for vertex in range(len(left)):
         count = 0
         if left[vertex]:
@@ -56,7 +59,7 @@ def _count(graph: Bool, left: Bool, ends: Int64) -> None:
 
 @compiled
 def _list(graph: Bool, left: Bool, neighbors: Int64) -> None:
-    """Fill neighbors, of one vertex after the other."""
+    """Fill `neighbors`, vertex by vertex."""
     place = 0
     for vertex in range(len(left)):
         if left[vertex]:
@@ -75,9 +78,9 @@ def _bound(
     heaviest: Float64,
     bounds: Float64,
 ) -> None:
-    """Fill bounds: what a clique with this vertex can weigh, at most; 0 if it stands alone.
+    """Fill `bounds` with the upper bound of a clique with each vertex; 0 without neighbors.
 
-    No clique holds two vertices of one query: a neighborhood is worth its heaviest of each.
+    A clique never holds two vertices of one query, so only the heaviest neighbor per query counts.
     """
     for vertex in range(len(bounds)):
         total = 0.0
@@ -105,7 +108,7 @@ def _grow(
     best: Int64,
     size: Int64,
 ) -> None:
-    """Fill best with the heaviest clique found, and size with how many vertices it has."""
+    """Fill `best` with the heaviest clique found, and `size` with its number of vertices."""
     around = np.empty(len(weights), dtype=np.int64)
     support = np.empty(len(weights))
     members = np.empty(len(weights), dtype=np.int64)

@@ -30,15 +30,16 @@ FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
 
 
 def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Float64:
-    """What the probability follows from, float64 (6,), in the order of `FEATURES`.
+    """Return the features of the logistic model, float64 (6,), in the order of `FEATURES`.
 
     Args:
-        score: of the best hypothesis, with the support of earlier requests.
-        rival: share of that score that the best one at another place has; 0 if there is none.
-        usable: queries that had candidates.
+        best: best hypothesis.
+        score: its score, with the support of earlier requests.
+        rival: score of the best hypothesis at another place, divided by `score`; 0 without one.
+        usable: number of queries that have candidates.
     """
     plan = best.source[:, :2] - best.source[:, :2].mean(axis=0)
-    # The narrower of the two horizontal extents: segments in a row fix less than ones all around.
+    # The smaller horizontal extent: segments in a row determine less than segments all around.
     spread = np.sqrt(max(np.linalg.eigvalsh(plan.T @ plan / len(best))[0], 0.0))
     return np.array(
         [
@@ -57,11 +58,11 @@ class Confidence:
     """Constants of the logistic model.
 
     Attributes:
-        means: of the features where it was fitted.
-        deviations: of the features there.
-        weights: of the standardized features.
-        bias: added to their sum.
-        highest: probability that is never exceeded: no more than the cases that were seen allow.
+        means: mean of each feature in the fitting data.
+        deviations: standard deviation of each feature in the fitting data.
+        weights: weight of each standardized feature.
+        bias: value added to the weighted sum.
+        highest: largest probability that the number of fitting cases justifies.
     """
 
     means: tuple[float, ...]
@@ -71,28 +72,28 @@ class Confidence:
     highest: float
 
     def probability(self, features: Float64) -> float:
-        """That a pose with these features is right."""
+        """Return the probability that a pose with these features is right."""
         return float(self.probabilities(features[None])[0])
 
     def probabilities(self, features: Float64) -> Float64:
-        """Of many poses: features (n, 6), probabilities float64 (n,)."""
+        """Return the probability of each pose, float64 (n,), from features, float64 (n, 6)."""
         standard = (features - np.array(self.means)) / np.array(self.deviations)
         logits = np.clip(standard @ np.array(self.weights) + self.bias, -500.0, 500.0)
         return np.asarray(np.minimum(1 / (1 + np.exp(-logits)), self.highest))
 
     @classmethod
     def load(cls, file: Path = SHIPPED, model_id: str | None = None) -> Self:
-        """From a file of `placecell fit-confidence`.
+        """Load a file of `placecell fit-confidence`.
 
         Args:
-            model_id: that it has to be fitted for, if any.
+            model_id: model that the file must be fitted for; None for any.
 
         Raises:
-            ValueError: it is of other features than this program's, or for another model.
+            ValueError: The file has other features, or was fitted for another model.
         """
         content = json.loads(file.read_text())
         if tuple(content["features"]) != FEATURES:
-            raise ValueError(f"{file}: of the features {content['features']}, not {FEATURES}")
+            raise ValueError(f"{file}: has the features {content['features']}, expected {FEATURES}")
         fitted_for = content["fitted_on"]["model_id"]
         if model_id not in {None, fitted_for}:
             raise ValueError(f"{file}: for model {fitted_for}, not {model_id}")

@@ -1,9 +1,9 @@
-"""Which correspondences can be right together: the graph of consistent distances.
+"""Consistency graph: pairs of correspondences that can be right together.
 
-A rigid motion keeps distances. Leordeanu and Hebert 2005, *A spectral technique for correspondence
-problems using pairwise constraints*; as hard edges, Enqvist, Josephson and Kahl 2009, *Optimal
-correspondences from pairwise constraints*. Where gravity is known, it keeps more: heights, and
-distances as seen from above.
+A rigid motion preserves distances. Source: Leordeanu and Hebert 2005, *A spectral technique for
+correspondence problems using pairwise constraints*; with hard edges, Enqvist, Josephson and Kahl
+2009, *Optimal correspondences from pairwise constraints*. If gravity is known, horizontal distances
+and height differences are preserved separately.
 """
 
 import numpy as np
@@ -16,9 +16,10 @@ from placecell.localization.parameters import LocalizationParameters
 
 
 def consistent(found: Correspondences, parameters: LocalizationParameters) -> Bool:
-    """Whether each two correspondences agree, symmetric, bool (m, m).
+    """Return the consistency graph of correspondences, symmetric, bool (m, m).
 
-    None agrees with itself, nor with another of the same query or of the same place.
+    A correspondence has no edge to itself, to another of the same query, or to another of the same
+    place.
     """
     graph = np.zeros((len(found), len(found)), dtype=bool)
     _compare(

@@ -1,4 +1,4 @@
-"""Correspondences: a segment here, the place in the map that it may be, and what that is worth."""
+"""Correspondences: pairs of a query segment and a place of the map, with weights."""
 
 from dataclasses import dataclass
 
@@ -14,16 +14,16 @@ from placecell.localization.parameters import LocalizationParameters
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Correspondences:
-    """Pairs of a query and a place, m of them.
+    """The m pairs of a query and a place. A place is a group of map segments at one position.
 
     Attributes:
         queries: int64 (m,), indices of the candidates' queries.
         places: int64 (m,), numbers of places.
-        rows: int64 (m,): of each place the map's row that looks most like the query.
-        source: float64 (m, 3), the query's centroid, meters, in the robot's frame.
-        target: float64 (m, 3), the row's centroid, meters, in the map's frame.
+        rows: int64 (m,), the place's map row that is most similar to the query.
+        source: float64 (m, 3), meters, the query's centroid in the robot's frame.
+        target: float64 (m, 3), meters, the row's centroid in the map's frame.
         weights: float64 (m,), more than 0.
-        usable: how many queries had any candidate.
+        usable: number of queries that have candidates.
     """
 
     queries: Int64
@@ -38,7 +38,7 @@ class Correspondences:
         return len(self.queries)
 
     def take(self, indices: Int64) -> "Correspondences":
-        """Those at these indices, in this order."""
+        """Return the correspondences at these indices, in this order."""
         return Correspondences(
             self.queries[indices],
             self.places[indices],
@@ -51,17 +51,18 @@ class Correspondences:
 
 
 def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Correspondences:
-    """Pairs of queries and places, weighted, in an order that does not depend on the queries'.
+    """Return weighted pairs of queries and places, in an order independent of the queries' order.
 
-    A map holds a segment as often as it was seen from elsewhere. Candidates of a query at one place
-    are one correspondence, of their summed belief. Its weight is the log-likelihood ratio of "this
-    is the place" against chance:
+    A map holds several views of a segment. A query's candidates at one place form one
+    correspondence with the sum of their match probabilities. The weight is the log-likelihood ratio
+    of "this is the right place" against chance:
 
         weight = log(1 + share / (unlikely * claims))
 
-    `share`: of the query's belief, what falls on this place: a query with many look-alikes is worth
-    little. `claims`: how many queries' worth of belief falls on the place, if more than one: so is
-    what much of the scan looks like (repetitive segments, cf. inverse document frequency).
+    `share` is the place's part of the query's total probability: a query with many similar
+    candidates has a low weight. `claims` is the sum of all queries' shares of the place, at least
+    1: a place that resembles many queries (repetitive segments) has a low weight, as in inverse
+    document frequency.
     """
     beliefs = candidates.beliefs
     queries, columns = np.nonzero(beliefs)
@@ -73,7 +74,7 @@ def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Co
         queries, rows = queries[likeliest], rows[likeliest]
         targets, belief = targets[likeliest], belief[likeliest]
     places = number_places(rows, targets, parameters.same_place)
-    # Best first within each pair of query and place; ties by row.
+    # The best row first within each pair of query and place; ties by row.
     order = np.lexsort((rows, -belief, places, queries))
     queries, places, rows = queries[order], places[order], rows[order]
     starts = np.flatnonzero(np.diff(queries, prepend=-1) | np.diff(places, prepend=-1))
@@ -91,23 +92,23 @@ def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Co
         np.log1p(share / (parameters.unlikely * np.maximum(claims, 1.0))),
         int(np.count_nonzero(total)),
     )
-    # By where things are, not by how they were numbered.
+    # Ordered by position, not by number.
     return found.take(np.lexsort((found.rows, *found.source.T)))
 
 
 def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:
-    """Return the number of the place that each row belongs to, int64 (m,).
+    """Return the number of each row's place, int64 (m,).
 
-    Rows, from one end of the map on, begin a place unless they are within the radius of one that
-    did.
+    Rows are visited in the order of their coordinates. A row begins a new place unless it is within
+    the radius of the first row of another place.
 
     Args:
-        rows: int64 (m,), may hold a row more than once.
-        centroids: float64 (m, 3), of the rows, meters.
-        radius: meters.
+        rows: int64 (m,), rows of the map, with repetitions.
+        centroids: float64 (m, 3), meters, centroid of each row.
+        radius: radius of a place, meters.
 
     Raises:
-        Cancelled: nobody waits for it any longer.
+        Cancelled: The request is late, or its client disconnected.
     """
     _, first, inverse = np.unique(rows, return_index=True, return_inverse=True)
     points = centroids[first]
@@ -127,8 +128,7 @@ def _lead(
 ) -> None:
     """Fill `numbers` with the first leader within the radius of each point, in order.
 
-    Leaders are apart from each other, so a cell holds few of them, and each point is held against
-    few, wherever the points are.
+    Leaders are at least the radius apart, so a cell holds few, and each point is compared with few.
     """
     heads = np.full(len(around), -1, dtype=np.int64)
     following = np.empty(len(points), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""How uncertain a pose is, from what its correspondences leave over."""
+"""Covariance of a pose, from the residuals of its correspondences."""
 
 import numpy as np
 
@@ -11,18 +11,20 @@ from placecell.localization.refinement import kernel
 def covariance_of(
     pose: Pose, source: Float64, target: Float64, parameters: LocalizationParameters
 ) -> Float64:
-    """Covariance of a registered pose: s^2 (J^T W J)^-1, the Gauss-Newton one of its residuals.
+    """Return the Gauss-Newton covariance of a registered pose, s^2 (J^T W J)^-1.
 
-    Of small changes d of the translation, meters, and w of the rotation, radians, both along the
-    axes of the frame that the pose leads to: `exp(w) rotation`, `translation + d`. With yaw alone,
-    float64 (4, 4): dx, dy, dz, wz; otherwise float64 (6, 6): dx, dy, dz, wx, wy, wz.
+    It describes small changes d of the translation, meters, and w of the rotation, radians, along
+    the axes of the target frame: `exp(w) rotation`, `translation + d`.
 
     Args:
-        source: float64 (m, 3), of the correspondences that agree, meters.
-        target: float64 (m, 3).
+        pose: registered pose.
+        source: float64 (m, 3), meters, source points of the inliers.
+        target: float64 (m, 3), meters, target points of the inliers.
+        parameters: kernel, smallest deviation, inflation, and whether roll and pitch are fixed.
 
     Returns:
-        Infinite on the diagonal where the correspondences determine nothing.
+        float64 (4, 4) for dx, dy, dz, wz with yaw only, otherwise float64 (6, 6) for dx, dy, dz,
+        wx, wy, wz. The diagonal is infinite if the correspondences do not determine the pose.
     """
     columns = [0, 1, 2, 5] if parameters.model == "yaw" else list(range(6))
     unknown = np.diag(np.full(len(columns), np.inf))
@@ -31,7 +33,7 @@ def covariance_of(
     leftover = pose.apply(source) - target
     weights = kernel(np.linalg.norm(leftover, axis=1), parameters.kernel)
     turned = source @ pose.rotation.T
-    # About the middle of the segments first: the frame's origin may be a thousand kilometers off.
+    # First about the centroid of the segments: the frame's origin may be a thousand km away.
     middle = weights @ turned / weights.sum()
     jacobian = np.zeros((len(source), 3, 6))
     jacobian[:, :, :3] = np.eye(3)
@@ -41,8 +43,8 @@ def covariance_of(
     freedom = max(3 * weights.sum() - len(columns), 1.0)
     variance = weights @ (leftover**2).sum(axis=1) / freedom
     variance = max(variance, parameters.least_deviation**2) * parameters.inflation
-    # About the middle, turns and shifts do not mix. Of turns nothing is known, but for rounding, if
-    # the segments lie in one point, or on the axis of one: a millimeter from it, on average.
+    # About the centroid, rotation and translation are uncorrelated. Segments in one point or on one
+    # line (a millimeter from it, on average) do not determine the rotation, except for rounding.
     turns = np.linalg.eigvalsh(information[3:, 3:])
     if turns[0] < max(1e-6 * weights.sum(), 1e-12 * turns[-1]):
         return unknown
@@ -53,14 +55,15 @@ def covariance_of(
 
 
 def at_point(covariance: Float64, pose: Pose, point: Float64) -> Float64:
-    """The same uncertainty, told of where the pose takes a point instead of the frame's origin.
+    """Return the covariance for the position of a point instead of the frame's origin.
 
     Args:
-        covariance: float64 (4, 4) or (6, 6), as above.
+        covariance: float64 (4, 4) or (6, 6) (see `covariance_of`).
+        pose: pose of the covariance.
         point: (3,), meters, in the robot's frame.
 
     Returns:
-        Of the point's place, meters, and the rotation, in the same order.
+        Covariance of the transformed point, meters, and the rotation, in the same order.
     """
     columns = [0, 1, 2, 5] if len(covariance) == 4 else list(range(6))
     moved = np.eye(6)
@@ -70,7 +73,7 @@ def at_point(covariance: Float64, pose: Pose, point: Float64) -> Float64:
 
 
 def rotation_deviation(covariance: Float64) -> float:
-    """Standard deviation of the rotation about its worst axis, radians."""
+    """Return the standard deviation of the rotation about its least certain axis, radians."""
     block = covariance[3:, 3:]
     if not np.isfinite(block).all():
         return float("inf")
@@ -78,7 +81,7 @@ def rotation_deviation(covariance: Float64) -> float:
 
 
 def cross(vectors: Float64) -> Float64:
-    """The matrices (..., 3, 3) that take the cross product with vectors (..., 3)."""
+    """Return the cross-product matrices (..., 3, 3) of vectors (..., 3)."""
     x, y, z = np.moveaxis(vectors, -1, 0)
     nothing = np.zeros_like(x)
     rows = [[nothing, -z, y], [z, nothing, -x], [-y, x, nothing]]

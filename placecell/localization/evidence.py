@@ -1,7 +1,7 @@
-"""Evidence of the last seconds: what a robot's earlier requests found supports what it finds now.
+"""Evidence of earlier requests: hypotheses of the last seconds support the current ones.
 
-Requests of one session share the robot's odometry frame, and that frame's pose in the map stays
-nearly constant, however far the robot drives in a few seconds.
+Requests of one session share the robot's odometry frame. The frame's pose in the map is nearly
+constant over a few seconds, however far the robot drives.
 """
 
 from collections import deque
@@ -18,11 +18,11 @@ from placecell.localization.pose import Pose
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PastRequest:
-    """What is kept of a request.
+    """Earlier request of a session.
 
     Attributes:
-        time: seconds, of any clock that only grows.
-        middle: (3,), of what was seen, meters, in the robot's frame.
+        time: time of a monotonic clock, seconds.
+        middle: (3,), meters, mean centroid of its segments in the robot's frame.
         hypotheses: poses with their scores.
     """
 
@@ -33,13 +33,13 @@ class PastRequest:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """What earlier requests say, at one moment.
+    """Evidence of a session's earlier requests at one time.
 
     Attributes:
         past: requests of the last seconds.
-        independent: those of them that speak for or against a place.
-        time: of the moment, seconds.
-        parameters: say what the same place is, and what the past is worth.
+        independent: requests of `past` from other positions, which count as support.
+        time: current time, seconds.
+        parameters: tolerances of the same place, and weight and half-life of the support.
     """
 
     past: tuple[PastRequest, ...]
@@ -48,10 +48,11 @@ class Evidence:
     parameters: LocalizationParameters
 
     def support(self, hypothesis: Hypothesis) -> float:
-        """Score that earlier requests add to a hypothesis.
+        """Return the score that earlier requests add to a hypothesis.
 
-        Of each, the score of its best hypothesis at the same place; less, the longer ago. And less
-        than the whole: successive requests see much the same, look-alikes too.
+        Each request adds the score of its best hypothesis at the same place, reduced by its age.
+        The sum is weighted by less than 1, because successive requests see much the same, including
+        similar places.
         """
         middle = hypothesis.source.mean(axis=0)
         total = 0.0
@@ -67,14 +68,14 @@ class Evidence:
 
     @property
     def weight(self) -> float:
-        """Return the variance of the support, as a share of that of one request's score."""
+        """Variance of the support, relative to that of one request's score."""
         return self.parameters.past_weight**2 * len(self.independent)
 
     def guesses(self, at: Float64) -> list[Pose]:
-        """Places to look at again: the best ones of the past, each once, the latest first.
+        """Return the best poses of earlier requests, each place once, the latest first.
 
         Args:
-            at: a point (3,) in the midst of what the robot sees now, meters, in its frame.
+            at: point (3,) near the middle of the current segments, meters, in the robot's frame.
         """
         places: list[Pose] = []
         for request in reversed(self.past):
@@ -85,21 +86,21 @@ class Evidence:
 
 
 class RequestHistory:
-    """The last requests of one session. Not safe to use from two threads at once."""
+    """History of one session's last requests. Not safe for concurrent use."""
 
     def __init__(self, parameters: LocalizationParameters) -> None:
         self._parameters = parameters
         self._past: deque[PastRequest] = deque(maxlen=parameters.remembered)
 
     def at(self, time: float, middle: Float64) -> Evidence:
-        """What the past says now; what is older than the memory is forgotten.
+        """Return the evidence at a time. Requests older than the memory are ignored.
 
-        A robot that stands sees the same again, and learns nothing from it. So those count that
-        were asked from elsewhere than now, and than each other.
+        A robot that stands still sees the same again, which is no new evidence. So only requests
+        from other positions count as independent.
 
         Args:
-            time: seconds.
-            middle: (3,), of what is seen now, meters, in the robot's frame.
+            time: current time, seconds.
+            middle: (3,), meters, mean centroid of the current segments in the robot's frame.
         """
         oldest = time - self._parameters.memory
         past = tuple(each for each in self._past if each.time >= oldest)
@@ -112,12 +113,18 @@ class RequestHistory:
         return Evidence(past, tuple(independent), time, self._parameters)
 
     def add(self, time: float, middle: Float64, hypotheses: Sequence[Hypothesis]) -> None:
-        """Remember what a request found by itself."""
+        """Add a request with the hypotheses that it found without earlier evidence.
+
+        Args:
+            time: time of the request, seconds.
+            middle: (3,), meters, mean centroid of its segments in the robot's frame.
+            hypotheses: its hypotheses.
+        """
         found = tuple((each.pose, each.score) for each in hypotheses)
         self._past.append(PastRequest(time, middle, found))
 
 
 def middle_of(centroids: Float64) -> Float64:
-    """Mean (3,) of centroids (n, 3), without those that are no numbers; NaN if there is none."""
+    """Return the mean (3,) of the finite centroids (n, 3); NaN if none is finite."""
     finite = centroids[np.isfinite(centroids).all(axis=1)]
     return finite.mean(axis=0) if len(finite) else np.full(3, np.nan)

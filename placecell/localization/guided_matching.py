@@ -1,10 +1,10 @@
-"""Looking again: whether what lies there in the map looks like what the robot sees.
+"""Guided matching: score a hypothesis by all map segments near the predicted positions.
 
-A hypothesis is found from each segment's likeliest candidates, and these are few. In a street of
-identical houses all of them may lie where the robot drove the same way, and none where it truly is,
-for it sees the houses from the other side there. So each hypothesis is held against all that the
-map has where it puts the segments, whether it was a candidate or not: guided matching (Hartley and
-Zisserman, *Multiple View Geometry*, 2nd ed., sections 4.8 and 11.6).
+A hypothesis comes from a few candidates per segment. In a street of identical houses, all of them
+may be views from the robot's direction of travel, and none may be at its true position, where the
+map has views from the opposite direction. So each hypothesis is compared with all map segments near
+the positions that it predicts. Source: Hartley and Zisserman, *Multiple View Geometry*, 2nd ed.,
+sections 4.8 and 11.6.
 """
 
 from dataclasses import replace
@@ -22,25 +22,30 @@ from placecell.localization.refinement import kernel
 
 
 class MapSegments(Protocol):
-    """A map that what the robot sees can be compared with."""
+    """Access to all segments of a map, for guided matching."""
 
     def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
-        """Rows of the map about these places: all that are near one, and some around (`within`).
+        """Return all rows of the map near a place, and some farther ones (see `within`).
 
         Args:
             places: float64 (n, 3), meters, in the map's frame; n > 0.
-            meters: along each axis, up to which a row is near.
+            meters: largest distance along each axis at which a row is near.
 
         Returns:
             Rows, int64 (m,), and their centroids, float64 (m, 3), meters.
         """
 
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
-        """How likely each query and row, (m,) each, are the same, pair by pair, float64 (m,)."""
+        """Return the match probability of each pair of a query and a row, float64 (m,).
+
+        Args:
+            queries: int64 (m,), indices of queries.
+            rows: int64 (m,), rows of the map.
+        """
 
 
 class CandidateSegments:
-    """As much of a map as the candidates show."""
+    """`MapSegments` that consist of the candidates only."""
 
     def __init__(self, candidates: Candidates) -> None:
         beliefs = candidates.beliefs
@@ -52,12 +57,12 @@ class CandidateSegments:
         self._beliefs = beliefs[queries, columns][first]
 
     def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
-        """Of the rows that are anyone's candidate."""
+        """Return the candidates' rows near a place (see `MapSegments.near`)."""
         inside = within(self._centroids, places, meters)
         return self._rows[inside], self._centroids[inside]
 
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
-        """The belief in each candidate; 0 where the row is none of the query's."""
+        """Return each candidate's match probability; 0 if the row is no candidate of the query."""
         pairs = self._numbered(queries, rows)
         at = np.searchsorted(self._pairs, pairs).clip(max=len(self._pairs) - 1)
         return np.where(self._pairs[at] == pairs, self._beliefs[at], 0.0)
@@ -73,11 +78,21 @@ def match_guided(
     parameters: LocalizationParameters,
     beliefs: Float64 | None = None,
 ) -> Hypothesis:
-    """Score a hypothesis by all segments and all that lies where it puts them, one to one.
+    """Score a hypothesis by guided matching, one to one.
 
-    What a pair is worth is what it would be as a correspondence (`correspond`), by the share of the
-    segment's belief that falls on it: one that looks like this place alone tells more than one that
-    looks like many. The farther apart the two are, the less.
+    A pair of a query and a map segment has the weight of a correspondence (see `correspond`), by
+    its share of the query's total match probability. The weight decreases with the distance.
+
+    Args:
+        hypothesis: pose to score.
+        candidates: queries and their candidates.
+        there: segments of the map.
+        parameters: gate, kernel and limits.
+        beliefs: float64 (n,), total match probability of each query; None for that of
+            `candidates`.
+
+    Returns:
+        The hypothesis with `score`, `worth` and `similarity` of guided matching.
     """
     seen = np.flatnonzero(np.isfinite(candidates.centroids).all(axis=1))
     places = hypothesis.pose.apply(candidates.centroids[seen])
@@ -85,7 +100,7 @@ def match_guided(
     here, near = near_pairs(places, points, parameters.gate, parameters.most_pairs)
     queries, found = seen[here], rows[near]
     match_probabilities = there.match_probabilities(queries, found)
-    # What the query may be besides; the row itself, where it is a candidate, is among it already.
+    # The query's total probability already includes the row if it is a candidate.
     others = (candidates.beliefs.sum(axis=1) if beliefs is None else beliefs)[queries]
     is_candidate = (candidates.rows[queries] == found[:, None]).any(axis=1)
     share = match_probabilities / np.maximum(

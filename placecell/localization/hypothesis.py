@@ -1,4 +1,4 @@
-"""A hypothesis: a place where the robot may be, with all that speaks for it."""
+"""Pose hypotheses: search for poses of the robot that many correspondences support."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,17 +22,16 @@ class Hypothesis:
     """Pose of the robot's frame in the map's frame, with its inlier segments.
 
     Attributes:
-        pose: from the robot's frame to the map's.
+        pose: transform from the robot's frame to the map's.
         covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
-        score: sum of the weights of what agrees.
+        score: sum of the inliers' weights.
         queries: int64 (inliers,), ascending, indices of the candidates' queries.
-        rows: int64 (inliers,), the map's row that each was found as.
-        source: float64 (inliers, 3), the queries' centroids, meters, in the robot's frame.
+        rows: int64 (inliers,), matched row of the map.
+        source: float64 (inliers, 3), meters, the queries' centroids in the robot's frame.
         residuals: float64 (inliers,), meters.
-        worth: float64 (n,), what each of the candidates' queries adds to the score (guided
-            matching); None before that.
+        worth: float64 (n,), part of the score of each query; None before guided matching.
         similarity: float64 (n,), how similar each counterpart is,
-            up to a bound; 0 where there is none. For comparing maps (`joint`).
+            up to a bound; 0 without a counterpart. Used to compare maps (`joint`).
     """
 
     pose: Pose
@@ -50,19 +49,24 @@ class Hypothesis:
 
     @property
     def rotation_deviation(self) -> float:
-        """Standard deviation of the rotation about its worst axis, radians."""
+        """Standard deviation of the rotation about its least certain axis, radians."""
         return rotation_deviation(self.covariance)
 
 
 def find_hypotheses(
     found: Correspondences, parameters: LocalizationParameters, guesses: Sequence[Pose] = ()
 ) -> list[Hypothesis]:
-    """Places where the robot may be, best first.
+    """Find pose hypotheses at different places, best first.
 
-    After each, the correspondences that support it are taken away, and what is left is searched.
+    After each hypothesis, its correspondences are removed and the rest is searched again.
 
     Args:
-        guesses: poses to look at as well.
+        found: correspondences of queries and places.
+        parameters: limits and tolerances.
+        guesses: additional poses to refine.
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     hypotheses = [_grown(pose, found, parameters) for pose in guesses]
     graph = consistent(found, parameters)
@@ -75,7 +79,7 @@ def find_hypotheses(
             break
         agreeing = found.take(clique)
         pose = register(agreeing.source, agreeing.target, agreeing.weights, parameters)
-        # By all, what supports the better ones included: a place is judged by what agrees with it.
+        # Refined with all correspondences, including those of better hypotheses.
         hypothesis = _grown(pose, found, parameters)
         left[clique] = False
         left &= residuals(hypothesis.pose, found) >= parameters.apart
@@ -84,7 +88,7 @@ def find_hypotheses(
 
 
 def _grown(pose: Pose, found: Correspondences, parameters: LocalizationParameters) -> Hypothesis:
-    """The hypothesis that refinement makes of a pose."""
+    """Refine a pose with all correspondences and return the hypothesis."""
     pose, support = refine(pose, found, parameters)
     agreeing = found.take(support[np.argsort(found.queries[support])])
     return Hypothesis(
@@ -101,7 +105,7 @@ def _grown(pose: Pose, found: Correspondences, parameters: LocalizationParameter
 def distinct(
     hypotheses: Sequence[Hypothesis], parameters: LocalizationParameters
 ) -> list[Hypothesis]:
-    """Best first, without those of too few segments, and those of a better one's place again."""
+    """Sort hypotheses, best first; drop those with too few inliers or at a better one's place."""
     kept: list[Hypothesis] = []
     for one in sorted(hypotheses, key=lambda each: -each.score):
         if len(one) >= parameters.least_segments and not any(
@@ -112,6 +116,6 @@ def distinct(
 
 
 def same_place(one: Pose, other: Pose, at: Float64, parameters: LocalizationParameters) -> bool:
-    """Whether two poses put the robot in the same place, seen from a point (3,) of its frame."""
+    """Return whether two poses put a point (3,) of the robot's frame in the same place."""
     meters, angle = one.difference(other, at)
     return meters < parameters.apart and bool(np.degrees(angle) < parameters.apart_yaw)

@@ -1,12 +1,12 @@
 """Joint judgment: compare the robot's pose hypotheses over several maps.
 
 Each map alone may fit well: floors of one building look alike. So the hypotheses of all maps
-compete. A rival in another map counts as a second place, exactly as one in the same map does. What
-a pair of segments is worth follows from the same beliefs in every map, whatever their sizes.
+compete. A rival in another map counts like a second place in the same map. The weight of a pair of
+segments follows from the same match probabilities in every map, whatever the map's size.
 
-How much two maps differ is told by the segments: each speaks for one of the two, or for both. Where
-both maps show the same, what is left is noise of centroids and descriptors, and its sum is as often
-for the wrong map as for the right one. So the sum has to exceed its own deviation by far.
+Two maps are compared segment by segment: a segment supports one of them, or both. If both maps show
+the same place, the differences are noise of centroids and descriptors, and their sum favors the
+wrong map as often as the right one. So the sum must exceed its standard deviation by far.
 """
 
 from collections.abc import Callable, Collection, Sequence
@@ -42,12 +42,12 @@ class MapQuery:
     """A query in one map.
 
     Attributes:
-        name: of the map, for the words of the answer.
-        model: id of the model that made its descriptors; scores of two models do not compare.
-        candidates: what each segment may be in the map.
-        there: the map.
-        confidence: gives the probability.
-        evidence: what the robot's requests of the last seconds found in the map.
+        name: name of the map, for messages.
+        model: id of the model of its descriptors. Scores of two models are not comparable.
+        candidates: the most similar map segments of each query.
+        there: segments of the map, for guided matching.
+        confidence: model of the probability.
+        evidence: evidence of the session's earlier requests in the map.
     """
 
     name: str
@@ -64,12 +64,12 @@ class Rival:
 
     Attributes:
         map: index of the map.
-        hypothesis: in it.
-        total: its score, with what earlier requests add.
-        ratio: of the evidence for it to that for the judged map's best hypothesis.
-        ahead: by how many standard deviations the judged map's one fits better.
-        is_plausible: whether it would be told as the robot's place, or as one of several, if its
-            map were the only one.
+        hypothesis: hypothesis in that map.
+        total: its score, with the support of earlier requests.
+        ratio: its evidence divided by that of the judged map's best hypothesis.
+        ahead: number of standard deviations by which the judged map's hypothesis fits better.
+        is_plausible: whether it would be the pose, or one of several ambiguous poses, if its map
+            were the only one.
     """
 
     map: int
@@ -85,9 +85,9 @@ class JointLocalization:
     """One map's part of a joint judgment.
 
     Attributes:
-        localization: in this map, after the hypotheses of all maps were compared.
-        total: score of the best hypothesis, with what earlier requests add; 0 without one.
-        rival: the best hypothesis of the other maps; None: there is none.
+        localization: localization in this map, after the comparison with all maps.
+        total: score of the best hypothesis, with the support of earlier requests; 0 without one.
+        rival: best hypothesis of the other maps; None if there is none.
     """
 
     localization: Localization
@@ -103,8 +103,12 @@ def localize_jointly(
     """Localize the robot in several maps and judge the hypotheses of all maps together.
 
     Args:
-        queries: one a map; a single one is judged as `localize` judges it.
-        link: tells which maps hold the same segments.
+        queries: one query per map. A single one gives the result of `localize`.
+        parameters: constants of localization.
+        link: function that returns the transform between maps that hold the same segments.
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     common = _common_beliefs(queries)
     found, only_rivals = [], set()
@@ -131,15 +135,15 @@ def localize_jointly(
 FEW, LOOSER = 20, 2.0
 """Segment count up to which a map without any hypothesis is searched again, and the factor by which
 the tolerances then grow. With few segments, noise of the centroids may leave no inliers in the
-right map, while chance gives enough in a look-alike. What is found then is a reason for doubt,
-not a pose."""
+right map, while a similar map has enough by chance. Such a hypothesis only makes others ambiguous;
+it is never a pose."""
 
 
 def _common_beliefs(queries: Sequence[MapQuery]) -> dict[str, Float64]:
     """Return each segment's largest belief over all maps of a model, float64 (n,), by model.
 
-    A small map has few look-alikes: by its own candidates alone a pair would be worth more in it
-    than the same pair is in a large map.
+    A small map has few similar segments. With its own candidates only, a pair would have a larger
+    weight than the same pair in a large map.
     """
     common: dict[str, Float64] = {}
     if len(queries) > 1:
@@ -159,10 +163,11 @@ def judge_jointly(
     """Judge the hypotheses of all maps together.
 
     Args:
-        queries: one a map.
-        found: of each map, with comparable scores.
-        link: as of `localize_jointly`.
-        only_rivals: indices of maps whose hypotheses speak against others, but are not told.
+        queries: one query per map.
+        found: hypotheses of each map, with comparable scores.
+        parameters: constants of localization.
+        link: see `localize_jointly`.
+        only_rivals: indices of maps whose hypotheses compete with others but are no result.
     """
     totals = [
         totals_of(places.hypotheses, query.evidence) if places.hypotheses else np.zeros(0)
@@ -290,7 +295,7 @@ def _against(
             )
         probability = min(probability, 1 / (1 + max(rival.ratio, parameters.ambiguous)))
     elif foreign and reason is None:
-        # Scores of two models are of two scales: what both find, neither decides.
+        # Scores of two models have different scales, so they cannot decide between two maps.
         rival = max(foreign, key=lambda each: each.total)
         other = queries[rival.map].name
         reason = "ambiguous"
@@ -314,11 +319,12 @@ def _against(
 def chance_of_map(ahead: float, parameters: LocalizationParameters) -> float:
     """Return the probability that the better fitting map is the right one.
 
-    Either both maps show the robot the same, and what it is ahead by is normal about 0; or they do
-    not, and it is normal about what it typically is (`apart_by`).
+    If both maps show the same place, `ahead` is normally distributed with mean 0. Otherwise its
+    mean is `apart_by`.
 
     Args:
-        ahead: by how many standard deviations it fits better.
+        ahead: number of standard deviations by which the map fits better.
+        parameters: prior odds (`alike`) and `apart_by`.
     """
     exponent = parameters.apart_by * ahead - parameters.apart_by**2 / 2
     odds = parameters.alike * float(np.exp(-np.clip(exponent, -50.0, 50.0)))
@@ -349,9 +355,9 @@ ADVICE = (
 def _same_places(
     found: Sequence[PlaceHypotheses], parameters: LocalizationParameters, link: Link
 ) -> dict[tuple[int, int], int]:
-    """Number the places: hypotheses of linked maps at the same place share a number.
+    """Return the place number of each hypothesis, by map and index of the hypothesis.
 
-    By map and index of the hypothesis.
+    Hypotheses of linked maps at the same place share a number.
     """
     nodes = [
         (number, at) for number, places in enumerate(found) for at in range(len(places.hypotheses))

@@ -1,4 +1,4 @@
-"""Where in a map the robot is: the way from candidates to a pose, step by step."""
+"""Localization in one map: the steps from candidates to a pose."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,21 +23,22 @@ Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 PARAMETERS = LocalizationParameters()
 
 RIGHT_DEGREES = 3.0
-"""A pose is right within a meter and this (docs/results/localization.md, Protocol)."""
+"""Largest rotation error of a right pose (docs/results/localization.md, Protocol). The largest
+position error is 1 m."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Localization:
-    """What is known of the robot's place in a map.
+    """Result of localization in one map.
 
     Attributes:
-        best: the best hypothesis, also where it is not good enough; None if there is none.
-        second: the best one at another place.
-        probability: that the best one is right: within a meter and three degrees.
-        reason: why the robot is not localized; None: it is.
-        detail: the reason in words; empty if it is localized.
-        features: that the probability follows from (`features_of`); None without a hypothesis.
-        hypotheses: all, best first, for later requests to look back at.
+        best: best hypothesis, even if it is rejected; None if there is none.
+        second: best hypothesis at another place.
+        probability: probability that the best hypothesis is right, within 1 m and 3 degrees.
+        reason: reason why the robot is not localized; None if it is.
+        detail: the reason in words; empty if the robot is localized.
+        features: features of the probability (`features_of`); None without a hypothesis.
+        hypotheses: all hypotheses, best first, as evidence for later requests.
     """
 
     best: Hypothesis | None
@@ -50,7 +51,7 @@ class Localization:
 
     @property
     def pose(self) -> Pose | None:
-        """From the robot's frame to the map's; None if it is not localized."""
+        """Transform from the robot's frame to the map's; None if the robot is not localized."""
         return self.best.pose if self.best is not None and self.reason is None else None
 
 
@@ -61,13 +62,17 @@ def localize(
     evidence: Evidence | None = None,
     there: MapSegments | None = None,
 ) -> Localization:
-    """Find the robot's frame in the map's.
+    """Estimate the pose of the robot's frame in the map's frame.
 
     Args:
-        candidates: what each of its segments may be.
-        confidence: gives the probability; the shipped one unless said.
-        evidence: what the robot's requests of the last seconds found.
-        there: the map; as much of it as the candidates show unless given.
+        candidates: the most similar map segments of each of the robot's segments.
+        parameters: constants of localization.
+        confidence: model of the probability; None for that of the default model.
+        evidence: evidence of the session's earlier requests.
+        there: all segments of the map, for guided matching; None to use the candidates only.
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     places = find_places(candidates, parameters, evidence)
     if not places.hypotheses:
@@ -82,8 +87,8 @@ class PlaceHypotheses:
     """Candidate places of the robot in one map, before they are scored and judged.
 
     Attributes:
-        hypotheses: best first, each at another place; empty if there is none.
-        usable: how many queries have candidates.
+        hypotheses: hypotheses at different places, best first.
+        usable: number of queries that have candidates.
     """
 
     hypotheses: tuple[Hypothesis, ...]
@@ -93,7 +98,7 @@ class PlaceHypotheses:
 def find_places(
     candidates: Candidates, parameters: LocalizationParameters, evidence: Evidence | None = None
 ) -> PlaceHypotheses:
-    """Find the places in one map that candidates agree on, and those of earlier requests."""
+    """Find the pose hypotheses of one map, from candidates and from earlier requests."""
     correspondences = correspond(candidates, parameters)
     if correspondences.usable < parameters.least_segments:
         return PlaceHypotheses((), correspondences.usable)
@@ -128,8 +133,11 @@ def judge(
     """Decide whether the best hypothesis is good enough.
 
     Args:
-        hypotheses: one or more, each at another place.
-        usable: how many queries had candidates.
+        hypotheses: one or more hypotheses at different places.
+        usable: number of queries that have candidates.
+        parameters: constants of localization.
+        confidence: model of the probability.
+        evidence: evidence of the session's earlier requests.
     """
     totals = totals_of(hypotheses, evidence)
     order = np.argsort(-totals, kind="stable").tolist()
@@ -142,15 +150,18 @@ def judge(
     detail = ""
     if rival >= parameters.ambiguous:
         reason = "ambiguous"
-        detail = f"Another place has {rival:.0%} of the best one's score."
+        detail = f"Another place has {rival:.0%} of the best place's score."
         probability = min(probability, 1 / (1 + rival))
     elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
         reason = "inconsistent"
-        detail = f"The {len(best)} segments that agree do not tell the direction."
+        detail = f"The {len(best)} inlier segments do not determine the rotation."
         probability = min(probability, chance_of_direction(best.rotation_deviation))
     elif probability < parameters.least_probability:
         reason = "inconsistent"
-        detail = f"The best place, where {len(best)} of {usable} segments agree, is hardly likely."
+        detail = (
+            f"The best pose, with {len(best)} of {usable} segments as inliers, is unlikely to be "
+            "right."
+        )
     return Localization(best, second, probability, reason, detail, features, tuple(hypotheses))
 
 
@@ -161,5 +172,9 @@ def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Fl
 
 
 def chance_of_direction(deviation: float) -> float:
-    """That an angle of this standard deviation, radians, is within the degrees of a right pose."""
+    """Return the probability that the rotation error is within `RIGHT_DEGREES`.
+
+    Args:
+        deviation: standard deviation of the rotation, radians.
+    """
     return erf(np.radians(RIGHT_DEGREES) / (np.sqrt(2) * deviation))

@@ -1,4 +1,4 @@
-"""From the pose of a clique to the pose of all that agrees with it."""
+"""Refinement: register a pose with all correspondences that are its inliers."""
 
 import numpy as np
 
@@ -10,20 +10,20 @@ from placecell.localization.registration import register
 
 ROUNDS = 12
 NARROWING = 0.8
-"""Of the gate, each round."""
+"""Factor of the gate in each round."""
 
 
 def refine(
     pose: Pose, found: Correspondences, parameters: LocalizationParameters
 ) -> tuple[Pose, Int64]:
-    """Register anew with what lies near, until nothing changes.
+    """Register a pose with its inliers repeatedly, until they no longer change.
 
     Iteratively reweighted least squares with the kernel of Geman and McClure, whose weight is
-    1 / (1 + (r/c)^2)^2, behind a gate that narrows round by round: graduated non-convexity in the
-    spirit of Yang et al. 2020.
+    1 / (1 + (r/c)^2)^2, and a gate that narrows in each round, similar to graduated non-convexity
+    (Yang et al. 2020).
 
     Returns:
-        The pose, and the correspondences that agree with it, one to one, int64 (inliers,).
+        The pose, and the indices of its inliers, one to one, int64 (inliers,).
     """
     gate = parameters.wide_gate
     agreeing = one_to_one(pose, found, gate)
@@ -41,17 +41,17 @@ def refine(
 
 
 def residuals(pose: Pose, found: Correspondences) -> Float64:
-    """Meters from where the pose takes each query to its place, float64 (m,)."""
+    """Return the distance of each transformed query from its place, meters, float64 (m,)."""
     return np.asarray(np.linalg.norm(pose.apply(found.source) - found.target, axis=1))
 
 
 def kernel(distances: Float64, scale: float) -> Float64:
-    """Weights of residuals, 1 at 0, a quarter at the scale."""
+    """Return the Geman-McClure weight of each distance: 1 at 0, and 0.25 at the scale."""
     return np.asarray((1 + (distances / scale) ** 2) ** -2)
 
 
 def one_to_one(pose: Pose, found: Correspondences, gate: float) -> Int64:
-    """Correspondences within the gate: of each query the nearest, of each place the nearest."""
+    """Return the correspondences within the gate, the nearest of each query and of each place."""
     distances = residuals(pose, found)
     near = np.flatnonzero(distances < gate)
     near = near[np.argsort(distances[near], kind="stable")]

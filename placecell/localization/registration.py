@@ -1,4 +1,4 @@
-"""The rigid transform that takes points to their places, in the least-squares sense."""
+"""Registration: the least-squares rigid transform between corresponding points."""
 
 import numpy as np
 
@@ -10,12 +10,13 @@ from placecell.localization.pose import Pose
 def register(
     source: Float64, target: Float64, weights: Float64, parameters: LocalizationParameters
 ) -> Pose:
-    """The transform of the wanted kind.
+    """Return the weighted least-squares transform with the degrees of freedom of `parameters`.
 
     Args:
-        source: float64 (m, 3), one or more.
-        target: float64 (m, 3).
+        source: float64 (m, 3), m > 0, points of the source frame.
+        target: float64 (m, 3), the same points in the target frame.
         weights: float64 (m,), not negative, not all 0.
+        parameters: `model` says whether roll and pitch are fixed.
     """
     if parameters.model == "yaw":
         return register_yaw(source, target, weights)
@@ -23,10 +24,10 @@ def register(
 
 
 def register_yaw(source: Float64, target: Float64, weights: Float64) -> Pose:
-    """Yaw and translation, in closed form.
+    """Return yaw and translation in closed form.
 
-    The sum of weights times target . R(yaw) source is a cos(yaw) + b sin(yaw) about the weighted
-    means, and greatest where tan(yaw) = b / a (Horn 1987, section 5, in the plane).
+    About the weighted means, the weighted sum of target . R(yaw) source is
+    a cos(yaw) + b sin(yaw). It is largest at tan(yaw) = b / a (Horn 1987, section 5, in the plane).
     """
     here, there = _means(source, target, weights)
     (x, y, _), (u, v, _) = (source - here).T, (target - there).T
@@ -36,10 +37,10 @@ def register_yaw(source: Float64, target: Float64, weights: Float64) -> Pose:
 
 
 def register_se3(source: Float64, target: Float64, weights: Float64) -> Pose:
-    """All six degrees of freedom, from a singular value decomposition.
+    """Return all six degrees of freedom by singular value decomposition.
 
-    Kabsch 1976; the sign that keeps a reflection out: Umeyama 1991, *Least-squares estimation of
-    transformation parameters between two point patterns*, without scale.
+    Source: Kabsch 1976. The sign that prevents a reflection is from Umeyama 1991, *Least-squares
+    estimation of transformation parameters between two point patterns*, here without scale.
     """
     here, there = _means(source, target, weights)
     u, _, vt = np.linalg.svd((target - there).T @ (weights[:, None] * (source - here)))
