@@ -1,10 +1,11 @@
-"""How two robots' maps lie to each other, from descriptors and centroids alone.
+"""Map alignment: the transform between two robots' maps, from descriptors and centroids.
 
-    alignment = align(a, b, looks)
+    alignment = align(a, b, search)
 
-goes step by step (`align.py`): the second map is cut into submaps, each is localized in the first,
-poses that agree are one guess, and a guess is held against the whole overlap that follows from it.
-`loops.py` checks the alignments of more than two maps. No step knows of models, files or requests.
+The steps are in `align.py`: the second map is divided into submaps, each submap is localized in the
+first map, consistent poses are combined, and each combined pose is verified on the whole overlap.
+`loops.py` checks the alignments of more than two maps. No step depends on models, files or
+requests.
 """
 
 from placecell.map_alignment.align import MapAlignment, align, fits_as_well

@@ -1,4 +1,4 @@
-"""How two maps lie to each other: the way from their segments to a transform, step by step."""
+"""Alignment of two maps: the steps from their segments to a transform."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,14 +23,13 @@ PARAMETERS = AlignmentParameters()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapAlignment:
-    """What is known of how map b lies to map a.
+    """Result of the alignment of map b to map a.
 
     Attributes:
-        best: the best way to lay one on the other, also where it is not good enough; None if there
-            is none.
-        second: the best one that puts b elsewhere.
-        reason: why the maps are not aligned; None: they are.
-        detail: the reason in words; empty if they are.
+        best: best overlap, even if it is rejected; None if there is none.
+        second: best overlap that puts b at another place.
+        reason: reason why the maps are not aligned; None if they are.
+        detail: the reason in words; empty if the maps are aligned.
     """
 
     best: Overlap | None
@@ -40,21 +39,30 @@ class MapAlignment:
 
     @property
     def pose(self) -> Pose | None:
-        """From b's frame to a's; None if they are not aligned."""
+        """Transform from b's frame to a's; None if the maps are not aligned."""
         return self.best.pose if self.best is not None and self.reason is None else None
 
 
 def align(
     a: MapView, b: MapView, search: DescriptorSearch, parameters: AlignmentParameters = PARAMETERS
 ) -> MapAlignment:
-    """Find b's frame in a's.
+    """Estimate the transform from b's frame to a's frame.
 
-    Submaps of b are localized in a; poses of submaps that put the whole map in the same place are
-    one guess; and a guess is held against all of the overlap that follows from it.
+    Submaps of b are localized in a. Submap poses that put the whole map in the same place are
+    combined. Each combined pose is verified on the overlap of the maps.
+
+    Args:
+        a: map whose frame is the target.
+        b: map whose frame is the source.
+        search: search for similar segments of a, and match probabilities.
+        parameters: constants of alignment.
+
+    Raises:
+        Cancelled: The request is late, or its client disconnected.
     """
     least = parameters.least_pairs
     if min(len(a), len(b)) < least:
-        detail = f"{min(len(a), len(b))} segments in a map; {least} or more are needed."
+        detail = f"A map has {min(len(a), len(b))} segments; {least} or more are needed."
         return MapAlignment(None, None, "too-few-segments", detail)
     guesses = submap_poses(cut(b, parameters), a, b, search, parameters)
     overlaps = [
@@ -75,7 +83,7 @@ def submap_poses(
     search: DescriptorSearch,
     parameters: AlignmentParameters,
 ) -> list[SubmapPose]:
-    """Where each submap of b may be in a: the hypotheses of localization, not yet judged."""
+    """Return the pose hypotheses of each submap of b in a, before they are judged."""
     guesses = []
     for number, submap in enumerate(submaps):
         candidates = candidates_of(submap, b, a, search, parameters)
@@ -88,12 +96,14 @@ def submap_poses(
 
 
 def turned_around(pose: Pose, viewpoints: Float64) -> Pose:
-    """The map turned around on the spot, to hold against how it was laid.
+    """Return the pose rotated by 180 degrees about z at the mean viewpoint, as a comparison.
 
-    Where much lies densely and looks alike, what agrees does so by chance, and would turned, too.
+    Where segments are dense and similar, inliers occur by chance, and just as often after the
+    rotation.
 
     Args:
-        viewpoints: float64 (n, 3), meters, from where the robot saw what agrees.
+        pose: transform from b's frame to a's.
+        viewpoints: float64 (n, 3), meters, viewpoints of the inliers in b's frame.
     """
     spot = viewpoints.mean(axis=0)
     there = pose.after(Pose.of_yaw(np.pi, np.zeros(3)))
@@ -101,10 +111,10 @@ def turned_around(pose: Pose, viewpoints: Float64) -> Pose:
 
 
 def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAlignment:
-    """Decide whether the best overlap is good enough, and the only one that is."""
+    """Decide whether the best overlap is good enough and better than any other place."""
     ranked = distinct(overlaps, parameters)
     if not ranked:
-        return MapAlignment(None, None, "inconsistent", "No part of one map lies in the other.")
+        return MapAlignment(None, None, "inconsistent", "No part of one map matches the other.")
     best, second = ranked[0], ranked[1] if len(ranked) > 1 else None
     reason: Reason | None = None
     detail = ""
@@ -112,34 +122,34 @@ def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAl
     if not is_good(best, parameters):
         reason = "inconsistent"
         detail = (
-            f"Where the maps would overlap, {len(best)} pairs agree, worth {best.agreement:.1%} of "
-            f"what should; {parameters.least_agreement:.0%} and a score of "
-            f"{parameters.least_score:.0f} are needed, not {best.score:.0f}."
+            f"In the best overlap {len(best)} pairs match, with an agreement of "
+            f"{best.agreement:.1%} and a score of {best.score:.1f}. An agreement of "
+            f"{parameters.least_agreement:.0%} and a score of {parameters.least_score:.0f} are needed."
         )
     elif second is not None and is_as_good(second, best, parameters):
         reason = "ambiguous"
         detail = (
-            f"Another way to lay them has {second.score / best.score:.0%} of the best's score, and "
+            f"Another alignment has {second.score / best.score:.0%} of the best one's score and "
             f"{second.agreement / best.agreement:.0%} of its agreement."
         )
     elif not degrees <= parameters.local.undetermined_yaw:
         reason = "inconsistent"
-        detail = f"The {len(best)} pairs that agree do not tell the direction."
+        detail = f"The {len(best)} matching pairs do not determine the rotation."
     return MapAlignment(best, second, reason, detail)
 
 
 def is_good(overlap: Overlap, parameters: AlignmentParameters) -> bool:
-    """Whether so much agrees, of so much that should, as never does by chance."""
+    """Return whether score and agreement are higher than they are by chance."""
     return (
         overlap.agreement >= parameters.least_agreement and overlap.score >= parameters.least_score
     )
 
 
 def is_as_good(second: Overlap, best: Overlap, parameters: AlignmentParameters) -> bool:
-    """Whether another way to lay the maps may as well be the right one.
+    """Return whether another overlap may as well be the right one.
 
-    By all that agrees, or by its share of what should: copies of a street lie on each other with
-    more or less of an overlap, and it is not the largest that is right.
+    Score or agreement decides: copies of a street overlap by different amounts, and the largest
+    overlap need not be the right one.
     """
     return second.score >= parameters.ambiguous * best.score or (
         is_good(second, parameters) and second.agreement >= parameters.ambiguous * best.agreement
@@ -154,9 +164,17 @@ def fits_as_well(
     search: MatchProbabilities,
     parameters: AlignmentParameters = PARAMETERS,
 ) -> bool:
-    """Whether b lies in a by this pose as well as by the best one, which puts it elsewhere.
+    """Return whether a pose that puts b at another place fits as well as the best overlap.
 
-    No where the two would not overlap, for nothing speaks for that.
+    A pose without overlap never does.
+
+    Args:
+        a: map whose frame is the target.
+        b: map whose frame is the source.
+        pose: transform from b's frame to a's.
+        best: best overlap of the maps.
+        matches: match probabilities of segments.
+        parameters: constants of alignment.
     """
     found = overlap_of(a, b, pose, search, parameters)
     is_another = not same_place(found.pose, best.pose, best.source.mean(axis=0), parameters.local)
@@ -164,9 +182,9 @@ def fits_as_well(
 
 
 def distinct(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> list[Overlap]:
-    """Best first, without those of few pairs, and those that put b where a better one does.
+    """Sort overlaps, best first; drop those with few pairs or at a better one's place.
 
-    One that is good enough is better than any that is not.
+    Overlaps that are good enough come before the others.
     """
     kept: list[Overlap] = []
     for one in sorted(overlaps, key=lambda each: (not is_good(each, parameters), -each.score)):

@@ -1,8 +1,8 @@
-"""Which poses of submaps can be right together: those that put the whole map in the same place.
+"""Consensus: sets of submap poses that put the whole map in the same place.
 
-Pairwise consistent measurements as in Mangelson et al. 2018, *Pairwise consistent measurement set
-maximization for robust multi-robot map merging*; the set around the best seed instead of the
-largest clique, for true guesses all agree with each other.
+Source: pairwise consistency of Mangelson et al. 2018, *Pairwise consistent measurement set
+maximization for robust multi-robot map merging*. Here a set holds the poses that are consistent
+with the best seed, instead of the largest clique: right poses are all consistent with each other.
 """
 
 from collections.abc import Sequence
@@ -16,18 +16,18 @@ from placecell.localization.registration import register
 from placecell.map_alignment.parameters import AlignmentParameters
 
 LEVER = np.concatenate([np.zeros((1, 3)), 10.0 * np.eye(3)])
-"""Meters: a pose is as good as where it puts these points about a submap's middle."""
+"""Points relative to a submap's center, meters. They represent a pose when poses are averaged."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SubmapPose:
-    """Where one submap may be.
+    """Pose hypothesis of one submap.
 
     Attributes:
-        submap: its number.
-        middle: float64 (3,), its middle, meters, in its own map's frame.
-        pose: from that frame to the other map's.
-        score: what speaks for it.
+        submap: number of the submap.
+        middle: float64 (3,), meters, mean centroid of the submap in its own map's frame.
+        pose: transform from that frame to the other map's.
+        score: score of the hypothesis.
     """
 
     submap: int
@@ -39,9 +39,10 @@ class SubmapPose:
 def consensus(
     guesses: Sequence[SubmapPose], parameters: AlignmentParameters
 ) -> list[list[SubmapPose]]:
-    """Guesses that agree with the best seed, and so on with what is left, the weightiest first.
+    """Return sets of consistent submap poses, the set with the highest score first.
 
-    A submap counts once in a set, by its best guess.
+    Each set holds the poses that are consistent with the best remaining seed. A submap counts once
+    in a set, by its best pose.
     """
     if not guesses:
         return []
@@ -60,9 +61,9 @@ def consensus(
 
 
 def agreement(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) -> Bool:
-    """Whether each two guesses put the map in the same place, symmetric, bool (g, g)."""
+    """Return whether each two poses put the map in the same place, symmetric, bool (g, g)."""
     middles = np.array([each.middle for each in guesses])
-    # [i, j]: where the pose of guess i puts the middle of j.
+    # [i, j]: image of the center of submap j under pose i.
     put = np.stack([each.pose.apply(middles) for each in guesses])
     own = np.einsum("iij->ij", put)
     off = np.linalg.norm(put - own, axis=2)
@@ -74,7 +75,7 @@ def agreement(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) ->
 
 
 def common_pose(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) -> Pose:
-    """The pose that is nearest to all, by their scores, in the least-squares sense."""
+    """Return the weighted least-squares mean of poses, weighted by their scores."""
     source = np.concatenate([each.middle + LEVER for each in guesses])
     target = np.concatenate([each.pose.apply(each.middle + LEVER) for each in guesses])
     weights = np.repeat([each.score for each in guesses], len(LEVER))
@@ -82,7 +83,7 @@ def common_pose(guesses: Sequence[SubmapPose], parameters: AlignmentParameters) 
 
 
 def _best_of_each(scores: Float64, submaps: Int64, chosen: Bool) -> Float64:
-    """The scores, but 0 for what is not chosen and what is not the best one of its submap."""
+    """Return the scores, with 0 for poses that are not chosen or not the best of their submap."""
     rows = np.flatnonzero(chosen)
     rows = rows[np.lexsort((rows, -scores[rows], submaps[rows]))]
     best = rows[np.unique(submaps[rows], return_index=True)[1]]

@@ -1,9 +1,9 @@
-"""Alignments of more than two maps, checked around every loop; a bad one is rejected.
+"""Loop check: alignments of more than two maps are consistent around every loop, or rejected.
 
-Once around a loop of maps leads back to where one began. Where it does not, an alignment of that
-loop is wrong; which one, the other loops tell that it is part of. Where they do not, the rest of
-the loop says, of each alignment, how its maps lie if all others are right; and the maps themselves
-whether they do.
+The composition of the alignments around a loop of maps must be the identity. If it is not, an
+alignment of the loop is wrong. The other loops that contain an alignment show whether it is right.
+If they do not decide, each alignment is compared with the composition of all others of its loop:
+the maps themselves show whether they fit as well that way.
 """
 
 from collections import Counter
@@ -17,21 +17,21 @@ from placecell.core.types import Float64
 from placecell.localization import Pose
 
 LONGEST = 4
-"""Loops of up to so many maps are all looked at; of longer ones, enough for each alignment."""
+"""Number of maps up to which all loops are checked. Of longer loops a cycle basis is checked."""
 
 METERS, DEGREES = 1.0, 2.0
-"""By which a loop may miss, for each of its alignments."""
+"""Largest position error, meters, and rotation error of a loop, per alignment."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairwiseAlignment:
-    """An alignment of two maps: an edge between them.
+    """Alignment of two maps: an edge of the graph of maps.
 
     Attributes:
         one, other: numbers of the maps.
-        pose: from the other's frame to the one's.
-        middle: float64 (3,), of what both have, meters, in the one's frame.
-        weight: what speaks for it.
+        pose: transform from the frame of `other` to that of `one`.
+        middle: float64 (3,), meters, mean centroid of the matched segments in the frame of `one`.
+        weight: score of the alignment.
     """
 
     one: int
@@ -41,27 +41,27 @@ class PairwiseAlignment:
     weight: float
 
     def into(self, number: int) -> Pose:
-        """The pose into the frame of one of its two maps, from the other's."""
+        """Return the transform into the frame of one of the two maps, from the other's."""
         return self.pose if number == self.one else self.pose.inverse()
 
     def middle_in(self, number: int) -> Float64:
-        """The middle in the frame of one of its two maps."""
+        """Return `middle` in the frame of one of the two maps."""
         return self.middle if number == self.one else self.pose.inverse().apply(self.middle)
 
 
 FitsAsWell = Callable[[int, Pose], bool]
-"""Whether the maps of an alignment, by its index, lie as well by another pose as by its own."""
+"""Function (index of an alignment, pose) -> whether its maps fit as well by this pose."""
 
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """A way around.
+    """Loop of maps.
 
     Attributes:
-        maps: their numbers, in the order of the way.
-        alignments: indices of the alignments on it.
-        meters: by which one misses the place where one began.
-        degrees: by which one is turned then.
+        maps: numbers of the maps, in the order of the loop.
+        alignments: indices of the alignments of the loop.
+        meters: position error after one round, meters.
+        degrees: rotation error after one round.
     """
 
     maps: tuple[int, ...]
@@ -71,19 +71,19 @@ class Loop:
 
     @property
     def closes(self) -> bool:
-        """Whether it leads back."""
+        """Whether the errors are within the limits."""
         steps = len(self.alignments)
         return self.meters <= METERS * steps and self.degrees <= DEGREES * steps
 
 
 @dataclass(frozen=True, slots=True)
 class LoopCheck:
-    """What the loops say of alignments.
+    """Result of the loop check.
 
     Attributes:
-        rejected: indices of those that are wrong, in the order in which they were found out.
-        loops: all loops of all alignments, the wrong ones' too.
-        proven: indices of those that are part of a loop that closes, and not wrong.
+        rejected: indices of the wrong alignments, in the order of their rejection.
+        loops: loops of all alignments, including the rejected ones.
+        proven: indices of the alignments that are part of a closed loop and not rejected.
     """
 
     rejected: tuple[int, ...]
@@ -96,12 +96,13 @@ def check_loops(
 ) -> LoopCheck:
     """Reject alignments until every loop closes.
 
-    First the one that fails in most loops more than it holds in. Of several in one loop, the one
-    whose maps lie as well as the rest of the loop says. If that is none or more than one, all of
-    them: a map that is left out does less harm than one that is laid along what may be wrong.
+    The first to be rejected is the alignment with the most failing minus closed loops. Among
+    several in one loop, it is the one whose maps fit as well by the composition of the others. If
+    that is none or more than one, all of them are rejected: a missing map does less harm than a map
+    at a wrong place.
 
     Args:
-        alignments: one between each two maps, at most.
+        alignments: at most one alignment of each two maps.
         fits_as_well: is asked once, at most, of each alignment of a loop that fails.
     """
     rejected: list[int] = []
@@ -120,9 +121,9 @@ def check_loops(
 
 
 def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, list[int]]:
-    """A loop that fails, and those on it that fail in most loops more than they hold in.
+    """Return a failing loop and its alignments with the most failing minus closed loops.
 
-    Of several loops that with the fewest of them, and then the shortest.
+    Among several loops it is the one with the fewest such alignments, then the shortest.
     """
     fails, holds = (
         loops_by_alignment(failing),
@@ -141,13 +142,13 @@ def most_suspect(failing: Sequence[Loop], loops: Sequence[Loop]) -> tuple[Loop, 
 def pose_by_other_alignments(
     loop: Loop, index: int, alignments: Sequence[PairwiseAlignment]
 ) -> Pose:
-    """How the two maps of an alignment lie, as its `pose` tells it, by the rest of a loop."""
+    """Return the pose of an alignment that follows from the other alignments of a loop."""
     begin = loop.alignments.index(index) + 1
     around = Pose.of_matrix(np.eye(4))
     steps = [*zip(loop.maps, loop.alignments, strict=True)]
     for number, step in (*steps[begin:], *steps[: begin - 1]):
         around = around.after(alignments[step].into(number))
-    # Into the map after it, from the map before it.
+    # The composition leads from the map before the alignment to the map after it.
     after = loop.maps[begin % len(loop.maps)]
     return around if alignments[index].one == after else around.inverse()
 
@@ -155,7 +156,7 @@ def pose_by_other_alignments(
 def loops_of(
     alignments: Sequence[PairwiseAlignment], without: Sequence[int] = ()
 ) -> tuple[Loop, ...]:
-    """Loops of alignments: all short ones, and of the long ones a basis."""
+    """Return the loops of the alignments: all short ones, and a basis of the long ones."""
     graph = networkx.Graph()
     for index, each in enumerate(alignments):
         if index not in without:
@@ -168,7 +169,7 @@ def loops_of(
 def measure_loop(
     maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[PairwiseAlignment]
 ) -> Loop:
-    """Once around from the first map, by what one misses at the middle of the first alignment."""
+    """Return the loop with its errors, measured at the middle of its first alignment."""
     steps = list(zip(maps, [*maps[1:], maps[0]], strict=True))
     indices = tuple(graph.edges[step]["index"] for step in steps)
     around = Pose.of_matrix(np.eye(4))
@@ -180,17 +181,16 @@ def measure_loop(
 
 
 def loops_by_alignment(loops: Iterable[Loop]) -> Counter[int]:
-    """In how many loops each alignment is."""
+    """Count the loops that contain each alignment."""
     return Counter(index for loop in loops for index in loop.alignments)
 
 
 def poses_from(
     start: int, alignments: Sequence[PairwiseAlignment], checked: LoopCheck
 ) -> dict[int, Pose]:
-    """Pose of each map that can be reached, from its frame to that of the map to start from.
+    """Return the transform from each connected map's frame to that of the start map.
 
-    Along alignments that a loop proves where there are such, and then the weightiest: the maximum
-    spanning tree.
+    Paths follow the maximum spanning tree: proven alignments first, then those of larger weight.
     """
     graph = networkx.Graph()
     graph.add_node(start)

@@ -1,4 +1,4 @@
-"""What alignment needs to know of a map."""
+"""Views of maps for alignment: positions of segments, and their match probabilities."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,11 +13,11 @@ from placecell.localization import Pose
 
 @dataclass(frozen=True, eq=False)
 class MapView:
-    """Where the segments of a map are, and where they were seen from, in the map's frame.
+    """Positions of a map's segments and their viewpoints, in the map's frame.
 
     Attributes:
         centroids: float64 (n, 3), meters.
-        viewpoints: float64 (n, 3), the sensor's position when each was seen, meters.
+        viewpoints: float64 (n, 3), meters, sensor position when each segment was seen.
     """
 
     centroids: Float64
@@ -28,36 +28,41 @@ class MapView:
 
     @cached_property
     def places(self) -> Float64:
-        """Where the robot was, float64 (p, 3), each place once however much was seen from there."""
+        """Distinct viewpoints, float64 (p, 3), meters."""
         return np.unique(self.viewpoints, axis=0)
 
     @cached_property
     def tree(self) -> cKDTree:
-        """Of the places; of one segment at least."""
+        """Search tree of the distinct viewpoints. The map must have a segment."""
         return cKDTree(self.places)
 
     def take(self, rows: Int64) -> "MapView":
-        """These segments."""
+        """Return the view of these segments."""
         return MapView(self.centroids[rows], self.viewpoints[rows])
 
     def moved(self, pose: Pose) -> "MapView":
-        """In another frame."""
+        """Return the view in another frame."""
         return MapView(pose.apply(self.centroids), pose.apply(self.viewpoints))
 
 
 class MatchProbabilities(Protocol):
-    """How much segments of two maps, a and b, look like each other."""
+    """Match probabilities of segments of two maps, a and b."""
 
     def match_probabilities(self, a: Int64, b: Int64) -> Float64:
-        """How likely rows of a and of b, (m,) each, are the same, pair by pair, float64 (m,)."""
+        """Return the match probability of each pair, float64 (m,).
+
+        Args:
+            a: int64 (m,), rows of map a.
+            b: int64 (m,), rows of map b.
+        """
 
 
 class DescriptorSearch(MatchProbabilities, Protocol):
-    """And which of them look most alike."""
+    """Match probabilities, and search for the most similar segments of map a."""
 
     def nearest(self, rows: Int64) -> tuple[Int64, Float64]:
-        """For rows (m,) of b, the rows of a that look most like each.
+        """Return the k most similar rows of a for each row (m,) of b.
 
         Returns:
-            Rows, int64 (m, k), and how likely they are the same, float64 (m, k).
+            Rows of a, int64 (m, k), and their match probabilities, float64 (m, k).
         """

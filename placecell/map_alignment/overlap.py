@@ -1,4 +1,4 @@
-"""Where two maps overlap if they lie so: what of it agrees, and what should."""
+"""Overlap of two maps under a pose: which segments match, and which should."""
 
 from dataclasses import dataclass
 
@@ -16,19 +16,18 @@ from placecell.map_alignment.parameters import AlignmentParameters
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Overlap:
-    """What two maps, a and b, have in common under one pose.
+    """Overlap of two maps, a and b, under one pose.
 
     Attributes:
-        pose: from b's frame to a's, refined with all that agrees.
+        pose: transform from b's frame to a's, refined with all matching pairs.
         covariance: float64 (4, 4) or (6, 6), see `covariance_of`.
-        rows_a, rows_b: int64 (m,), the segments that agree, pair by pair, one to one.
-        source: float64 (m, 3), centroids of those of b, meters, in b's frame.
-        residuals: float64 (m,), meters between the two of each pair.
-        score: what all pairs are worth together: of each how likely the two are the same, the less,
-            the farther apart they are.
-        expected: of each map, how many things are where the other's robot should have seen them.
-        found: what the pairs among these are worth, of each map.
-        parts: of the places where each robot was, the share where the other's was too.
+        rows_a, rows_b: int64 (m,), segments of the matching pairs, one to one.
+        source: float64 (m, 3), meters, centroids of `rows_b` in b's frame.
+        residuals: float64 (m,), meters, distance of each pair.
+        score: sum over all pairs of the match probability, weighted by the kernel of the residual.
+        expected: number of landmarks of each map that the other robot should have seen.
+        found: score of the pairs among these landmarks, for each map.
+        parts: share of each robot's viewpoints that are near a viewpoint of the other robot.
     """
 
     pose: Pose
@@ -47,7 +46,7 @@ class Overlap:
 
     @property
     def agreement(self) -> float:
-        """How much of what should agree does, 0 to 1; of the map of which it is less."""
+        """Found score per expected landmark, 0 to 1, the smaller of the two maps."""
         pairs = zip(self.found, self.expected, strict=True)
         return min(found / max(expected, 1) for found, expected in pairs)
 
@@ -55,7 +54,15 @@ class Overlap:
 def overlap_of(
     a: MapView, b: MapView, pose: Pose, matches: MatchProbabilities, parameters: AlignmentParameters
 ) -> Overlap:
-    """Refine a pose with all that agrees, and see how much of what should agree does."""
+    """Refine a pose with all matching pairs and measure the overlap.
+
+    Args:
+        a: map whose frame is the target.
+        b: map whose frame is the source.
+        pose: initial transform from b's frame to a's.
+        matches: match probabilities of segments.
+        parameters: constants of alignment.
+    """
     guessed = b.moved(pose)
     rows_b = evenly(np.flatnonzero(near_viewpoints(guessed, a, parameters)), parameters.rows)
     laid = guessed.take(rows_b)
@@ -94,23 +101,23 @@ def overlap_of(
 
 
 def near_viewpoints(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
-    """Which segments of one map were seen from where the other's robot was too, bool (n,)."""
+    """Return whether each segment's viewpoint is near one of the other map, bool (n,)."""
     return near_places(one.viewpoints, other, parameters)
 
 
 def should_be_seen(one: MapView, other: MapView, parameters: AlignmentParameters) -> Bool:
-    """Which segments of one map the other's robot should have seen, bool (n,)."""
+    """Return whether the other map's robot should have seen each segment, bool (n,)."""
     close = np.linalg.norm(one.centroids - one.viewpoints, axis=1) <= parameters.seen_from
     return np.asarray(close & near_viewpoints(one, other, parameters))
 
 
 def part(one: MapView, other: MapView, parameters: AlignmentParameters) -> float:
-    """Of the places where the robot of one map was, the share where the other's was too."""
+    """Return the share of one map's viewpoints that are near a viewpoint of the other map."""
     return float(near_places(one.places, other, parameters).mean())
 
 
 def near_places(viewpoints: Float64, view: MapView, parameters: AlignmentParameters) -> Bool:
-    """Which of the stands (n, 3) are where the map's robot was too, bool (n,)."""
+    """Return whether each viewpoint (n, 3) is near a viewpoint of the map, bool (n,)."""
     if not len(view):
         return np.zeros(len(viewpoints), dtype=bool)
     distances, _ = view.tree.query(viewpoints, distance_upper_bound=parameters.shared_viewpoint)
@@ -125,14 +132,16 @@ def alike(
     matches: MatchProbabilities,
     parameters: AlignmentParameters,
 ) -> tuple[Int64, Int64, Float64]:
-    """Pairs of segments that lie near each other and look alike.
+    """Return pairs of segments that are near each other and similar.
 
     Args:
         a, b: parts of the maps, in one frame.
-        rows_a, rows_b: of the maps, that the parts are.
+        rows_a, rows_b: rows of the maps that the parts hold.
+        matches: match probabilities of segments.
+        parameters: gate, limits and smallest match probability.
 
     Returns:
-        Indices into the parts, int64 (m,) each, and how likely the two of a pair are the same.
+        Indices into the parts, int64 (m,) each, and the match probabilities, float64 (m,).
     """
     pairs_a, pairs_b = near_pairs(
         a.centroids, b.centroids, parameters.local.wide_gate, parameters.pairs
@@ -149,10 +158,15 @@ def pairs_of_landmarks(
     landmarks_a: Int64,
     landmarks_b: Int64,
 ) -> tuple[Correspondences, Int64]:
-    """Pairs of things instead of views: each by the two views that look most alike.
+    """Combine pairs of views into pairs of landmarks, each by its most similar two views.
+
+    Args:
+        a, b: parts of the maps, in one frame.
+        pairs: indices into the parts and match probabilities (see `alike`).
+        landmarks_a, landmarks_b: number of each segment's landmark.
 
     Returns:
-        The correspondences from b to a, `rows` of a's part; and the row of b's part of each.
+        Correspondences from b to a, with `rows` of a's part, and the rows of b's part.
     """
     rows_a, rows_b, match_probabilities = pairs
     order = np.lexsort(

@@ -1,4 +1,4 @@
-"""Every constant of the alignment of maps, in one place."""
+"""Parameters of map alignment."""
 
 from dataclasses import dataclass, field
 
@@ -7,51 +7,55 @@ from placecell.localization import LocalizationParameters
 
 @dataclass(frozen=True, slots=True)
 class AlignmentParameters:
-    """Constants from two maps to a transform. Lengths are meters, angles degrees."""
+    """Constants from two maps to a transform. Lengths are in meters, angles in degrees.
+
+    A landmark is a group of segments at one position: views of one object.
+    """
 
     local: LocalizationParameters = field(default_factory=LocalizationParameters)
-    """Of a submap's pose, and of the refinement."""
+    """Parameters of submap poses and of refinement."""
 
     # Submaps.
     submap_radius: float = 10.0
-    """A submap holds what was seen from within this of its middle: 20 m of a robot's way."""
+    """Radius of a submap: it holds segments whose viewpoint is within it (20 m of a path)."""
     spacing: float = 10.0
-    """Between the middles of submaps, at least."""
+    """Smallest distance between the centers of submaps."""
     submaps: int = 120
-    """At most, evenly over the map."""
+    """Largest number of submaps, evenly distributed over the map."""
     views: int = 4
-    """Of a thing, that candidates are looked for of."""
+    """Number of views of a landmark whose candidates are searched."""
     landmarks: int = 2_000
-    """Of a submap, that candidates are looked for of, at most, evenly over it."""
+    """Largest number of a submap's landmarks whose candidates are searched."""
 
     # Consensus.
     apart: float = 3.0
+    """Largest distance between a submap's positions by its own pose and by a consistent one's."""
     apart_yaw: float = 6.0
-    """Two submaps agree if each one's pose puts the other this near to where its own puts it,"""
+    """Largest yaw difference of consistent submap poses."""
     slack: float = 0.03
-    """and by so much more for each meter between them: small turns, and odometry that drifts."""
+    """Addition to `apart` per meter between the submaps, for small rotations and odometry drift."""
     alignments: int = 3
-    """That are looked at: the best, and others to hold against it."""
+    """Number of alignments that are verified: the best, and others for comparison."""
 
     # Overlap.
     shared_viewpoint: float = 10.0
-    """Where one robot was, the other was too, if it was this near."""
+    """Largest distance between two robots' viewpoints at the same place."""
     seen_from: float = 20.0
-    """What is this near to where both were, both see."""
+    """Distance from a common viewpoint up to which both robots should see a segment."""
     alike: float = 0.2
-    """Probability that two segments are the same, at least, for them to agree."""
+    """Smallest match probability of a matching pair."""
     rows: int = 20_000
-    """Segments of each map that are compared, and of a submap, at most, evenly over it."""
+    """Largest number of segments of a map, and of a submap, that are compared."""
     pairs: int = 4_000_000
-    """Of segments that lie near each other and are compared, at most, of some of the segments."""
+    """Largest number of near pairs of segments that are compared."""
 
     # Judgment.
     least_pairs: int = 12
-    """That agree, for a guess to be one."""
+    """Smallest number of matching pairs of an overlap."""
     least_agreement: float = 0.1
     least_score: float = 12.0
-    """Of an alignment. In two towns, one of identical houses alone, right ones had 0.14 and 20 or
-    more; wrong ones had at most 0.09 or, where they had more than 10 of score, 0.07."""
+    """Smallest agreement and score of an alignment. In two simulated towns, one with identical
+    houses only, right alignments had at least 0.14 and 20. Wrong ones had at most 0.09, and at most
+    0.07 with a score above 10."""
     ambiguous: float = 0.8
-    """Another way to lay the maps with this share of the best one's score or agreement is as good
-    an answer."""
+    """Relative score or agreement from which a second alignment makes the result ambiguous."""

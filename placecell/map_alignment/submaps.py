@@ -1,4 +1,4 @@
-"""Submaps: what a robot saw from about one place, out of a whole map."""
+"""Submaps: parts of a map that were seen from about one place."""
 
 from dataclasses import dataclass
 
@@ -15,11 +15,11 @@ from placecell.map_alignment.parameters import AlignmentParameters
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Submap:
-    """A part of a map.
+    """Part of a map.
 
     Attributes:
-        middle: float64 (3,), mean of the centroids, meters, in the map's frame.
-        rows: int64 (n,), ascending, of the map.
+        middle: float64 (3,), meters, mean of the centroids in the map's frame.
+        rows: int64 (n,), ascending, rows of the map.
     """
 
     middle: Float64
@@ -27,7 +27,7 @@ class Submap:
 
 
 def cut(view: MapView, parameters: AlignmentParameters) -> list[Submap]:
-    """Submaps about stands that are apart from each other, evenly over the map if it is large."""
+    """Divide a map into submaps around viewpoints that are at least the spacing apart."""
     viewpoints = view.viewpoints[spread(view.viewpoints, parameters.spacing)]
     chosen = viewpoints[evenly(np.arange(len(viewpoints)), parameters.submaps)]
     if not len(chosen):
@@ -42,9 +42,9 @@ def cut(view: MapView, parameters: AlignmentParameters) -> list[Submap]:
 
 
 def spread(points: Float64, spacing: float) -> Int64:
-    """Points that are no closer to each other than the spacing, from one end on, int64 (m,)."""
+    """Return indices of points that are at least the spacing apart, int64 (m,)."""
     numbers = number_places(np.arange(len(points)), points, spacing)
-    # The first point of each number, in the order of `number_places`, is the one that began it.
+    # The first point of each number, in the order of `number_places`, is its leader.
     order = np.lexsort((*points.T[::-1], numbers))
     return order[np.flatnonzero(np.diff(numbers[order], prepend=-1))]
 
@@ -56,9 +56,16 @@ def candidates_of(
     search: DescriptorSearch,
     parameters: AlignmentParameters,
 ) -> Candidates:
-    """What each thing of a submap may be in the other map.
+    """Return the candidates of a submap's landmarks in the other map.
 
-    Views of one thing, closer to each other than `same_place`, ask together.
+    The views of a landmark, closer to each other than `same_place`, are one query.
+
+    Args:
+        submap: submap of the source map.
+        view: source map.
+        other: target map.
+        search: search for similar segments of the target map.
+        parameters: constants of alignment.
     """
     rows = submap.rows
     numbers = number_places(rows, view.centroids[rows], parameters.local.same_place)
@@ -67,7 +74,7 @@ def candidates_of(
     means = np.add.reduceat(view.centroids[rows][order], starts) / counts[:, None]
     asking = evenly(np.arange(len(starts)), parameters.landmarks)
     starts, counts, means = starts[asking], counts[asking], means[asking]
-    # Some of the views of each, spread over them; of few views one stands more than once.
+    # Some evenly spread views of each landmark. If it has few views, some are repeated.
     shares = np.arange(parameters.views) / parameters.views
     places = starts[:, None] + np.floor(shares * counts[:, None]).astype(np.int64)
     asked = rows[order][places]

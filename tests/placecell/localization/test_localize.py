@@ -259,7 +259,7 @@ def test_a_crowd_in_one_point_ends() -> None:
 def test_a_pole_does_not_tell_the_direction() -> None:
     found = localize(exact(np.outer(np.arange(10.0), [0, 0, 1])))
     assert found.reason == "inconsistent"
-    assert "direction" in found.detail
+    assert "do not determine the rotation" in found.detail
     assert found.probability == 0
 
 

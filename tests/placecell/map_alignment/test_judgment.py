@@ -49,15 +49,15 @@ def test_what_agrees_is_aligned() -> None:
 @pytest.mark.parametrize(
     ("one", "reason", "words"),
     [
-        (overlap(agreement=0.099), "inconsistent", "worth 9.9% of what should; 10%"),
+        (overlap(agreement=0.099), "inconsistent", "an agreement of 9.9%"),
         (overlap(agreement=0.1), None, ""),
-        (overlap(score=11.9), "inconsistent", "a score of 12 are needed, not 12"),
+        (overlap(score=11.9), "inconsistent", "a score of 11.9. "),
         (overlap(score=12.0), None, ""),
         (overlap(pairs=11), "inconsistent", "No part"),
         (overlap(pairs=12), None, ""),
-        (overlap(covariance=np.diag([1, 1, 1, 0.0077])), "inconsistent", "the direction"),
+        (overlap(covariance=np.diag([1, 1, 1, 0.0077])), "inconsistent", "determine the rotation"),
         (overlap(covariance=np.diag([1, 1, 1, 0.0075])), None, ""),
-        (overlap(covariance=np.diag([np.inf] * 4)), "inconsistent", "the direction"),
+        (overlap(covariance=np.diag([np.inf] * 4)), "inconsistent", "determine the rotation"),
     ],
 )
 def test_what_does_not_agree_is_not(one: Overlap, reason: str | None, words: str) -> None:
@@ -92,7 +92,7 @@ def test_another_place_that_is_as_good_makes_it_ambiguous(
     if is_ambiguous:
         assert found.second is second
         assert found.pose is None
-        assert "Another way" in found.detail
+        assert "Another alignment" in found.detail
 
 
 def test_one_that_is_good_goes_before_one_that_is_only_large() -> None:
