@@ -50,7 +50,7 @@ class CancelToken:
 
     @property
     def is_cancelled(self) -> bool:
-        """Whether the work must stop."""
+        """True if the work must stop."""
         if not self.flag[0] and time.monotonic() >= self.deadline:
             self.cancel()
         return bool(self.flag[0])

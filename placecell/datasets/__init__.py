@@ -1,4 +1,4 @@
-"""Readers of recorded drives, one file a format."""
+"""Readers of recorded drives, one file per format."""
 
 from pathlib import Path
 
@@ -24,10 +24,13 @@ __all__ = [
 
 
 def open_drive(folder: Path) -> Drive:
-    """Open a drive in whichever known layout the folder has.
+    """Open a drive. Its layout is detected.
+
+    Args:
+        folder: folder of the drive.
 
     Raises:
-        DriveError: the folder is missing, is in no known layout, or is broken.
+        DriveError: The folder is missing, has no known layout, or is broken.
     """
     folder = Path(folder).absolute()  # so that "." has a name
     if not folder.is_dir():

@@ -40,14 +40,15 @@ class Drive(ABC):
     """A sequence of scans with sensor poses, times and hashes.
 
     Attributes:
-        folder: where the drive lies.
-        scan_files: one file of points a scan, laid out as `point_layout` says.
-        poses: sensor-to-world transforms, float64 (scans, 4, 4); the world is z-up, and its origin
-            is the sensor at the first scan: clouds are float32, which is half a meter coarse at
-            map coordinates of 5,000 km.
-        origin: where the world's origin lies in the frame of the file's poses, float64 (3,).
-        times: seconds, float64 (scans,).
-        options: how its files are read.
+        folder: folder of the drive.
+        scan_files: file of each scan's points.
+        poses: sensor-to-world transforms, float64 (scans, 4, 4). The world frame is z-up, and its
+            origin is the sensor at the first scan: float32 points have a resolution of only half a
+            meter at map coordinates of 5,000 km.
+        origin: world origin in the frame of the file's poses, float64 (3,), meters.
+        times: time of each scan, float64 (scans,), seconds.
+        options: options for reading the files.
+        point_layout: layout of the scan files.
     """
 
     name: ClassVar[str]
@@ -64,14 +65,14 @@ class Drive(ABC):
     @classmethod
     @abstractmethod
     def recognizes(cls, folder: Path) -> bool:
-        """Whether the folder has this layout."""
+        """Return whether the folder has this layout."""
 
     def __len__(self) -> int:
         return len(self.scan_files)
 
     @cached_property
     def dropouts(self) -> Dropouts:
-        """Return the dropouts of the scans that were read so far."""
+        """Dropouts of the scans that were read so far."""
         return Dropouts()
 
     def examine(self) -> None:
@@ -132,7 +133,7 @@ class Drive(ABC):
         """Refuse a drive if more than half of these scans cannot be used.
 
         Raises:
-            DriveError: so it is.
+            DriveError: More than half of the scans cannot be used.
         """
         skipped, _ = self.dropouts.within(scans)
         if 2 * len(skipped) > len(scans):
@@ -159,8 +160,8 @@ class Drive(ABC):
     def scan_hash(self, index: int) -> str:
         """Return a scan's identity: the SHA-256 of its file, shortened to 16 hex digits.
 
-        A scan without content, as a sensor's dropout leaves it, is known by its drive and name: two
-        drives with such scans have not seen the same place.
+        The identity of a scan without content (a sensor dropout) is its drive and name: two drives
+        with such scans have not seen the same place.
         """
         file = self.scan_files[index]
         try:
@@ -171,7 +172,7 @@ class Drive(ABC):
         return hashlib.sha256(content).hexdigest()[:16]
 
     def path_length(self) -> float:
-        """Meters driven."""
+        """Return the length of the path, meters."""
         return float(np.linalg.norm(np.diff(self.poses[:, :3, 3], axis=0), axis=1).sum())
 
 
@@ -221,10 +222,10 @@ def read_velodyne(file: Path) -> Float32:
 
 
 def find_scans(folder: Path) -> list[Path]:
-    """Velodyne files of a folder, in the order of their numbers, which may have gaps.
+    """Return the Velodyne files of a folder, ordered by number. Numbers may be missing.
 
     Raises:
-        DriveError: there are none, or one has a name that is no number.
+        DriveError: The folder has no scans, or a file's name is no number.
     """
     files = sorted(folder.glob("*.bin"))
     if not files:

@@ -20,20 +20,21 @@ from placecell.datasets.scan_options import SECONDS, current_scan_options
 class KittiOdometry(Drive):
     """A sequence of the KITTI odometry benchmark, or any drive laid out as one.
 
-    `poses.txt` gives the left camera; they are moved to the sensor with `Tr` of `calib.txt`, so
-    that where the file's first pose is the identity, the world is the sensor's frame at the first
-    scan: x ahead, z up. KITTI itself keeps the poses beside the sequences, in `poses/NN.txt`: that
-    place is looked at too.
+    `poses.txt` has poses of the left camera. `Tr` of `calib.txt` transforms them to the sensor. If
+    the first pose of the file is the identity, the world is the sensor's frame at the first scan:
+    x ahead, z up. KITTI has the poses beside the sequences, in `poses/NN.txt`; that file is read
+    if the folder has none.
     """
 
     name = "KITTI odometry"
     layout = "velodyne/*.bin, poses.txt, calib.txt, times.txt"
 
     def __init__(self, folder: Path, pose_name: str = "poses.txt") -> None:
-        """Read all but the scans.
+        """Read poses, calibration and times, and check the sizes of the scans.
 
         Args:
-            pose_name: of the file of poses, where there are others than the true ones.
+            folder: folder of the drive.
+            pose_name: name of the pose file, for a drive with several.
         """
         self.folder = folder
         self.scan_files = find_scans(folder / "velodyne")
@@ -74,9 +75,9 @@ class KittiOdometry(Drive):
 
 
 def with_missing(files: list[Path], poses: int) -> list[Path]:
-    """Return the scan files from number 0 on, with the missing ones in between.
+    """Return the scan files from number 0 on, including missing ones.
 
-    So that a lost scan costs that scan alone, where there is a pose for it.
+    So a missing scan that has a pose is skipped, and the drive remains usable.
     """
     numbers = [int(file.stem) for file in files]
     if len(files) < poses and numbers[0] == 0 and numbers[-1] == poses - 1:
@@ -91,17 +92,17 @@ def with_missing(files: list[Path], poses: int) -> list[Path]:
 
 
 def as_transforms(rows: Float64) -> Float64:
-    """3x4 matrices, row by row (n, 12) -> homogeneous transforms (n, 4, 4)."""
+    """Return homogeneous transforms (n, 4, 4) of 3x4 matrices in row-major order (n, 12)."""
     transforms = np.tile(np.eye(4), (len(rows), 1, 1))
     transforms[:, :3, :] = rows.reshape(-1, 3, 4)
     return transforms
 
 
 def read_calibration(file: Path) -> Float64:
-    """`Tr` of a calib.txt: sensor to left camera, float64 (4, 4).
+    """Read `Tr` of a calib.txt: the transform from sensor to left camera, float64 (4, 4).
 
     Raises:
-        DriveError: missing, without `Tr`, or with a `Tr` that is no transform.
+        DriveError: The file or its `Tr` is missing, or `Tr` is no rigid transform.
     """
     how = (
         "add a line 'Tr: ' with the 12 numbers of the 3x4 transform from the sensor's frame to "

@@ -19,18 +19,18 @@ from placecell.datasets.errors import DriveError
 from placecell.datasets.scan_options import current_scan_options
 
 EARTH_RADIUS = 6_378_137.0
-"""Meters, WGS 84's equatorial radius, as in KITTI's development kit."""
+"""Equatorial radius of WGS 84, meters, as in KITTI's development kit."""
 
 OXTS_COLUMNS = 30
 
 
 class KittiRaw(Drive):
-    """A synchronised drive of KITTI raw (`2011_09_30_drive_0018_sync`).
+    """A synchronized drive of KITTI raw (`2011_09_30_drive_0018_sync`).
 
-    Poses come from `oxts` through the Mercator projection of KITTI's development kit
-    (`convertOxtsToPose.m`), then from the inertial unit to the sensor with
-    `calib_imu_to_velo.txt`, looked for in the drive's folder and the one above it (the date).
-    The world is the sensor's frame at the first scan.
+    Poses come from `oxts` by the Mercator projection of KITTI's development kit
+    (`convertOxtsToPose.m`). `calib_imu_to_velo.txt`, in the drive's folder or in its parent (the
+    date), transforms them from the inertial unit to the sensor. The world is the sensor's frame at
+    the first scan.
     """
 
     name = "KITTI raw"
@@ -39,8 +39,8 @@ class KittiRaw(Drive):
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.scan_files = find_scans(folder / "velodyne_points" / "data")
-        # Some drives lack a few scans (2011_09_26_drive_0009): an oxts file a *number* is what
-        # must be there.
+        # Some drives lack a few scans (2011_09_26_drive_0009): each scan's *number* needs an oxts
+        # file.
         oxts_files = [folder / "oxts" / "data" / f"{file.stem}.txt" for file in self.scan_files]
         rows = []
         for file in oxts_files:
@@ -75,10 +75,10 @@ class KittiRaw(Drive):
 
 
 def check_oxts(records: Float64, files: list[Path]) -> None:
-    """Refuse positions that are not in degrees and orientations that are not in radians.
+    """Check that positions are in degrees and orientations in radians.
 
     Raises:
-        DriveError: a latitude, longitude or angle is out of its range.
+        DriveError: A latitude, longitude or angle is out of range.
     """
     ranges = (
         ("latitude", 90.0, "degrees, at most 90"),
@@ -98,10 +98,10 @@ def check_oxts(records: Float64, files: list[Path]) -> None:
 
 
 def oxts_to_poses(records: Float64) -> Float64:
-    """Inertial-unit-to-world transforms (n, 4, 4) from oxts records (n, 30).
+    """Return inertial-unit-to-world transforms (n, 4, 4) of oxts records (n, 30).
 
-    Mercator about the first record's latitude; roll, pitch, yaw as R_z R_y R_x. World: x east,
-    y north, z up.
+    The Mercator projection uses the first record's latitude. The rotation is R_z(yaw) R_y(pitch)
+    R_x(roll). World frame: x east, y north, z up.
     """
     latitude, longitude, altitude, roll, pitch, yaw = records[:, :6].T
     scale = np.cos(np.radians(latitude[0]))
@@ -114,7 +114,11 @@ def oxts_to_poses(records: Float64) -> Float64:
 
 
 def find_calibration(folder: Path) -> Path:
-    """The drive's `calib_imu_to_velo.txt`: in its folder, or with its date's other drives."""
+    """Return the drive's `calib_imu_to_velo.txt`, from its folder or from its date's folder.
+
+    Raises:
+        DriveError: The file is missing.
+    """
     places = [folder / "calib_imu_to_velo.txt", folder.parent / "calib_imu_to_velo.txt"]
     for file in places:
         if file.exists():
@@ -126,7 +130,7 @@ def find_calibration(folder: Path) -> Path:
 
 
 def read_rigid_calibration(file: Path) -> Float64:
-    """`R` and `T` of a KITTI raw calibration file: float64 (4, 4).
+    """Read `R` and `T` of a KITTI raw calibration file as a transform, float64 (4, 4).
 
     Raises:
         DriveError: `R` or `T` is missing or malformed, or `R` is no rotation.
@@ -155,10 +159,10 @@ def read_rigid_calibration(file: Path) -> Float64:
 
 
 def read_timestamps(file: Path, numbers: list[int]) -> Float64:
-    """Seconds since the first scan, for the scans of these numbers.
+    """Return the time since the first scan of each of these scans, float64 (n,), seconds.
 
     Raises:
-        DriveError: missing, malformed, or fewer lines than the last scan's number.
+        DriveError: The file is missing or malformed, or has too few lines.
     """
     lines = read_lines(file, "the time of each scan")
     try:

@@ -124,7 +124,8 @@ def judge(overlaps: Sequence[Overlap], parameters: AlignmentParameters) -> MapAl
         detail = (
             f"In the best overlap {len(best)} pairs match, with an agreement of "
             f"{best.agreement:.1%} and a score of {best.score:.1f}. An agreement of "
-            f"{parameters.least_agreement:.0%} and a score of {parameters.least_score:.0f} are needed."
+            f"{parameters.least_agreement:.0%} and a score of {parameters.least_score:.0f} are "
+            "needed."
         )
     elif second is not None and is_as_good(second, best, parameters):
         reason = "ambiguous"

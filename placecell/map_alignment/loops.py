@@ -71,7 +71,7 @@ class Loop:
 
     @property
     def closes(self) -> bool:
-        """Whether the errors are within the limits."""
+        """True if the errors are within the limits."""
         steps = len(self.alignments)
         return self.meters <= METERS * steps and self.degrees <= DEGREES * steps
 

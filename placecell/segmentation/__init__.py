@@ -1,1 +1,1 @@
-"""Segmentation: from the scans of a drive to groups of segments (paper III-A)."""
+"""Segmentation: the steps from a drive's scans to groups of segments (paper III-A)."""

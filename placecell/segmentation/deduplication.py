@@ -1,4 +1,4 @@
-"""Duplicates inside a group, by Hamming distance of the voxel grids (paper III-A)."""
+"""Deduplication within a group, by Hamming distance of the voxel grids (paper III-A)."""
 
 import numpy as np
 
@@ -6,14 +6,15 @@ from placecell.core.types import Bool, Int64, UInt8
 
 
 def keep_distinct(packed: UInt8, groups: Int64, th_H: int) -> Bool:
-    """Which segments stay: bool (segments,).
+    """Return whether each segment is kept, bool (segments,).
 
-    Greedily in the order given (time), a segment is dropped when its grid differs in fewer than
-    `th_H` voxels from one of its group that stays.
+    In the given order, a segment is dropped if its grid differs in fewer than `th_H` voxels from a
+    kept segment of its group.
 
     Args:
         packed: uint8 (segments, bytes), occupancy grids as bits (`numpy.packbits`), in time order.
-        groups: int64 (segments,).
+        groups: int64 (segments,), group of each segment.
+        th_H: number of differing voxels from which a segment is distinct.
     """
     kept = np.zeros(len(groups), dtype=bool)
     order = np.argsort(groups, kind="stable")

@@ -1,4 +1,4 @@
-"""One drive as map and query: alternate blocks of its path."""
+"""Drive splits: alternate blocks of one drive's path, as map and as queries."""
 
 import itertools
 from collections.abc import Iterable
@@ -10,20 +10,21 @@ from placecell.core.parameters import Parameters
 from placecell.datasets import Drive
 
 BLOCK_METERS = 12.0
+"""Length of a block, meters, unless half of the path is shorter."""
 
 
 def alternate_blocks(drive: Drive) -> tuple[list[range], list[range]]:
-    """Scans of the blocks that make the map (the odd ones) and of those that ask (the even ones).
+    """Return the scans of the map's blocks and of the query blocks, in alternation along the path.
 
-    Blocks are min(12 m, half of the path) long along the path; a drive that stands still has none
-    to ask from.
+    A block is 12 m long, or half of the path if that is shorter. A drive without motion has no
+    query block.
     """
     steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     if along[-1] == 0:
         return [range(len(drive))], []
     length = min(BLOCK_METERS, along[-1] / 2)
-    # The last scan of all lies on the end of the last block, not in one of its own.
+    # The last scan is at the end of the last block; it belongs to that block.
     number = np.minimum(along // length, np.ceil(along[-1] / length) - 1)
     starts = [*np.flatnonzero(np.diff(number, prepend=-1)).tolist(), len(drive)]
     blocks = [range(start, end) for start, end in itertools.pairwise(starts)]
@@ -31,8 +32,8 @@ def alternate_blocks(drive: Drive) -> tuple[list[range], list[range]]:
 
 
 def parameters_of(blocks: Iterable[range], parameters: Parameters) -> Parameters:
-    """One window of accumulation for all blocks, as their usual length allows.
+    """Return the parameters for all blocks, with an accumulation that fits their median length.
 
-    Not the shortest: a path ends somewhere within its last block, which may hold a single scan.
+    The shortest block does not count: the last block is incomplete and may have a single scan.
     """
     return parameters.for_block(median_low(map(len, blocks)))

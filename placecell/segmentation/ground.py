@@ -1,8 +1,8 @@
-"""Ground removal that follows slopes and asks for no sensor height.
+"""Ground removal, which follows slopes and needs no sensor height.
 
-A height grid of lowest points is opened morphologically (Zhang et al. 2003, *A progressive
-morphological filter for removing nonground measurements*): the opening of an inclined plane is
-that plane, so slopes stay ground, while anything narrower than the window is cut off.
+A height grid of the lowest points is opened morphologically (Zhang et al. 2003, *A progressive
+morphological filter for removing nonground measurements*). The opening of an inclined plane is the
+plane itself, so slopes remain ground. Objects narrower than the window are removed.
 """
 
 import numpy as np
@@ -13,10 +13,11 @@ from placecell.core.types import Bool, Float32
 
 
 def is_ground(points: Float32, parameters: Parameters) -> Bool:
-    """Which points of a local map are ground: bool (n,).
+    """Return whether each point of a local map is ground, bool (n,).
 
     Args:
-        points: float32 (n, 3), meters, z up (within 5 degrees or so).
+        points: float32 (n, 3), meters, z up within about 5 degrees.
+        parameters: cell size, window and clearance.
     """
     if not len(points):
         return np.zeros(0, dtype=bool)
@@ -30,12 +31,17 @@ def is_ground(points: Float32, parameters: Parameters) -> Bool:
 
 
 def ground_surface(lowest: Float32, parameters: Parameters) -> Float32:
-    """Ground height of each cell from the lowest point of each (infinite where there is none)."""
+    """Return the ground height of each cell, float32 (rows, columns), meters.
+
+    Args:
+        lowest: float32 (rows, columns), lowest point of each cell; infinite in an empty cell.
+        parameters: cell size, window and clearance.
+    """
     empty = ~np.isfinite(lowest)
     nearest = ndimage.distance_transform_edt(empty, return_distances=False, return_indices=True)
     filled = lowest[tuple(nearest)]
-    # A reflection below the ground would pull the whole window down: a cell cannot be much
-    # lower than the third lowest of the 25 around it.
+    # A reflection below the ground would lower the whole window. So a cell much lower than the
+    # third lowest of the 25 cells around it is raised to that height.
     third_lowest = ndimage.rank_filter(filled, rank=2, size=5, mode="nearest")
     filled = np.where(filled < third_lowest - parameters.ground_clearance, third_lowest, filled)
     reach = round(parameters.ground_window / parameters.ground_cell / 2)

@@ -1,4 +1,4 @@
-"""Groups: the same surface seen in successive frames (paper III-A)."""
+"""Groups: segments of one surface in successive captures (paper III-A)."""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -7,10 +7,10 @@ from placecell.core.types import Float64, Int64
 
 
 class Grouper:
-    """Numbers the segments of successive frames by group.
+    """Assigns segments of successive captures to groups.
 
-    A segment joins the group of the previous frame's segment whose centroid is nearest, one to
-    one, if within `d_same`; otherwise it begins a group.
+    A segment joins the group of the nearest segment of the previous capture, one to one, if their
+    centroids are within `d_same`, meters. Otherwise it starts a new group.
     """
 
     def __init__(self, d_same: float) -> None:
@@ -20,7 +20,11 @@ class Grouper:
         self._groups = np.zeros(0, dtype=np.int64)
 
     def add_capture(self, centroids: Float64) -> Int64:
-        """Groups of the next frame's segments, int64 (segments,), from their centroids (n, 3)."""
+        """Return the groups of the next capture's segments, int64 (segments,).
+
+        Args:
+            centroids: float64 (segments, 3), meters, world frame.
+        """
         groups = np.full(len(centroids), -1, dtype=np.int64)
         now, before = nearest_pairs(centroids, self._centroids, self.d_same)
         groups[now] = self._groups[before]
@@ -32,7 +36,16 @@ class Grouper:
 
 
 def nearest_pairs(a: Float64, b: Float64, limit: float) -> tuple[Int64, Int64]:
-    """Pair points one to one, nearest first, within a limit: indices into a and into b."""
+    """Pair points one to one, nearest first.
+
+    Args:
+        a: float64 (n, 3), meters.
+        b: float64 (m, 3), meters.
+        limit: largest distance of a pair, meters.
+
+    Returns:
+        Indices into a and into b, int64 (p,) each.
+    """
     empty = np.zeros(0, dtype=np.int64)
     if not len(a) or not len(b):
         return empty, empty

@@ -1,4 +1,4 @@
-"""The local map: accumulated scans in a voxel grid (paper III-A, as in SegMatch)."""
+"""Local map: accumulated scans in a voxel grid (paper III-A, as in SegMatch)."""
 
 from collections import OrderedDict
 
@@ -11,18 +11,18 @@ from placecell.datasets import Drive
 
 
 def in_range(points: Float32, parameters: Parameters) -> Float32:
-    """Keep the returns between the nearest and the farthest range; points in the sensor frame."""
+    """Return the points between minimum and maximum range, float32 (n, 3), in the sensor frame."""
     squared = np.einsum("ij,ij->i", points, points)
     keep = (squared >= parameters.min_range**2) & (squared <= parameters.max_range**2)
     return np.asarray(points[keep])
 
 
 def voxel_means(points: Float32, voxel: float) -> Float32:
-    """One point a voxel, the mean of those in it, on a grid fixed to the world.
+    """Return the mean point of each occupied voxel. The grid is aligned with the world frame.
 
     Args:
         points: float32 (n, 3), meters, world frame.
-        voxel: edge, meters.
+        voxel: edge length, meters.
 
     Returns:
         float32 (voxels, 3), ordered by voxel.
@@ -37,9 +37,9 @@ def voxel_means(points: Float32, voxel: float) -> Float32:
 
 
 class Accumulator:
-    """Local maps of a drive's frames; each scan is read and moved to the world once.
+    """Accumulator of scans into local maps of a drive's captures.
 
-    Scans before `first` feed none of them.
+    Each scan is read and transformed to the world frame once. Scans before `first` are not used.
     """
 
     def __init__(self, drive: Drive, parameters: Parameters, first: int = 0) -> None:
@@ -49,7 +49,11 @@ class Accumulator:
         self._moved: OrderedDict[int, Float32] = OrderedDict()
 
     def local_map(self, capture: int) -> Float32:
-        """The local map at a scan: float32 (n, 3), meters, world frame."""
+        """Return the local map at a capture, float32 (n, 3), meters, world frame.
+
+        Args:
+            capture: index of the capture's scan.
+        """
         first = max(self.first, capture - self.parameters.accumulated_scans + 1)
         scans = [self._in_world(index) for index in range(first, capture + 1)]
         points = np.concatenate(scans)
@@ -68,5 +72,5 @@ class Accumulator:
 
 
 def transform(pose: Float64, points: Float32) -> Float32:
-    """Move points by a rigid transform (4, 4): float32 (n, 3)."""
+    """Apply a rigid transform (4, 4) to points, float32 (n, 3)."""
     return (points @ pose[:3, :3].T.astype(np.float32) + pose[:3, 3]).astype(np.float32)

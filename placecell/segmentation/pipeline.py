@@ -1,4 +1,4 @@
-"""From a drive to segments: the paper's preprocessing (III-A), step by step."""
+"""Segmentation pipeline: the paper's preprocessing (III-A) from a drive to grouped segments."""
 
 from collections.abc import Callable, Iterable, Iterator
 
@@ -17,16 +17,21 @@ from placecell.segmentation.recording import Recording
 from placecell.segmentation.region_growing import segment_indices
 
 Progress = Callable[[Iterable[int], int, str], Iterable[int]]
-"""Wraps a loop to show its progress: (items, how many, what) -> the same items."""
+"""Function that shows the progress of a loop: (items, number of items, title) -> the items."""
 
 
 def silent(items: Iterable[int], total: int, what: str) -> Iterable[int]:  # noqa: ARG001
-    """Show nothing."""
+    """Return the items and show no progress."""
     return items
 
 
 def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:
-    """Segments of a local map, each float32 (n, 3): ground off, then region growing."""
+    """Remove the ground of a local map and return its segments, float32 (n, 3) each.
+
+    Args:
+        local_map: float32 (n, 3), meters, world frame.
+        parameters: parameters of ground removal and region growing.
+    """
     objects = local_map[~is_ground(local_map, parameters)]
     return [objects[indices] for indices in segment_indices(objects, parameters)]
 
@@ -37,10 +42,15 @@ def segment_captures(
     scans: range | None = None,
     progress: Progress = silent,
 ) -> Iterator[tuple[int, Segments]]:
-    """Segments of each frame, every `parameters.frame_step`-th scan, in the world frame.
+    """Yield the scan index and the segments of each capture, in the world frame.
+
+    Every `parameters.frame_step`-th scan is a capture.
 
     Args:
-        scans: of the drive, all unless given; no scan outside feeds a local map.
+        drive: drive to read.
+        parameters: parameters of the segmentation.
+        scans: scans to use, also for local maps; None for all.
+        progress: function that shows the progress.
     """
     scans = range(len(drive)) if scans is None else scans
     captures = scans[:: parameters.frame_step]
@@ -57,10 +67,16 @@ def record(
     scans: range | None = None,
     progress: Progress = silent,
 ) -> Recording:
-    """All segments of a drive, or of some scans of it, grouped, duplicates marked as such.
+    """Record all segments of a drive, or of some of its scans, with groups and duplicates.
 
     Args:
-        parameters: with the `frame_step` to use (see `Parameters.for_drive`).
+        drive: drive to read.
+        parameters: parameters of the segmentation (see `Parameters.for_drive`).
+        scans: scans to use; None for all.
+        progress: function that shows the progress.
+
+    Raises:
+        DriveError: Most scans cannot be used, or one cannot and the options are strict.
     """
     grouper = Grouper(parameters.d_same)
     captures, parts, groups = [], [], []
@@ -74,7 +90,7 @@ def record(
     if skipped or dropped:
         drive.options.tell(f"{drive.folder}: {drive.told(read)}")
     segments = Segments.concatenate(parts)
-    del parts  # Of a long drive they are gigabytes.
+    del parts  # They are gigabytes for a long drive.
     group = np.concatenate(groups)
     return Recording(
         name=drive.folder.name,
@@ -93,7 +109,7 @@ def record(
 
 
 def packed_grids(segments: Segments, parameters: Parameters, batch: int = 1000) -> UInt8:
-    """Occupancy grids as bits, uint8 (segments, bytes); a batch at a time stands unpacked."""
+    """Return occupancy grids as bits, uint8 (segments, bytes), computed batch by batch."""
     packed = [np.zeros((0, (int(np.prod(parameters.grid)) + 7) // 8), dtype=np.uint8)]
     for first in range(0, len(segments), batch):
         some = segments.take(np.arange(first, min(first + batch, len(segments))))

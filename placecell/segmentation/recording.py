@@ -1,8 +1,8 @@
-"""A recording: all segments of a drive, as prepared for training and evaluation.
+"""Recording: all segments of a drive, prepared for training and evaluation.
 
-The file is safetensors: columns as tensors, the rest as JSON in the header's metadata. Nothing in
-it is code, so a recording from elsewhere is safe to load. `docs/reference/recording-file.md`
-describes it.
+The file format is safetensors: columns are tensors, other values are JSON in the header's metadata.
+It holds no code, so a recording from an unknown source is safe to load.
+`docs/reference/recording-file.md` describes it.
 """
 
 import json
@@ -30,11 +30,11 @@ COLUMNS = {
     "groups": ("int64", ()),
     "distinct": ("bool", ()),
 }
-"""Of each column: the type of its elements and the shape of a row."""
+"""Element type and row shape of each column. The keys are those of the file."""
 
 
 class RecordingError(ValueError):
-    """A file that is no recording, or one of another version."""
+    """File that is no valid recording of this version."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,18 +42,18 @@ class Recording:
     """Segments of a drive in time order.
 
     Attributes:
-        name: of the drive.
-        parameters: that made it, the protocol's name among them.
-        segments: all of them, in the drive's world frame.
-        captures: int64 (segments,): the scan at whose time each was captured.
-        groups: int64 (segments,): numbers from 0, one a surface.
-        distinct: bool (segments,): false for duplicates inside their group.
-        scans: how many the drive has.
-        scan_hashes: of each scan, to tell whether a model has seen it.
-        path_length: meters driven.
-        part: scans that it was made of, where that is not the whole drive.
+        name: name of the drive.
+        parameters: parameters of the segmentation, with the protocol's name.
+        segments: segments in the drive's world frame.
+        captures: int64 (segments,), index of the scan at which each segment was captured.
+        groups: int64 (segments,), group of each segment, from 0.
+        distinct: bool (segments,), false for duplicates within their group.
+        scans: number of scans of the drive.
+        scan_hashes: hash of each scan, which shows whether a model was trained on it.
+        path_length: length of the path, meters.
+        part: scans of the recording if it is a part of the drive; None for the whole drive.
         skipped_scans: indices of scans that could not be used.
-        dropped_points: how many points of the other scans were not finite.
+        dropped_points: number of points of the other scans that were not finite.
     """
 
     name: str
@@ -71,12 +71,17 @@ class Recording:
 
     @property
     def capture_scans(self) -> range:
-        """Scans that are frames, whether any segment was seen there or not."""
+        """Scans that are captures, with or without segments."""
         scans = range(self.scans) if self.part is None else self.part
         return scans[:: self.parameters.frame_step]
 
     def within(self, first: int, last: int) -> Bool:
-        """Segments of the groups that lie wholly within scans first to last (both included)."""
+        """Return whether each segment's group is entirely within the scans, bool (segments,).
+
+        Args:
+            first: index of the first scan.
+            last: index of the last scan (included).
+        """
         count = int(self.groups.max(initial=-1)) + 1
         earliest = np.full(count, np.iinfo(np.int64).max)
         latest = np.full(count, -1)
@@ -85,19 +90,19 @@ class Recording:
         return ((earliest >= first) & (latest <= last))[self.groups]
 
     def neighborhood(self, parameters: NeighborhoodParameters) -> Float32:
-        """What stood around each segment in its frame, float32 (segments, size)."""
+        """Return the neighborhood of each segment in its capture, float32 (segments, size)."""
         return describe_neighborhood(self.segments, self.captures, parameters)
 
     def save(self, file: Path) -> None:
         """Write the recording as safetensors.
 
         Raises:
-            RecordingError: it is of a part of its drive, which the file cannot say.
+            RecordingError: The recording is a part of its drive, which the format cannot express.
         """
         if self.part is not None:
             raise RecordingError(
-                f"{file}: a file is of a whole drive, not of scans {self.part.start} to "
-                f"{self.part.stop - 1} alone; record the drive without naming scans"
+                f"{file}: a file holds a whole drive, not only scans {self.part.start} to "
+                f"{self.part.stop - 1}. Record the drive without naming scans"
             )
         header = {
             "format": FORMAT,
@@ -109,7 +114,7 @@ class Recording:
             "path_length_m": self.path_length,
         }
         if self.skipped_scans or self.dropped_points:
-            # Optional: the file of a drive without dropouts is as it always was.
+            # Optional keys: the file of a drive without dropouts does not have them.
             header["skipped_scans"] = list(self.skipped_scans)
             header["dropped_points"] = self.dropped_points
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -123,7 +128,7 @@ class Recording:
             "distinct": self.distinct,
         }
         save_file(
-            # safetensors writes memory as it lies, a view's too.
+            # safetensors writes the memory of a view without regard to its strides.
             {name: np.ascontiguousarray(column) for name, column in columns.items()},
             unfinished,
             metadata={"header": json.dumps(header, sort_keys=True)},
@@ -135,7 +140,7 @@ class Recording:
         """Read a recording.
 
         Raises:
-            RecordingError: it cannot be read, or is of another kind or version.
+            RecordingError: The file cannot be read, or has another format or version.
         """
         try:
             with safetensors.safe_open(file, framework="numpy") as content:
@@ -143,8 +148,8 @@ class Recording:
                 columns = {name: content.get_tensor(name) for name in content.keys()}  # noqa: SIM118
             if header["format"] != FORMAT or header["version"] != VERSION:
                 raise RecordingError(
-                    f"{file}: {header['format']} version {header['version']}; "
-                    f"this program reads {FORMAT} version {VERSION}: prepare the drive again"
+                    f"{file}: has the format {header['format']} version {header['version']}; "
+                    f"expected {FORMAT} version {VERSION}. Prepare the drive again"
                 )
             check_columns(columns, file)
             parameters = header["parameters"]
@@ -172,10 +177,10 @@ class Recording:
 
 
 def check_columns(columns: dict[str, NDArray[Any]], file: Path) -> None:
-    """Refuse columns that do not fit together: they would be read as other segments.
+    """Check that columns fit together; otherwise they would be read as other segments.
 
     Raises:
-        RecordingError: a column has another type, shape or length, or holds impossible values.
+        RecordingError: A column has another type, shape or length, or holds invalid values.
     """
     count = len(columns["ends"])
     for name, (kind, row) in COLUMNS.items():

@@ -8,13 +8,14 @@ from placecell.core.types import Float32, Int64
 
 
 def grow_regions(points: Float32, radius: float) -> Int64:
-    """Label the connected regions of points linked by steps of at most `radius`.
+    """Label the connected regions of points. Points within the radius of each other are connected.
 
     Args:
         points: float32 (n, 3), meters.
+        radius: largest distance of connected points, meters.
 
     Returns:
-        int64 (n,): labels from 0, numbered by each region's first point.
+        int64 (n,), labels from 0, in the order of each region's first point.
     """
     if not len(points):
         return np.zeros(0, dtype=np.int64)
@@ -25,7 +26,7 @@ def grow_regions(points: Float32, radius: float) -> Int64:
     keys = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]
     order = np.argsort(keys, kind="stable")
     roots = _link(points[order], keys[order], int(size[1]), int(size[2]), radius * radius)
-    # roots are positions in the sorted order; name regions by their first point instead.
+    # Roots are positions in the sorted order. Label each region by its first point instead.
     first = np.full(len(points), len(points), dtype=np.int64)
     np.minimum.at(first, roots, order)
     labels = np.empty(len(points), dtype=np.int64)
@@ -43,7 +44,7 @@ def _find(parent: Int64, index: int) -> int:
 
 @compiled
 def _link(points: Float32, keys: Int64, rows: int, layers: int, squared_radius: float) -> Int64:
-    """Union-find over points sorted by cell; a cell's neighbors are found by bisection."""
+    """Return the root of each point's region: union-find over points sorted by cell."""
     count = len(points)
     parent = np.arange(count)
     for row_step in range(-1, 2):
@@ -73,7 +74,7 @@ def _link(points: Float32, keys: Int64, rows: int, layers: int, squared_radius: 
 
 
 def segment_indices(points: Float32, parameters: Parameters) -> list[Int64]:
-    """Indices of the points of each region within the size limits, in order of first points."""
+    """Return the point indices of each region within the size limits, ordered by first point."""
     labels = grow_regions(points, parameters.growing_radius)
     counts = np.bincount(labels)
     ends = np.cumsum(counts)

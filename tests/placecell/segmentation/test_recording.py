@@ -134,7 +134,7 @@ def test_within_takes_groups_that_lie_wholly_inside(
 @pytest.mark.parametrize("header", [{"version": 2}, {"version": 0}, {"format": "placecell-map"}])
 def test_other_version_or_format(file: Path, header: dict[str, object]) -> None:
     rewrite(file, header)
-    with pytest.raises(RecordingError, match=r"toy\.safetensors: .*version .*prepare .* again"):
+    with pytest.raises(RecordingError, match=r"toy\.safetensors: .*version .*Prepare .* again"):
         Recording.load(file)
 
 

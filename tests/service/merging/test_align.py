@@ -155,7 +155,7 @@ def test_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Manif
     assert stocked.post("/maps/east/segments", content=edit).status_code == 200
     told = stocked.post("/maps/east/align/west").json()
     assert told["reason"] == "ambiguous"
-    assert "Another way" in told["detail"]
+    assert "Another alignment" in told["detail"]
     # Both ways, the better one first.
     first, second = told["others"]
     assert first["score"] == told["score"] >= second["score"]
