@@ -32,7 +32,7 @@ from placecell.core.cancellation import current
 from placecell.descriptors.manifest import Manifest, ModelError
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters, MapAlignment
-from service.core.auth import ANYONE, Holder
+from service.core.auth import ANYONE, Principal
 from service.core.metrics import Metrics
 from service.core.preconditions import Preconditions
 from service.core.settings import Settings
@@ -220,7 +220,7 @@ class Engine:
         seen: Descriptors | Scan,
         maps: Sequence[str] | None = None,
         k: int = 10,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
     ) -> MatchResult:
         """Return the k nearest map segments of each segment.
 
@@ -229,13 +229,13 @@ class Engine:
                 described by the model of each map.
             maps: names of maps; all maps unless given.
             k: largest number of candidates of a segment.
-            holder: holder of a key, which may not open all maps.
+            principal: principal, whose scope may not cover all maps.
 
         Raises:
             Problem: as `query`.
         """
         timing = Timing()
-        query = self.query(seen, maps, k, holder, timing)
+        query = self.query(seen, maps, k, principal, timing)
         return self.matches(query, query.describe_alone())
 
     def localize(
@@ -245,7 +245,7 @@ class Engine:
         k: int = 25,
         parameters: LocalizationParameters | None = None,
         session: str | Session | None = None,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
     ) -> LocalizationResult:
         """Return the robot's pose in each map, or the reason for none; the most probable first.
 
@@ -256,22 +256,22 @@ class Engine:
             parameters: parameters of the localization; the default ones unless given.
             session: id that this robot uses for all its requests in one odometry frame; requests of
                 the last seconds support each other.
-            holder: holder of a key, which may not open all maps.
+            principal: principal, whose scope may not cover all maps.
 
         Raises:
             Problem: as `query`.
         """
         timing = Timing()
-        query = self.query(seen, maps, k, holder, timing)
+        query = self.query(seen, maps, k, principal, timing)
         descriptors = query.describe_alone()
-        return self.poses(query, descriptors, timing, parameters, session, holder)
+        return self.poses(query, descriptors, timing, parameters, session, principal)
 
     def query(
         self,
         seen: Descriptors | Scan,
         maps: Sequence[str] | None,
         k: int,
-        holder: Holder,
+        principal: Principal,
         timing: Timing,
     ) -> Query:
         """Select the maps to search and prepare the segments: the first step of a search.
@@ -285,9 +285,9 @@ class Engine:
         """
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)
-            selection = select_maps(self.maps, self.models, maps, only, holder)
+            selection = select_maps(self.maps, self.models, maps, only, principal)
             return query_of_codes(seen, selection, k, self.settings.limits, timing)
-        selection = select_maps(self.maps, self.models, maps, None, holder)
+        selection = select_maps(self.maps, self.models, maps, None, principal)
         return query_of_scan(seen, self.models.default, selection, k, timing)
 
     def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
@@ -301,11 +301,11 @@ class Engine:
         timing: Timing,
         parameters: LocalizationParameters | None = None,
         session: str | Session | None = None,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
     ) -> LocalizationResult:
         """Search the robot's pose: the third step of a localization."""
         if isinstance(session, str):
-            session = RobotSession(self.sessions, holder.name, session)
+            session = RobotSession(self.sessions, principal.name, session)
         return localize(
             query=query,
             descriptors=descriptors,
@@ -349,21 +349,21 @@ class Engine:
         return align_maps(a, b, a.index(model), model, options, current().check)
 
     def writer(
-        self, holder: Holder = ANYONE, conditions: Preconditions = NO_CONDITIONS
+        self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
     ) -> MapWriter:
         """Return a writer of maps, with the rights of a key and the conditions of a request."""
-        return MapWriter(self.maps, self.models, holder, conditions)
+        return MapWriter(self.maps, self.models, principal, conditions)
 
     def put_map(
         self,
         name: str,
         content: CompactMap | bytes,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Store a map, given as such or as its file; see `MapWriter.put`."""
         file = content if isinstance(content, bytes) else encode(content)
-        return self.writer(holder, conditions).put(name, file)
+        return self.writer(principal, conditions).put(name, file)
 
     def get_map(self, name: str, version: int | None = None) -> CompactMap:
         """Return a stored map, or one of its earlier versions.
@@ -385,47 +385,47 @@ class Engine:
         create: bool = False,
         deduplicate: bool = False,
         only_new: bool = False,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Add, replace and remove segments of a map, all or none; see `MapWriter.edit`."""
         file = delta if isinstance(delta, bytes) else encode_delta(delta)
-        return self.writer(holder, conditions).edit(
+        return self.writer(principal, conditions).edit(
             name,
             file,
             EditOptions(robot=robot, create=create, deduplicate=deduplicate, only_new=only_new),
         )
 
     def delete_map(
-        self, name: str, holder: Holder = ANYONE, conditions: Preconditions = NO_CONDITIONS
+        self, name: str, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
     ) -> None:
         """Remove a map with all its versions; see `MapWriter.delete`."""
-        self.writer(holder, conditions).delete(name)
+        self.writer(principal, conditions).delete(name)
 
     def restore_map(
         self,
         name: str,
         version: int,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Make a new version with the content of an earlier one; see `MapWriter.restore`."""
-        return self.writer(holder, conditions).restore(name, version)
+        return self.writer(principal, conditions).restore(name, version)
 
     def prune_map(
         self,
         name: str,
         unseen_since: float,
         dry_run: bool = False,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Remove segments that were last seen before a time; see `MapWriter.prune`."""
-        return self.writer(holder, conditions).prune(name, unseen_since, dry_run)
+        return self.writer(principal, conditions).prune(name, unseen_since, dry_run)
 
-    def compact_map(self, name: str, keep: int = 1, holder: Holder = ANYONE) -> MapSnapshot:
+    def compact_map(self, name: str, keep: int = 1, principal: Principal = ANYONE) -> MapSnapshot:
         """Drop all but the newest versions of a map; see `MapWriter.compact`."""
-        return self.writer(holder).compact(name, keep)
+        return self.writer(principal).compact(name, keep)
 
     def versions(self, name: str) -> list[Commit]:
         """Return the versions of a map that are kept, oldest first."""
@@ -442,12 +442,12 @@ class Engine:
         parameters: AlignmentParameters | None = None,
         deduplicate: bool = True,
         dry_run: bool = False,
-        holder: Holder = ANYONE,
+        principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> MergeResult:
         """Align maps with each other and write their segments into one map; see `Merger.merge`."""
         merger = Merger(
-            writer=self.writer(holder, conditions),
+            writer=self.writer(principal, conditions),
             parameters=parameters or AlignmentParameters(),
             deduplicate=deduplicate,
             dry_run=dry_run,

@@ -12,7 +12,7 @@ from service.api.admission.admission import Lane, admitted
 from service.api.audit import record, record_write
 from service.api.path_parameters import Name
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.preconditions import Preconditions
 from service.core.timing import Timing
 from service.maps.writes.writer import MapWriter, WriteResult
@@ -34,16 +34,16 @@ async def state_of(request: Request) -> State:
     return state
 
 
-async def holder_of(
+async def principal_of(
     request: Request,
     bearer: Annotated[HTTPAuthorizationCredentials | None, Depends(BEARER)] = None,
-) -> Holder:
-    """Return the holder of the request's key; 401 if the key is unknown."""
+) -> Principal:
+    """Return the principal of the request; 401 if the key is unknown."""
     del bearer  # described, not used
     state = await state_of(request)
-    holder = state.keys.holder(request.headers.get("authorization"))
-    request.scope["state"]["key"] = holder.name
-    return holder
+    principal = state.keys.principal(request.headers.get("authorization"))
+    request.scope["state"]["key"] = principal.name
+    return principal
 
 
 async def preconditions_of(
@@ -68,7 +68,7 @@ async def timing_of(request: Request) -> Timing:
 
 
 StateOf = Annotated[State, Depends(state_of)]
-HolderOf = Annotated[Holder, Depends(holder_of)]
+PrincipalOf = Annotated[Principal, Depends(principal_of)]
 TimingOf = Annotated[Timing, Depends(timing_of)]
 ConditionsOf = Annotated[Preconditions, Depends(preconditions_of)]
 
@@ -81,7 +81,7 @@ class MapWrite:
         name: name of the map.
         request: the HTTP request.
         state: state of the service.
-        holder: principal of the request.
+        principal: principal of the request.
         writer: writes under the principal's scope and the request's preconditions.
         timing: stopwatch of the request.
     """
@@ -89,21 +89,21 @@ class MapWrite:
     name: str
     request: Request
     state: State
-    holder: Holder
+    principal: Principal
     writer: MapWriter
     timing: Timing
 
     @asynccontextmanager
     async def receive(self, lane: Lane, media_types: Collection[str]) -> AsyncIterator[bytes]:
         """Check the key's scope, enter a lane and receive the body."""
-        self.holder.check_write(self.name)
+        self.principal.check_write(self.name)
         async with lane.admit(self.request, media_types, self.timing) as body:
             yield body.content
 
     @asynccontextmanager
     async def enter(self, lane: Lane) -> AsyncIterator[None]:
         """Check the key's scope and enter a lane, for a request without a body."""
-        self.holder.check_write(self.name)
+        self.principal.check_write(self.name)
         async with lane.enter(self.request):
             yield
 
@@ -145,13 +145,13 @@ async def map_write_of(
     name: Name,
     request: Request,
     state: StateOf,
-    holder: HolderOf,
+    principal: PrincipalOf,
     conditions: ConditionsOf,
     timing: TimingOf,
 ) -> MapWrite:
     """Return the write request to the map in the path."""
-    writer = state.engine.writer(holder, conditions)
-    return MapWrite(name, request, state, holder, writer, timing)
+    writer = state.engine.writer(principal, conditions)
+    return MapWrite(name, request, state, principal, writer, timing)
 
 
 MapWriteOf = Annotated[MapWrite, Depends(map_write_of)]

@@ -10,7 +10,7 @@ from placecell_client.maps.compact_map import COORDINATE_LIMIT
 from placecell.core.types import Float64, Int8, Int64
 from service.api.schemas.recognition import Point, QueryRequest
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.problems import Problem, invalid_value
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
@@ -53,7 +53,7 @@ def read_scan(segments: Sequence[HasPoints], origin: Point | None) -> Scan:
 
 def read_query(
     state: State,
-    holder: Holder,
+    principal: Principal,
     request: QueryRequest[Any, Any],
     timing: Timing,
     centroids: Float64 | None = None,
@@ -62,7 +62,7 @@ def read_query(
 
     Args:
         state: the service's state.
-        holder: holder of the request's key.
+        principal: principal of the request's key.
         request: the request.
         timing: stopwatch of the request.
         centroids: centroids of the request's codes, float64 (n, 3).
@@ -81,7 +81,7 @@ def read_query(
     else:
         assert request.segments is not None  # as the schema has checked
         seen = read_scan(request.segments, request.origin)
-    return state.engine.query(seen, request.maps, request.k, holder, timing)
+    return state.engine.query(seen, request.maps, request.k, principal, timing)
 
 
 def _read_codes(

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from placecell.localization import Pose
 from service.api.schemas.maps import MapOut, VersionOut, WrittenOut
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.problems import title_of, type_of
 from service.inference.describer import SegmentError
 from service.maps.snapshot import MapSnapshot, tag_of
@@ -32,7 +32,7 @@ def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:
     return [{"map": each.name, "model_id": each.model_id} for each in selection.skipped]
 
 
-def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
+def summary_of(stored: MapSnapshot, principal: Principal) -> MapOut:
     """Summarize a map as a key may see it; reads the whole map, so call it in a thread."""
     head, layers = stored.head, stored.layers
     return MapOut(
@@ -44,7 +44,7 @@ def summary_of(stored: MapSnapshot, holder: Holder) -> MapOut:
         model_id=stored.model_id,
         frame=stored.frame,
         robots=dict(sorted(layers.robots.items())),
-        sources=sources_for(holder, layers.sources),
+        sources=sources_for(principal, layers.sources),
         time_span=layers.time_span,
         optional=sorted(layers.optional),
     )
@@ -64,14 +64,14 @@ def outcome_of(written: WriteResult) -> WrittenOut:
     )
 
 
-def version_of(commit: Commit, holder: Holder) -> VersionOut:
+def version_of(commit: Commit, principal: Principal) -> VersionOut:
     """Return a version of the history as a key may see it."""
     note = commit.note
     return VersionOut(
         sequence=commit.sequence,
         etag=tag_of(commit.sequence, commit.mark),
         time=note.time,
-        author=author_for(holder, note.author),
+        author=author_for(principal, note.author),
         operation=note.operation,
         changed=note.changed,
         removed=note.removed,

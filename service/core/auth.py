@@ -56,7 +56,7 @@ class Key(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Holder:
+class Principal:
     """Principal: name and scope of the key that sent a request."""
 
     name: str
@@ -64,15 +64,15 @@ class Holder:
 
     def check_map(self, name: str) -> None:
         """Raise a problem (403) unless the scope includes a map."""
-        if not self.opens(name):
+        if not self.covers(name):
             raise Problem(403, "forbidden", f"This key has no access to the map {name!r:.80}.")
 
-    def opens(self, name: str) -> bool:
+    def covers(self, name: str) -> bool:
         """Return whether the scope includes a map."""
         return any(fnmatchcase(name, pattern) for pattern in self.key.maps)
 
     @property
-    def opens_all(self) -> bool:
+    def covers_all(self) -> bool:
         """Return whether the scope includes every map, future ones too."""
         return "*" in self.key.maps
 
@@ -105,7 +105,7 @@ class Holder:
         )
 
 
-ANYONE = Holder("anyone", Key(sha256="0" * 64, write=True, admin=True))
+ANYONE = Principal("anyone", Key(sha256="0" * 64, write=True, admin=True))
 """Principal of all requests if the service has no keys."""
 
 KEYS = TypeAdapter(dict[str, Key])
@@ -126,7 +126,7 @@ class Keys:
         """
         self._file = file
         self._mark = _mark(file)
-        self._holders = read_keys(file) if file else []
+        self._principals = read_keys(file) if file else []
         self._clock = clock
         self._bad_since: float | None = None
         self._standing: frozenset[str] = frozenset()
@@ -137,9 +137,9 @@ class Keys:
     @property
     def patterns(self) -> tuple[tuple[str, ...], ...]:
         """Return the distinct lists of map name patterns of all keys."""
-        return tuple(sorted({holder.key.maps for holder in self._holders}))
+        return tuple(sorted({principal.key.maps for principal in self._principals}))
 
-    def holder(self, authorization: str | None) -> Holder:
+    def principal(self, authorization: str | None) -> Principal:
         """Return the principal of a request with this Authorization header.
 
         Raises:
@@ -152,9 +152,9 @@ class Keys:
         digest = hashlib.sha256(token.strip().encode()).hexdigest()
         found = None
         # All keys are compared, each in constant time, so that the time reveals nothing.
-        for holder in self._holders:
-            if hmac.compare_digest(holder.key.sha256, digest):
-                found = holder
+        for principal in self._principals:
+            if hmac.compare_digest(principal.key.sha256, digest):
+                found = principal
         if found is None or scheme.lower() != "bearer" or not self._works(found):
             raise Problem(
                 401,
@@ -169,7 +169,7 @@ class Keys:
         mark = _mark(self._file)
         if self._file is not None and mark != self._mark:
             try:
-                self._holders = read_keys(self._file)
+                self._principals = read_keys(self._file)
             except ValueError as error:
                 if self._bad_since is None:
                     self._bad_since = self._clock()
@@ -189,16 +189,16 @@ class Keys:
 
     def any_works(self) -> bool:
         """Return whether any key can be accepted; see `is_good`."""
-        return self._file is None or any(self._works(holder) for holder in self._holders)
+        return self._file is None or any(self._works(principal) for principal in self._principals)
 
-    def _works(self, holder: Holder) -> bool:
+    def _works(self, principal: Principal) -> bool:
         """Return whether a key of the last readable file still works."""
-        if self._bad_since is None or holder.key.sha256 in self._standing:
+        if self._bad_since is None or principal.key.sha256 in self._standing:
             return True
         return self._clock() - self._bad_since <= GRACE_SECONDS
 
 
-def read_keys(file: Path) -> list[Holder]:
+def read_keys(file: Path) -> list[Principal]:
     """Read the principals of a file of keys.
 
     Raises:
@@ -214,7 +214,7 @@ def read_keys(file: Path) -> list[Holder]:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         raise ValueError(f"{file}: {where}: {first['msg']}") from error
-    return [Holder(name, key) for name, key in keys.items()]
+    return [Principal(name, key) for name, key in keys.items()]
 
 
 def _hashes_in(file: Path) -> frozenset[str]:

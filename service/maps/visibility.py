@@ -12,7 +12,7 @@ from dataclasses import replace
 from placecell_client import CompactMap, Delta
 from placecell_client.maps.canonical import canonical
 
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.problems import Problem
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
@@ -24,45 +24,47 @@ PSEUDONYM = "hidden:"
 """Prefix of a pseudonym; no map can have such a name."""
 
 
-def author_for(holder: Holder, author: str) -> str:
+def author_for(principal: Principal, author: str) -> str:
     """Return a version's author, or a text that hides it from a key of other maps."""
-    return author if holder.opens_all or author == holder.name else HIDDEN_AUTHOR
+    return author if principal.covers_all or author == principal.name else HIDDEN_AUTHOR
 
 
-def sources_for(holder: Holder, sources: Counter[str]) -> dict[str, int]:
+def sources_for(principal: Principal, sources: Counter[str]) -> dict[str, int]:
     """Return the sources of a map that a key may see, by name."""
-    return {name: count for name, count in sorted(sources.items()) if holder.opens(name)}
+    return {name: count for name, count in sorted(sources.items()) if principal.covers(name)}
 
 
-def is_hidden_from(holder: Holder, layers: MapLayers) -> bool:
+def is_hidden_from(principal: Principal, layers: MapLayers) -> bool:
     """Return whether a map has sources that a key may not see."""
-    return not holder.opens_all and not all(map(holder.opens, layers.sources))
+    return not principal.covers_all and not all(map(principal.covers, layers.sources))
 
 
-def hide_names(holder: Holder, uid: str, content: CompactMap) -> CompactMap:
+def hide_names(principal: Principal, uid: str, content: CompactMap) -> CompactMap:
     """Replace names that a key may not see by pseudonyms in a map's segments.
 
     Args:
-        holder: principal of the request.
+        principal: principal of the request.
         uid: uid of the map; no client knows it, so nobody can guess names by their pseudonyms.
         content: segments in canonical form; so is the result.
     """
-    if holder.opens_all:
+    if principal.covers_all:
         return content
-    hidden = {name for name in content.sources if not holder.opens(name)}
+    hidden = {name for name in content.sources if not principal.covers(name)}
     return _renamed(content, {name: _pseudonym(uid, name) for name in hidden})
 
 
-def hide_names_in_delta(holder: Holder, uid: str, delta: Delta) -> Delta:
+def hide_names_in_delta(principal: Principal, uid: str, delta: Delta) -> Delta:
     """Replace names by pseudonyms in a map's delta; see `hide_names`."""
-    return replace(delta, changed=hide_names(holder, uid, delta.changed))
+    return replace(delta, changed=hide_names(principal, uid, delta.changed))
 
 
-def restore_names(holder: Holder, snapshot: MapSnapshot | None, content: CompactMap) -> CompactMap:
+def restore_names(
+    principal: Principal, snapshot: MapSnapshot | None, content: CompactMap
+) -> CompactMap:
     """Replace pseudonyms by names in segments that a key writes.
 
     Args:
-        holder: principal of the request.
+        principal: principal of the request.
         snapshot: the map as it is; None if it is new.
         content: the segments.
 
@@ -70,10 +72,10 @@ def restore_names(holder: Holder, snapshot: MapSnapshot | None, content: Compact
         Problem: 403 if segments name a source that the key does not open. Otherwise a key could
             write a guessed name and learn from the pseudonym whether the map has it.
     """
-    if holder.opens_all or not content.sources:
+    if principal.covers_all or not content.sources:
         return content
     for name in content.sources:
-        if not name.startswith(PSEUDONYM) and not holder.opens(name):
+        if not name.startswith(PSEUDONYM) and not principal.covers(name):
             raise Problem(
                 403,
                 "forbidden",

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.cost import Cost, check_cost, cost_of_search
 from service.core.problems import Problem
 from service.core.settings import Limits
@@ -82,7 +82,7 @@ def select_maps(
     models: Models,
     names: Sequence[str] | None,
     only: Model | None,
-    holder: Holder,
+    principal: Principal,
 ) -> MapSelection:
     """Select the maps to search.
 
@@ -91,17 +91,17 @@ def select_maps(
         models: loaded models.
         names: names of the maps; None: all maps that the key opens.
         only: model that made the codes; None: each model describes the segments itself.
-        holder: holder of the key.
+        principal: principal.
 
     Raises:
         Problem: 403 if the key does not open a named map, 404 if there is none of the name, 409 if
             the map's model is not loaded or is not the model of the codes.
     """
     if names is None:
-        chosen = [stored for stored in maps.all() if holder.opens(stored.name)]
+        chosen = [stored for stored in maps.all() if principal.covers(stored.name)]
     else:
         for name in names:
-            holder.check_map(name)
+            principal.check_map(name)
         chosen = [maps.get(name) for name in sorted(set(names))]
     groups: dict[str, list[MapSnapshot]] = {}
     skipped = []

@@ -35,13 +35,13 @@ class SessionKey:
     """Key of a session in one map; evidence counts for the same key only.
 
     Attributes:
-        holder: name of the API key that the requests came with.
+        principal: name of the API key that the requests came with.
         session: id that the robot chose.
         map: uid of the map: another map of the same name has another frame.
         frame_since: version of the map since which its frame is the same.
     """
 
-    holder: str
+    principal: str
     session: str
     map: str
     frame_since: int
@@ -74,7 +74,9 @@ class Sessions:
         self._lock = Lock()
         # The last used session is at the end, in both: of all API keys, and of each.
         self._by_key: OrderedDict[SessionKey, tuple[float, RequestHistory]] = OrderedDict()
-        self._of_holder: defaultdict[str, OrderedDict[SessionKey, None]] = defaultdict(OrderedDict)
+        self._of_principal: defaultdict[str, OrderedDict[SessionKey, None]] = defaultdict(
+            OrderedDict
+        )
 
     def __len__(self) -> int:
         return len(self._by_key)
@@ -99,7 +101,7 @@ class Sessions:
             history.add(now, middle, hypotheses)
             self._by_key[key] = now, history
             self._by_key.move_to_end(key)
-            own = self._of_holder[key.holder]
+            own = self._of_principal[key.principal]
             own[key] = None
             own.move_to_end(key)
             while self._by_key:
@@ -108,15 +110,15 @@ class Sessions:
                     break
                 self._drop(oldest)
             while len(self._by_key) > self._most:
-                largest = max(self._of_holder.values(), key=len)
+                largest = max(self._of_principal.values(), key=len)
                 self._drop(next(iter(largest)))
 
     def _drop(self, key: SessionKey) -> None:
         del self._by_key[key]
-        own = self._of_holder[key.holder]
+        own = self._of_principal[key.principal]
         del own[key]
         if not own:
-            del self._of_holder[key.holder]
+            del self._of_principal[key.principal]
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,12 +127,12 @@ class RobotSession:
 
     Attributes:
         sessions: sessions of all robots.
-        holder: name of the API key that the requests come with.
+        principal: name of the API key that the requests come with.
         id: id that the robot chose.
     """
 
     sessions: Sessions
-    holder: str
+    principal: str
     id: str
 
     def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
@@ -144,4 +146,4 @@ class RobotSession:
         self.sessions.remember(self._key(stored), middle, hypotheses)
 
     def _key(self, stored: MapSnapshot) -> SessionKey:
-        return SessionKey(self.holder, self.id, stored.head.uid, stored.frame_since)
+        return SessionKey(self.principal, self.id, stored.head.uid, stored.frame_since)

@@ -12,12 +12,12 @@ from placecell.map_alignment import AlignmentParameters
 from service.api.alignment_responses import alignment_of, merged_of
 from service.api.body.body import JSON
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, MapWriteOf, StateOf, TimingOf
+from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf, TimingOf
 from service.api.openapi import json_body
 from service.api.path_parameters import Name, OtherName
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.cost import check_cost, cost_of_aligning
 from service.core.problems import Problem, invalid, invalid_value
 from service.inference.model_registry import Model
@@ -54,7 +54,7 @@ async def align(
     other: OtherName,
     request: Request,
     state: StateOf,
-    holder: HolderOf,
+    principal: PrincipalOf,
     timing: TimingOf,
     motion: Motion = "yaw",
     pairs: Annotated[
@@ -68,7 +68,7 @@ async def align(
     robots should have seen. Nothing is written.
     """
     for each in (name, other):
-        holder.check_map(each)
+        principal.check_map(each)
     async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
         if body.content:  # merge takes options in its body; here they would be ignored
             detail = "Align takes its options in the query (?motion=se3), not in a body."
@@ -115,7 +115,7 @@ async def merge(write: MapWriteOf) -> JSONResponse:
     """
     state = write.state
     async with write.receive(state.lanes.alignments, (JSON,)) as body:
-        asked = await state.run(_read, body, write.name, state, write.holder)
+        asked = await state.run(_read, body, write.name, state, write.principal)
         parameters = AlignmentParameters(local=LocalizationParameters(model=asked.motion))
         check_cost(
             cost_of_aligning(_sizes(write.name, asked, state), K, PARAMETERS),
@@ -146,7 +146,7 @@ def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
     return [len(each) for each in snapshots if each is not None]
 
 
-def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeRequest:
+def _read(content: bytes, name: str, state: State, principal: Principal) -> MergeRequest:
     """Parse a merge request and check that it can be carried out."""
     try:
         asked = MergeRequest.model_validate_json(content)
@@ -164,7 +164,7 @@ def _read(content: bytes, name: str, state: State, holder: Holder) -> MergeReque
             )
         if each in asked.maps[:index]:
             raise invalid_value(f"/maps/{index}", f"{each!r} is named twice. Name each map once.")
-        holder.check_map(each)
+        principal.check_map(each)
     if len(asked.maps) < 2 and state.engine.maps.find(name) is None:
         raise invalid_value(
             "/maps", f"Map {name!r} does not exist yet; a new merged map needs two maps or more."

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, MSGPACK, Body, answer_type, parse, render
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf, TimingOf
+from service.api.dependencies import PrincipalOf, StateOf, TimingOf
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import read_scan
 from service.api.responses import segment_error
@@ -30,13 +30,13 @@ router = APIRouter(tags=["recognition"])
     openapi_extra=body_of(DescribeRequest, PackedDescribeRequest),
 )
 async def describe(
-    request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+    request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
 ) -> Response:
     """Return one result per segment, in order: its descriptor, or the reason why it has none.
 
     If no segment can be described, the answer is a 422.
     """
-    del holder  # any key may describe
+    del principal  # any key may describe
     answer = answer_type(request)
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
         model, prepared = await state.run(_read, state, body, timing)

@@ -10,7 +10,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from placecell.descriptors.manifest import Manifest
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf
+from service.api.dependencies import PrincipalOf, StateOf
 from service.api.schemas.info import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
 from service.core.cost import MACHINE, RATES
 from service.core.problems import Problem
@@ -63,9 +63,9 @@ async def metrics(state: StateOf) -> Response:
 
 
 @router.get("/info", summary="Read version, models and limits", responses=documented(401))
-async def info(request: Request, state: StateOf, holder: HolderOf) -> InfoResponse:
+async def info(request: Request, state: StateOf, principal: PrincipalOf) -> InfoResponse:
     """Return the facts that a client needs before its first request."""
-    del holder  # any key may read them
+    del principal  # any key may read them
     models = [_model_out(model.manifest) for model in state.engine.models.all()]
     return InfoResponse(
         version=request.app.version,

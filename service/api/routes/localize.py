@@ -10,14 +10,14 @@ from placecell.localization import Hypothesis, LocalizationParameters
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf, TimingOf
+from service.api.dependencies import PrincipalOf, StateOf, TimingOf
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import read_query
 from service.api.responses import pose_of, segment_error, skipped_maps
 from service.api.schemas.localization import LocalizeQuery, LocalizeRequest, LocalizeResponse
 from service.api.schemas.msgpack import PackedLocalizeRequest
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.search.localization import LocalizationResult, MapLocalization
@@ -37,7 +37,7 @@ LocalizeBody = LocalizeQuery[Any, Any, Any]
     openapi_extra=body_of(LocalizeRequest, PackedLocalizeRequest),
 )
 async def localize(
-    request: Request, state: StateOf, holder: HolderOf, timing: TimingOf
+    request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
 ) -> Response:
     """Return the robot's pose in each map's frame, or the reason for none; most probable first.
 
@@ -50,23 +50,27 @@ async def localize(
     """
     answer = answer_type(request)
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
-        asked, query = await state.run(_read, state, holder, body, timing)
+        asked, query = await state.run(_read, state, principal, body, timing)
         request.state.model_id = query.model_id
         descriptors = await query.describe(timing)
-        content = await state.run(_search, state, holder, asked, query, descriptors, answer, timing)
+        content = await state.run(
+            _search, state, principal, asked, query, descriptors, answer, timing
+        )
     return await state.answers.respond(content, client_of(request), answer)
 
 
-def _read(state: State, holder: Holder, body: Body, timing: Timing) -> tuple[LocalizeBody, Query]:
+def _read(
+    state: State, principal: Principal, body: Body, timing: Timing
+) -> tuple[LocalizeBody, Query]:
     timing.lap("queue")
     request = parse(LocalizeRequest, PackedLocalizeRequest, body, state.settings.limits)
     centroids = None if request.centroids is None else np.array(request.centroids, np.float64)
-    return request, read_query(state, holder, request, timing, centroids)
+    return request, read_query(state, principal, request, timing, centroids)
 
 
 def _search(
     state: State,
-    holder: Holder,
+    principal: Principal,
     request: LocalizeBody,
     query: Query,
     descriptors: Sequence[Descriptors],
@@ -80,7 +84,7 @@ def _search(
         timing=timing,
         parameters=LocalizationParameters(model=request.motion),
         session=request.session,
-        holder=holder,
+        principal=principal,
     )
     content = render(_response(result), answer)
     timing.lap("encode")

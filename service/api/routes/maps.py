@@ -11,13 +11,13 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 from service.api.admission.admission import client_of
 from service.api.body.body import JSON, OCTETS, render
 from service.api.body.problem_json import documented
-from service.api.dependencies import ConditionsOf, HolderOf, MapWrite, MapWriteOf, StateOf
+from service.api.dependencies import ConditionsOf, MapWrite, MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import summary_of
 from service.api.schemas.maps import MapOut, MapsResponse
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.maps.history import load_version, version_file, version_tag
 from service.maps.snapshot import MapSnapshot
 from service.maps.visibility import hide_names, is_hidden_from
@@ -43,13 +43,13 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
     response_model=MapsResponse,
     responses=documented(400, 401, 429, 503, 504),
 )
-async def list_maps(request: Request, state: StateOf, holder: HolderOf) -> Response:
+async def list_maps(request: Request, state: StateOf, principal: PrincipalOf) -> Response:
     """Return the maps that the key opens, by name.
 
     Maps of models that are not loaded are listed, but not searched.
     """
     async with state.lanes.reads.enter(request):
-        content = await state.run(_listed, state, holder)
+        content = await state.run(_listed, state, principal)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
@@ -83,7 +83,7 @@ async def get_map(
     name: Name,
     request: Request,
     state: StateOf,
-    holder: HolderOf,
+    principal: PrincipalOf,
     conditions: ConditionsOf,
     version: Annotated[
         int | None,
@@ -95,7 +95,7 @@ async def get_map(
     If the key does not open a source map of the segments, a pseudonym replaces that map's name.
     Writing the file to this map restores the name.
     """
-    holder.check_map(name)
+    principal.check_map(name)
     snapshot = state.engine.maps.get(name)
     if version is None and conditions.is_known(snapshot.tag):
         return Response(status_code=304, headers={"ETag": f'"{snapshot.tag}"'})
@@ -103,7 +103,7 @@ async def get_map(
     client = client_of(request)
     async with state.lanes.reads.enter(request):
         tag = await state.run(version_tag, state.engine.maps.store, snapshot, sequence)
-        file_name, make = _file(state, holder, snapshot, sequence, tag)
+        file_name, make = _file(state, principal, snapshot, sequence, tag)
         return await state.answers.respond_shared(
             file_name,
             make,
@@ -130,7 +130,7 @@ async def delete_map(write: MapWriteOf) -> None:
 async def put_response(write: MapWrite, result: WriteResult) -> Response:
     """Return the answer to a map that was stored whole."""
     snapshot = result.snapshot
-    summary = await write.state.run(summary_of, snapshot, write.holder)
+    summary = await write.state.run(summary_of, snapshot, write.principal)
     return JSONResponse(
         summary.model_dump(mode="json"),
         status_code=201 if result.is_new else 200,
@@ -142,28 +142,30 @@ async def put_response(write: MapWrite, result: WriteResult) -> Response:
 
 
 def _file(
-    state: State, holder: Holder, snapshot: MapSnapshot, sequence: int, tag: str
+    state: State, principal: Principal, snapshot: MapSnapshot, sequence: int, tag: str
 ) -> tuple[str, Callable[[], bytes]]:
     """Return a name for a version's file and its maker; keys that see the same share the name."""
     store, uid = state.engine.maps.store, snapshot.head.uid
     name = f"{uid} {tag}"
     newest = sequence == snapshot.head.sequence
-    if holder.opens_all or (newest and not is_hidden_from(holder, snapshot.layers)):
+    if principal.covers_all or (newest and not is_hidden_from(principal, snapshot.layers)):
         return name, lambda: version_file(store, snapshot, sequence)[0]
 
     def make() -> bytes:
         layers, _ = load_version(store, snapshot, sequence)
-        return encode(hide_names(holder, uid, layers.content()))
+        return encode(hide_names(principal, uid, layers.content()))
 
-    return f"{name} {' '.join(holder.key.maps)}", make
+    return f"{name} {' '.join(principal.key.maps)}", make
 
 
-def _listed(state: State, holder: Holder) -> bytes:
+def _listed(state: State, principal: Principal) -> bytes:
     response = MapsResponse(
         model_id=state.model_id,
         maps=[
-            summary_of(each, holder) for each in state.engine.maps.all() if holder.opens(each.name)
+            summary_of(each, principal)
+            for each in state.engine.maps.all()
+            if principal.covers(each.name)
         ],
-        damaged=[name for name in state.engine.maps.damaged() if holder.opens(name)],
+        damaged=[name for name in state.engine.maps.damaged() if principal.covers(name)],
     )
     return render(response, JSON)

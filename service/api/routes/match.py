@@ -9,14 +9,14 @@ from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
 from service.api.body.msgpack_codec import Items
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf, TimingOf
+from service.api.dependencies import PrincipalOf, StateOf, TimingOf
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import read_query
 from service.api.responses import segment_error, skipped_maps
 from service.api.schemas.msgpack import PackedMatchRequest
 from service.api.schemas.recognition import MatchRequest, MatchResponse
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
 from service.search.matching import Candidate
@@ -33,7 +33,9 @@ router = APIRouter(tags=["recognition"])
     | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 503, 504),
     openapi_extra=body_of(MatchRequest, PackedMatchRequest),
 )
-async def match(request: Request, state: StateOf, holder: HolderOf, timing: TimingOf) -> Response:
+async def match(
+    request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
+) -> Response:
     """Return one result per query, in order: its candidates, nearest first, or its error.
 
     Queries are rounded to codes before the search, as the maps' descriptors are. Each map is
@@ -44,17 +46,17 @@ async def match(request: Request, state: StateOf, holder: HolderOf, timing: Timi
     """
     answer = answer_type(request)
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
-        query = await state.run(_read, state, holder, body, timing)
+        query = await state.run(_read, state, principal, body, timing)
         request.state.model_id = query.model_id
         descriptors = await query.describe(timing)
         content = await state.run(_search, state, query, descriptors, answer, timing)
     return await state.answers.respond(content, client_of(request), answer)
 
 
-def _read(state: State, holder: Holder, body: Body, timing: Timing) -> Query:
+def _read(state: State, principal: Principal, body: Body, timing: Timing) -> Query:
     timing.lap("queue")
     request = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
-    return read_query(state, holder, request, timing)
+    return read_query(state, principal, request, timing)
 
 
 def _search(

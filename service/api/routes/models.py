@@ -5,7 +5,7 @@ from fastapi import APIRouter, Request
 from placecell.descriptors.manifest import ModelError
 from service.api.audit import logger
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, StateOf
+from service.api.dependencies import PrincipalOf, StateOf
 from service.api.schemas.info import ReloadResponse
 from service.core.problems import Problem
 
@@ -13,13 +13,13 @@ router = APIRouter(tags=["models"])
 
 
 @router.post("/models/reload", summary="Reload the models", responses=documented(401, 403, 409))
-async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadResponse:
+async def reload(request: Request, state: StateOf, principal: PrincipalOf) -> ReloadResponse:
     """Load the models whose folders were replaced; for administrators.
 
     Requests in progress finish with their old model. A model that cannot be loaded is refused with
     a 409, and the old one stays in use. Models that made stored maps stay loaded.
     """
-    holder.check_admin()
+    principal.check_admin()
     try:
         models = await state.run(state.engine.reload_models)
     except ModelError as error:
@@ -27,6 +27,6 @@ async def reload(request: Request, state: StateOf, holder: HolderOf) -> ReloadRe
             409, "broken-model", f"The model cannot be loaded; the old one stays in use. {error}."
         ) from error
     ids = [model.id for model in models]
-    facts = {"key": holder.name, "request_id": request.scope["state"]["request_id"]}
-    logger.info("%s reload models, now %s", holder.name, ", ".join(ids), extra=facts)
+    facts = {"key": principal.name, "request_id": request.scope["state"]["request_id"]}
+    logger.info("%s reload models, now %s", principal.name, ", ".join(ids), extra=facts)
     return ReloadResponse(model_id=ids[0], models=ids)

@@ -10,13 +10,13 @@ from placecell_client.maps.delta_file import MEDIA_TYPE
 from service.api.admission.admission import client_of
 from service.api.body.body import OCTETS
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, MapWriteOf, StateOf
+from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of
 from service.api.schemas.maps import IdsOut, WrittenOut
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.maps.snapshot import MapSnapshot
 from service.maps.sync import SyncPage
 from service.maps.visibility import hide_names_in_delta
@@ -179,7 +179,7 @@ async def changes(
     name: Name,
     request: Request,
     state: StateOf,
-    holder: HolderOf,
+    principal: PrincipalOf,
     since: Annotated[
         str,
         Query(
@@ -206,10 +206,10 @@ async def changes(
     410 means that the changes since this version are no longer known; request a full sync
     (`since=0`).
     """
-    holder.check_map(name)
+    principal.check_map(name)
     snapshot = state.engine.maps.get(name)
     async with state.lanes.reads.enter(request):
-        page, content = await state.run(_page, state, holder, snapshot, since, cursor, limit)
+        page, content = await state.run(_page, state, principal, snapshot, since, cursor, limit)
     headers = {
         "ETag": f'"{page.tag}"',
         "Placecell-Since": str(page.delta.since),
@@ -222,7 +222,7 @@ async def changes(
 
 def _page(
     state: State,
-    holder: Holder,
+    principal: Principal,
     snapshot: MapSnapshot,
     since: str,
     cursor: str | None,
@@ -233,4 +233,4 @@ def _page(
         page = state.engine.sync.first_page(snapshot, since, limit)
     else:
         page = state.engine.sync.next_page(snapshot, cursor, limit)
-    return page, encode_delta(hide_names_in_delta(holder, snapshot.head.uid, page.delta))
+    return page, encode_delta(hide_names_in_delta(principal, snapshot.head.uid, page.delta))

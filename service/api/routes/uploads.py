@@ -7,7 +7,7 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.api.body.body import OCTETS
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, MapWriteOf, StateOf
+from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.routes.maps import NEW_RESPONSE, put_response
@@ -33,12 +33,12 @@ Digest = Annotated[
     responses=documented(400, 401, 403, 422, 429, 500, 503, 504),
 )
 async def list_uploads(
-    name: Name, request: Request, state: StateOf, holder: HolderOf
+    name: Name, request: Request, state: StateOf, principal: PrincipalOf
 ) -> UploadsResponse:
     """Return this key's incomplete uploads for this map, each with the bytes received."""
-    holder.check_write(name)
+    principal.check_write(name)
     async with state.lanes.reads.enter(request):
-        found = await state.run(state.engine.partial_uploads.of, holder.name, name)
+        found = await state.run(state.engine.partial_uploads.of, principal.name, name)
     uploads = [UploadOut(digest=each.digest, bytes=each.bytes, time=each.time) for each in found]
     return UploadsResponse(map=name, uploads=uploads)
 
@@ -64,7 +64,9 @@ async def put_part(
     """
     async with write.receive(write.state.lanes.uploads, (OCTETS, MEDIA_TYPE)) as part:
         add = write.state.engine.partial_uploads.add
-        received = await write.state.run(add, write.holder.name, write.name, digest, offset, part)
+        received = await write.state.run(
+            add, write.principal.name, write.name, digest, offset, part
+        )
     return PartOut(digest=digest, bytes=received)
 
 
@@ -97,11 +99,11 @@ async def delete_upload(write: MapWriteOf, digest: Digest) -> None:
     """Delete the received parts; the map is unchanged."""
     async with write.enter(write.state.lanes.edits):
         remove = write.state.engine.partial_uploads.remove
-        await write.state.run(remove, write.holder.name, write.name, digest)
+        await write.state.run(remove, write.principal.name, write.name, digest)
     write.record("delete upload", f"upload {digest[:16]}")
 
 
 def _completed(uploads: PartialUploads, writer: MapWriter, name: str, digest: str) -> WriteResult:
     """Write an upload to its map."""
-    with uploads.whole(writer.holder.name, name, digest) as file:
+    with uploads.whole(writer.principal.name, name, digest) as file:
         return writer.put(name, file)

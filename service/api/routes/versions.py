@@ -7,12 +7,12 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from service.api.admission.admission import client_of
 from service.api.body.body import JSON, render
 from service.api.body.problem_json import documented
-from service.api.dependencies import HolderOf, MapWriteOf, StateOf
+from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf
 from service.api.path_parameters import Name
 from service.api.responses import outcome_of, version_of
 from service.api.schemas.maps import CompactOut, VersionsResponse, WrittenOut
 from service.api.state import State
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.maps.history import commits_of
 from service.maps.snapshot import MapSnapshot
 
@@ -29,16 +29,16 @@ async def list_versions(
     name: Name,
     request: Request,
     state: StateOf,
-    holder: HolderOf,
+    principal: PrincipalOf,
     limit: Annotated[
         int, Query(ge=1, le=10_000, description="Largest number of versions in the answer.")
     ] = 100,
 ) -> Response:
     """Return the versions, newest first: author, time, operation, and number of changes."""
-    holder.check_map(name)
+    principal.check_map(name)
     snapshot = state.engine.maps.get(name)
     async with state.lanes.reads.enter(request):
-        content = await state.run(_listed, state, holder, snapshot, limit)
+        content = await state.run(_listed, state, principal, snapshot, limit)
     return await state.answers.respond(content, client_of(request), JSON)
 
 
@@ -83,11 +83,11 @@ async def compact_map(
     return CompactOut(oldest=head.oldest, sequence=head.sequence, bytes=head.bytes)
 
 
-def _listed(state: State, holder: Holder, snapshot: MapSnapshot, limit: int) -> bytes:
+def _listed(state: State, principal: Principal, snapshot: MapSnapshot, limit: int) -> bytes:
     commits = commits_of(state.engine.maps.store, snapshot)
     response = VersionsResponse(
         map=snapshot.name,
         oldest=commits[0].sequence,
-        versions=[version_of(commit, holder) for commit in commits[: -limit - 1 : -1]],
+        versions=[version_of(commit, principal) for commit in commits[: -limit - 1 : -1]],
     )
     return render(response, JSON)

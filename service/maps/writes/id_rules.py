@@ -4,7 +4,7 @@ import numpy as np
 from placecell_client import CompactMap, Delta
 
 from placecell.core.types import UInt32
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.problems import Problem
 from service.maps.store import MapHead, MapStore
 
@@ -12,23 +12,23 @@ SLACK = 1 << 20
 """Number of ids above the highest one in use that a robot may choose without reservation."""
 
 
-def check_new(store: MapStore, holder: Holder, head: MapHead | None, ids: UInt32) -> None:
+def check_new(store: MapStore, principal: Principal, head: MapHead | None, ids: UInt32) -> None:
     """Check that new ids are reserved by this key, or near those in use; 409 if not.
 
     Args:
         store: store of the map.
-        holder: principal of the request; an administrator may write any id.
+        principal: principal of the request; an administrator may write any id.
         head: head of the map; None if the map is new.
         ids: ids of segments that the map does not have, ascending.
     """
     first = head.next_id if head is not None else 0
     limit = first + len(ids) + SLACK
     far = ids[ids >= limit]
-    if holder.key.admin or not len(far):
+    if principal.key.admin or not len(far):
         return
     if head is not None:
         owners = store.owners(head.uid, far.tolist())
-        known = [owner is not None and owner.author == holder.name for owner in owners]
+        known = [owner is not None and owner.author == principal.name for owner in owners]
         far = far[~np.array(known)]
     if len(far):
         raise Problem(
@@ -40,14 +40,16 @@ def check_new(store: MapStore, holder: Holder, head: MapHead | None, ids: UInt32
         )
 
 
-def check_authors(store: MapStore, holder: Holder, head: MapHead, old: UInt32, new: UInt32) -> None:
+def check_authors(
+    store: MapStore, principal: Principal, head: MapHead, old: UInt32, new: UInt32
+) -> None:
     """Check that no other key wrote or reserved these ids; 409 if one did.
 
     Two robots may have the same name; their keys distinguish them.
 
     Args:
         store: store of the map.
-        holder: principal of the request.
+        principal: principal of the request.
         head: head of the map.
         old: ids of segments that are replaced or removed, ascending.
         new: ids of segments that are added, ascending.
@@ -59,7 +61,7 @@ def check_authors(store: MapStore, holder: Holder, head: MapHead, old: UInt32, n
         id_
         for id_, owner, is_there in zip(ids.tolist(), owners, is_old, strict=True)
         if owner is not None
-        and owner.author not in {"", holder.name}
+        and owner.author not in {"", principal.name}
         and (is_there or owner.is_reserved)
     ]
     if taken:

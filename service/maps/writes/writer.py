@@ -9,7 +9,7 @@ from placecell_client import CompactMap, Delta, decode, decode_delta, encode
 from placecell_client.maps.edit import apply, take
 
 from placecell.core.types import UInt32
-from service.core.auth import Holder
+from service.core.auth import Principal
 from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.inference.model_registry import Models
@@ -82,13 +82,13 @@ class MapWriter:
     Attributes:
         maps: the repository.
         models: the loaded models.
-        holder: principal of the request.
+        principal: principal of the request.
         conditions: preconditions of the request.
     """
 
     maps: MapRepository
     models: Models
-    holder: Holder
+    principal: Principal
     conditions: Preconditions
 
     def put(self, name: str, data: bytes) -> WriteResult:
@@ -98,7 +98,7 @@ class MapWriter:
         self._check_model(content, "map")
         with self.maps.writing(name):
             snapshot = self.maps.find(name)
-            restored = restore_names(self.holder, snapshot, content)
+            restored = restore_names(self.principal, snapshot, content)
             if snapshot is None:
                 # The upload was proved canonical when it was read: it is stored as it came.
                 file = data if restored is content else encode(restored)
@@ -118,12 +118,12 @@ class MapWriter:
             edit = decode_delta(data)
         check_applies_to_any(edit)
         self._check_model(edit.changed, "delta")
-        self.holder.check_robots(robots_of(edit.changed))
+        self.principal.check_robots(robots_of(edit.changed))
         check_times(edit.changed)
-        owners = {options.robot, self.holder.key.robot, *edit.changed.robots} - {None}
+        owners = {options.robot, self.principal.key.robot, *edit.changed.robots} - {None}
         with self.maps.writing(name):
             snapshot = self.maps.find(name) if options.create else self.maps.get(name)
-            edit = replace(edit, changed=restore_names(self.holder, snapshot, edit.changed))
+            edit = replace(edit, changed=restore_names(self.principal, snapshot, edit.changed))
             layers = MapLayers.of(take(edit.changed, NONE)) if snapshot is None else snapshot.layers
             check_joins(edit.changed, name, layers.base)
             refreshed, repeats = NONE, 0
@@ -171,21 +171,21 @@ class MapWriter:
         with self.maps.writing(name):
             if name in self.maps.damaged():
                 # Nobody can tell which robots' segments a damaged map has.
-                self.holder.check_all()
+                self.principal.check_all()
                 self.maps.delete(name)
                 return 0
             snapshot = self.maps.get(name)
-            self.holder.check_robots(snapshot.layers.robots)
-            if self.holder.key.robot is not None:
+            self.principal.check_robots(snapshot.layers.robots)
+            if self.principal.key.robot is not None:
                 # Removed segments of other robots can be restored as long as the map exists.
-                self.holder.check_robots(robots_ever(self.maps.store, snapshot))
+                self.principal.check_robots(robots_ever(self.maps.store, snapshot))
             self.conditions.check(snapshot.tag)
             self.maps.delete(name)
             return len(snapshot)
 
     def compact(self, name: str, keep: int) -> MapSnapshot:
         """Drop all but the last `keep` versions; `keep` is 1 or more."""
-        self.holder.check_all()
+        self.principal.check_all()
         snapshot = self.maps.get(name)
         sequence = max(snapshot.head.sequence - keep + 1, snapshot.head.oldest)
         if sequence == snapshot.head.oldest:
@@ -206,7 +206,7 @@ class MapWriter:
         """
         try:
             uid = self.maps.get(name).head.uid
-            return self.maps.store.reserve(uid, count, self.holder.name, most)
+            return self.maps.store.reserve(uid, count, self.principal.name, most)
         except TooManyIdsError as error:
             raise Problem(
                 409,
@@ -221,7 +221,7 @@ class MapWriter:
 
     def reset_ids(self, name: str) -> MapHead:
         """Free all ids that no kept version of the map has; for administrators."""
-        self.holder.check_admin()
+        self.principal.check_admin()
         with self.maps.writing(name):
             return self.maps.free_ids(self.maps.get(name))
 
@@ -234,12 +234,12 @@ class MapWriter:
             file: the map file of this content.
             operation: name of the operation in the history.
         """
-        self.holder.check_robots(robots_of(content))
+        self.principal.check_robots(robots_of(content))
         self.conditions.check(None)
         check_times(content)
-        check_new(self.maps.store, self.holder, None, content.ids)
+        check_new(self.maps.store, self.principal, None, content.ids)
         with self._quota_detail():
-            snapshot = self.maps.create(name, content, file, self.holder.name, operation)
+            snapshot = self.maps.create(name, content, file, self.principal.name, operation)
         return WriteResult(snapshot, len(content), 0, is_new=True)
 
     def commit(
@@ -290,7 +290,7 @@ class MapWriter:
             replaces: the write replaces other content, so it needs If-Match.
         """
         for content in (change.before, change.delta.changed):
-            self.holder.check_robots(robots_of(take(content, ~np.isin(content.ids, refreshed))))
+            self.principal.check_robots(robots_of(take(content, ~np.isin(content.ids, refreshed))))
         if replaces:
             self.conditions.check_replaces(snapshot.tag)
         else:
@@ -317,7 +317,7 @@ class MapWriter:
         named = options.robot is not None
         old = replaced if named else np.union1d(replaced, delta.removed)
         new = np.setdiff1d(written, before.ids)
-        check_authors(self.maps.store, self.holder, snapshot.head, old, new)
+        check_authors(self.maps.store, self.principal, snapshot.head, old, new)
 
     def _store(
         self,
@@ -328,7 +328,7 @@ class MapWriter:
     ) -> WriteResult:
         owned = self._owned_ids(snapshot, change, operation, refreshed)
         with self._quota_detail():
-            after = self.maps.commit(snapshot, change.delta, self.holder.name, operation, owned)
+            after = self.maps.commit(snapshot, change.delta, self.principal.name, operation, owned)
         return WriteResult(after, len(change.delta.changed), len(change.delta.removed))
 
     def _owned_ids(
@@ -342,7 +342,7 @@ class MapWriter:
         new = np.setdiff1d(written, change.before.ids)
         if operation == "merge":  # it reserved its ids
             return new
-        check_new(self.maps.store, self.holder, snapshot.head, new)
+        check_new(self.maps.store, self.principal, snapshot.head, new)
         return written
 
     @contextmanager
@@ -351,7 +351,7 @@ class MapWriter:
         try:
             yield
         except OverQuotaError as error:
-            if self.holder.opens_all:
+            if self.principal.covers_all:
                 error.detail = error.whole
             raise
 

@@ -214,7 +214,7 @@ def test_any_name_leaves_a_file_that_can_be_read(file: Path, name: str) -> None:
     file.chmod(0o640)
     made(file, name)
     made(file, "another")
-    assert [holder.name for holder in read_keys(file)] == [name, "another"]
+    assert [principal.name for principal in read_keys(file)] == [name, "another"]
     assert file.read_text().startswith("# ours\n")
     assert file.stat().st_mode & 0o777 == 0o640
     assert [path.name for path in file.parent.iterdir()] == ["keys.toml"]

@@ -19,9 +19,9 @@ class Clock:
 
 
 def key(
-    robot: str = "ann", holder: str = "anyone", map_: str = "yard", since: int = 1
+    robot: str = "ann", principal: str = "anyone", map_: str = "yard", since: int = 1
 ) -> SessionKey:
-    return SessionKey(holder, robot, map_, since)
+    return SessionKey(principal, robot, map_, since)
 
 
 def hypothesis(score: float = 10.0) -> Hypothesis:
@@ -58,7 +58,7 @@ def test_repeated_request_is_no_evidence(sessions: Sessions) -> None:
 
 
 @pytest.mark.parametrize(
-    "other", [key("bob"), key(holder="another key"), key(map_="hall"), key(since=2)]
+    "other", [key("bob"), key(principal="another key"), key(map_="hall"), key(since=2)]
 )
 def test_other_session_key_has_no_evidence(sessions: Sessions, other: SessionKey) -> None:
     sessions.remember(key(), BEFORE, [hypothesis()])
@@ -90,26 +90,30 @@ def test_oldest_of_too_many_sessions_is_dropped(sessions: Sessions, clock: Clock
 def test_A25_key_with_many_sessions_displaces_only_its_own(clock: Clock) -> None:
     sessions = Sessions(6, LocalizationParameters(memory=10.0), clock)
     for name in ("a", "b"):
-        sessions.remember(key(name, holder="quiet"), BEFORE, [hypothesis()])
-    sessions.remember(key("c", holder="another"), BEFORE, [hypothesis()])
+        sessions.remember(key(name, principal="quiet"), BEFORE, [hypothesis()])
+    sessions.remember(key("c", principal="another"), BEFORE, [hypothesis()])
     for number in range(50):
         clock.now += 0.01
-        sessions.remember(key(f"robot {number}", holder="greedy"), BEFORE, [hypothesis()])
+        sessions.remember(key(f"robot {number}", principal="greedy"), BEFORE, [hypothesis()])
     assert len(sessions) == 6
-    for kept in (key("a", holder="quiet"), key("b", holder="quiet"), key("c", holder="another")):
+    for kept in (
+        key("a", principal="quiet"),
+        key("b", principal="quiet"),
+        key("c", principal="another"),
+    ):
         assert sessions.evidence(kept, NOW) is not None
-    greedy = [key(f"robot {number}", holder="greedy") for number in range(50)]
+    greedy = [key(f"robot {number}", principal="greedy") for number in range(50)]
     assert [each for each in greedy if sessions.evidence(each, NOW) is not None] == greedy[-3:]
     # A key that comes when all is taken gets its share.
-    sessions.remember(key("d", holder="late"), BEFORE, [hypothesis()])
-    assert sessions.evidence(key("d", holder="late"), NOW) is not None
-    assert sessions.evidence(key("a", holder="quiet"), NOW) is not None
+    sessions.remember(key("d", principal="late"), BEFORE, [hypothesis()])
+    assert sessions.evidence(key("d", principal="late"), NOW) is not None
+    assert sessions.evidence(key("a", principal="quiet"), NOW) is not None
     assert len(sessions) == 6
     # All are dropped when their time is over, and nothing is left of their keys.
     clock.now += 11
-    sessions.remember(key("e", holder="last"), BEFORE, [])
+    sessions.remember(key("e", principal="last"), BEFORE, [])
     assert len(sessions) == 1
-    assert {*sessions._of_holder} == {"last"}
+    assert {*sessions._of_principal} == {"last"}
 
 
 def test_session_keeps_a_limited_number_of_requests(sessions: Sessions, clock: Clock) -> None:
