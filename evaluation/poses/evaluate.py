@@ -68,7 +68,7 @@ def evaluate(
         localize_query(engine, fullest, MAP, k, parameters)
         memory = DriveSession(RequestHistory(parameters)) if session else None
         outcomes = []
-        for number in progress(range(len(queries)), len(queries), "localising"):
+        for number in progress(range(len(queries)), len(queries), "localizing"):
             query = queries[number]
             if memory is not None:
                 memory.time = query.time

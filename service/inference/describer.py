@@ -152,7 +152,7 @@ class Describer:
         cost = cost_of_describing(segments.points, segments.counts, self.manifest.neighborhood)
         check_cost(besides + cost, self._limits.cost_seconds)
         inputs = self._extractor.prepare(segments, lap=timing.lap)
-        timing.lap("voxelize")  # the rest of the steps before the network
+        timing.lap("voxelise")  # the rest of the steps before the network
         # Rounding must not move a centroid beyond the limit of the points' coordinates.
         centroids = np.clip(segments.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT)
         return PreparedScan(

@@ -1,10 +1,10 @@
 """Shared indexes: search many small maps at once.
 
-A search costs more per map than per segment: a thousand maps of a thousand segments are searched
-one by one in a second, and in one index in some hundredths of it. So small maps share indexes of
-some ten thousand segments. Maps share one only if the same keys open them: what a key does not open
-is neither searched for it nor does it crowd out anything. A map that has been written since is
-searched by its own index, until enough have been for the shared one to be made anew.
+A search has a cost per map and a cost per segment. A thousand maps of a thousand segments take a
+second one by one, but some hundredths of a second in one index. So small maps share indexes of some
+ten thousand segments. Only maps that the same API keys open share an index: segments that a key
+does not open are not searched for it and displace no candidate. A map that was written later is
+searched by its own index, until enough maps changed and the shared index is rebuilt.
 """
 
 from collections.abc import Iterable, Sequence
@@ -38,11 +38,11 @@ LOOSE = 16
 Patterns = tuple[tuple[str, ...], ...]
 """Map name patterns with * and ? that keys open, each distinct list once."""
 
-Key = tuple[str, int, int]
-"""Content of a map: its uid, its sequence, and the sequence of its base."""
+ContentKey = tuple[str, int, int]
+"""Key of a map's content: its uid, its sequence, and the sequence of its base."""
 
 
-def key_of(stored: MapSnapshot) -> Key:
+def key_of(stored: MapSnapshot) -> ContentKey:
     """Return the key of a map's content and row numbers."""
     return stored.head.uid, stored.head.sequence, stored.base_sequence
 
@@ -52,14 +52,14 @@ class SharedIndex:
     """Index over several maps; rows are ordered by map name and id.
 
     Attributes:
-        keys: what each map held.
-        starts: int64 (maps + 1,), where the rows of each begin.
-        rows: int64 (n,), of each segment in its map's layers.
-        centroids: float32 (n, 3), meters, about the middle of each map.
-        index: over the descriptors.
+        keys: content of each map.
+        starts: where the rows of each map begin, int64 (maps + 1,).
+        rows: row of each segment in its map's layers, int64 (n,).
+        centroids: centroids relative to the middle of their map, float32 (n, 3), meters.
+        index: index over the descriptors.
     """
 
-    keys: tuple[Key, ...]
+    keys: tuple[ContentKey, ...]
     starts: Int64
     rows: Int64
     centroids: Float32
@@ -74,7 +74,7 @@ class SharedIndex:
     def of(cls, maps: Sequence[MapSnapshot], quantizer: Quantizer) -> "SharedIndex":
         """Build the index of these maps of one model."""
         maps = sorted(maps, key=lambda each: each.name)
-        rows = [alive(each.layers) for each in maps]
+        rows = [live_rows(each.layers) for each in maps]
         codes = [each.layers.column("codes", own) for each, own in zip(maps, rows, strict=True)]
         centroids = [
             centered(each.layers.column("centroids", own))
@@ -210,7 +210,7 @@ def _parts_of(searched: Sequence[MapSnapshot], indexes: Sequence[SharedIndex]) -
     return parts
 
 
-def alive(layers: MapLayers) -> Int64:
+def live_rows(layers: MapLayers) -> Int64:
     """Return the rows of a map's live segments, by id, int64 (n,)."""
     rows = np.concatenate(
         [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]

@@ -1,8 +1,8 @@
 """Links between maps: which maps hold the same segments, and the transform between their frames.
 
-A merged map and its sources hold the same segments; so does a map that was stored twice. A rival in
-such a map is the same place, and no reason to doubt. The segments' provenance tells it: the map
-that each was written to first, with its id there, and the moment when it was captured.
+A merged map and its sources hold the same segments; so do two copies of one map. A rival pose in
+such a map is the same place, so it does not make a pose ambiguous. The provenance of the segments
+shows it: the map that each was first written to, its id there, and its capture time.
 """
 
 import numpy as np
@@ -12,6 +12,7 @@ from placecell.core.types import Float64, Int64, UInt32
 from placecell.localization import LocalizationParameters, Pose
 from placecell.localization.registration import register
 from service.maps.layers import MapLayers
+from service.maps.shared_index import live_rows
 from service.maps.snapshot import MapSnapshot
 
 SAMPLE = 2_048
@@ -26,8 +27,8 @@ def pose_between(one: MapSnapshot, other: MapSnapshot) -> Pose | None:
     rows, others = _common(one, other)
     if not len(rows):
         return None
-    source = np.concatenate([_stands(other.layers, others), _centroids(other.layers, others)])
-    target = np.concatenate([_stands(one.layers, rows), _centroids(one.layers, rows)])
+    source = np.concatenate([_viewpoints(other.layers, others), _centroids(other.layers, others)])
+    target = np.concatenate([_viewpoints(one.layers, rows), _centroids(one.layers, rows)])
     pose = register(source, target, np.ones(len(source)), LocalizationParameters())
     off = np.linalg.norm(pose.apply(source) - target, axis=1)
     return pose if np.median(off) <= OFF else None
@@ -36,7 +37,7 @@ def pose_between(one: MapSnapshot, other: MapSnapshot) -> Pose | None:
 def _common(one: MapSnapshot, other: MapSnapshot) -> tuple[Int64, Int64]:
     """Return rows of both maps that are the same segments, a sample, int64 (n,) each."""
     if _is_copy(one, other):
-        by_id = (_alive(each.layers) for each in (one, other))
+        by_id = (live_rows(each.layers) for each in (one, other))
         rows, others = (evenly(each, SAMPLE) for each in by_id)
         return rows, others
     pairs = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
@@ -52,35 +53,27 @@ def _common(one: MapSnapshot, other: MapSnapshot) -> tuple[Int64, Int64]:
         found = found[known[at[found]] == ids[found]]
         pairs.append((rows[found], others[at[found]]))
     rows, others = (np.concatenate(each) for each in zip(*pairs, strict=True))
-    # A map of that name may have become another since: the same segment has the same descriptor.
+    # The map of this name may have been replaced: the same segment has the same descriptor.
     same = (one.layers.column("codes", rows) == other.layers.column("codes", others)).all(axis=1)
-    same &= _moments(one.layers, rows) == _moments(other.layers, others)
+    same &= _capture_times(one.layers, rows) == _capture_times(other.layers, others)
     return rows[same], others[same]
 
 
 def _is_copy(one: MapSnapshot, other: MapSnapshot) -> bool:
-    """Return whether both maps hold the same segments, captured at the same moments.
+    """Return whether both maps hold the same segments, with the same capture times.
 
-    Moments tell a copy from a look-alike; where all segments are of one moment, nothing does.
+    Capture times tell a copy from a look-alike; if all segments have one time, nothing does.
     """
     if len(one) != len(other) or one.layers.robots != other.layers.robots:
         return False
-    rows, others = _alive(one.layers), _alive(other.layers)
+    rows, others = live_rows(one.layers), live_rows(other.layers)
     for name in ("ids", "codes"):
         if not np.array_equal(one.layers.column(name, rows), other.layers.column(name, others)):
             return False
-    moments = _moments(one.layers, rows)
-    if not np.array_equal(moments, _moments(other.layers, others)):
+    times = _capture_times(one.layers, rows)
+    if not np.array_equal(times, _capture_times(other.layers, others)):
         return False
-    return bool(len(moments)) and bool(moments.min() < moments.max())
-
-
-def _alive(layers: MapLayers) -> Int64:
-    """Return the rows of the map's live segments, by id, int64 (n,)."""
-    rows = np.concatenate(
-        [np.flatnonzero(~layers.gone), len(layers.base) + np.arange(len(layers.recent))]
-    )
-    return rows[np.argsort(layers.column("ids", rows), kind="stable")]
+    return bool(len(times)) and bool(times.min() < times.max())
 
 
 def _names(stored: MapSnapshot) -> set[str]:
@@ -121,11 +114,11 @@ def _of_frames(layers: MapLayers, column: str, rows: Int64) -> Float64:
     return values
 
 
-def _moments(layers: MapLayers, rows: Int64) -> Float64:
+def _capture_times(layers: MapLayers, rows: Int64) -> Float64:
     return _of_frames(layers, "frame_times", rows)
 
 
-def _stands(layers: MapLayers, rows: Int64) -> Float64:
+def _viewpoints(layers: MapLayers, rows: Int64) -> Float64:
     return _of_frames(layers, "frame_positions", rows)
 
 

@@ -1,8 +1,8 @@
 """Ranking of maps: choose the few maps in which most candidates agree.
 
-Each segment's nearest descriptors are looked for in all maps at once. A map is worth as many
-segments as one of its candidates agrees with: by distances, as `placecell.localization.consistency`
-compares them. Only the best maps are searched in full.
+The nearest descriptors of each segment are searched in all maps at once. The votes of a map are the
+largest number of segments that agree with one of its candidates, by consistent distances
+(`placecell.localization.consistency`). Only the maps with most votes are searched in full.
 """
 
 from collections.abc import Sequence
