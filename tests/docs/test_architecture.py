@@ -47,12 +47,16 @@ def files_of(title: str) -> list[str]:
     return [file for step in steps for file in re.findall(r"`([\w/]+\.py)`", step)]
 
 
+def exists(file: str) -> bool:
+    return (ROOT / file).is_file() or (ROOT / "client" / file).is_file()
+
+
 @pytest.mark.parametrize("title", [MATCH, UPLOAD])
 def test_way_is_short_and_its_files_exist(title: str) -> None:
     files = files_of(title)
     assert len(files) == len(set(files)) <= LONGEST[title]
     assert f" {len(files)} files" in section(title)
-    assert all((ROOT / file).is_file() for file in files)
+    assert all(exists(file) for file in files)
 
 
 def test_steps_of_a_match_are_those_of_a_traced_request(
@@ -87,9 +91,7 @@ def test_steps_of_an_upload_are_those_of_a_traced_request(
             yard = encode(map_of(random_codes(20), manifest.model_id))
             assert service.put("/maps/yard", content=yard).status_code == 201
     assert trace.has_ended
-    # The client's codec is a distribution of its own.
-    passed = [file for file in trace.passed if not file.startswith("placecell_client/")]
-    assert sorted(files_of(UPLOAD)) == sorted(passed)
+    assert sorted(files_of(UPLOAD)) == sorted(trace.passed)
 
 
 def dependencies() -> set[str]:
@@ -139,4 +141,4 @@ PATHS = sorted(
 
 @pytest.mark.parametrize(("file", "path"), PATHS)
 def test_named_files_exist(file: str, path: str) -> None:
-    assert (ROOT / path).is_file() or (ROOT / "client" / path).is_file(), file
+    assert exists(path), file
