@@ -10,6 +10,7 @@ import pytest
 from prometheus_client import generate_latest
 
 from cli.reference.pages import FOLDER, PAGES, generate
+from cli.reference.routes import openapi
 from service.core.metrics import Metrics
 from service.core.settings import OTHER_NAMES, Limits, Settings, variables
 
@@ -107,3 +108,13 @@ def test_objects_that_the_site_shows_exist(page: str) -> None:
         members = re.search(r"members: \[(.+)\]", options)
         for member in re.split(", *", members[1]) if members else []:
             assert hasattr(shown, member), f"{page}: {name} has no {member}"
+
+
+def test_keys_of_the_msgpack_page_are_those_of_the_schemas() -> None:
+    text = (FOLDER / "msgpack.md").read_text(encoding="utf-8")
+    tables = text[text.index("## Requests") : text.index("## Example")]
+    cells = re.findall(r"^\| (`[a-z_`, \[\].]+`) \|", tables, re.MULTILINE)
+    named = {key for row in cells for key in re.findall(r"`(?:\w+\[\]\.)?(\w+)`", row)}
+    schemas = openapi()["components"]["schemas"].values()
+    known = {key for schema in schemas for key in schema.get("properties", {})}
+    assert {"codes", "localizations", "inliers"} <= named <= known
