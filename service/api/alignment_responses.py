@@ -60,11 +60,11 @@ def alignment_of(
         agreement=0.0 if best is None else best.agreement,
         pairs=0 if accepted is None else len(accepted),
         inliers=[] if accepted is None or ids is None else pairs_of(accepted, ids),
-        others=[laid(each) for each in others if each is not None],
+        others=[hypothesis_of(each) for each in others if each is not None],
     )
 
 
-def laid(overlap: Overlap) -> LaidOut:
+def hypothesis_of(overlap: Overlap) -> LaidOut:
     """Return the answer about one hypothesis of an alignment."""
     return LaidOut(
         pose=PoseOut(**pose_of(overlap.pose)),

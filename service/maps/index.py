@@ -210,7 +210,7 @@ class NibbleIndex(MapIndex):
     def _nearest(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
         levels = self._quantizer.levels(codes).astype(np.float32)
         assert self._index is not None  # an empty index fetches nothing
-        told, rows = self._index.search(levels, fetch)
+        rounded, rows = self._index.search(levels, fetch)
         asked = codes.view(np.uint8).astype(np.uint16)[:, None] << 8
         stored = self._codes.view(np.uint8)
         squared = np.empty(rows.shape)
@@ -218,7 +218,7 @@ class NibbleIndex(MapIndex):
         for begin in range(0, len(rows), step):
             some = slice(begin, begin + step)
             squared[some] = self._tables.apart[asked[some] | stored[rows[some]]].sum(axis=2)
-        return squared, rows, told[:, -1].astype(np.float64) - self._bound
+        return squared, rows, rounded[:, -1].astype(np.float64) - self._bound
 
 
 def index_of(codes: Int8, quantizer: Quantizer) -> MapIndex:

@@ -219,6 +219,6 @@ def live_rows(layers: MapLayers) -> Int64:
 
 
 def centered(centroids: "np.ndarray") -> Float32:
-    """Return centroids about their mean, float32, as maps may lie 1,000 km off."""
+    """Return centroids about their mean, float32, because maps may be 1,000 km off."""
     middle = np.median(centroids, axis=0) if len(centroids) else 0.0
     return np.asarray(centroids - middle, np.float32)

@@ -279,8 +279,8 @@ def mark_of(link: str, note: Note) -> str:
     sequences but never the same mark. The mark covers the note, so an altered author or time is
     noticed. In databases of version 1 the mark is the link itself.
     """
-    told = [float(note.time), note.author, note.operation, note.changed, note.removed]
-    return hashlib.sha256(f"{link}\n{json.dumps(told)}".encode()).hexdigest()
+    fields = [float(note.time), note.author, note.operation, note.changed, note.removed]
+    return hashlib.sha256(f"{link}\n{json.dumps(fields)}".encode()).hexdigest()
 
 
 def commit_after(before: str, sequence: int, note: Note, blob: bytes, size: int) -> Commit:

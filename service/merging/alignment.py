@@ -68,12 +68,14 @@ class StoredMatchProbabilities:
 
     def match_probabilities(self, a: Int64, b: Int64) -> Float64:
         """Return the match probability of each row of a with the row of b beside it."""
-        told = [np.zeros(0)]
+        probabilities = [np.zeros(0)]
         for begin in range(0, len(a), BLOCK):
             self._check()
             block = slice(begin, begin + BLOCK)
-            told.append(match_probabilities(self._model, self._b[b[block]], self._a[a[block]]))
-        return np.concatenate(told)
+            probabilities.append(
+                match_probabilities(self._model, self._b[b[block]], self._a[a[block]])
+            )
+        return np.concatenate(probabilities)
 
 
 class StoredDescriptorSearch(StoredMatchProbabilities):

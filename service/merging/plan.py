@@ -88,7 +88,7 @@ def plan_merge(
         if each.best is not None and each.pose is not None
     ]
 
-    def lies(index: int, pose: Pose) -> bool:
+    def fits(index: int, pose: Pose) -> bool:
         check()
         one, other = edges[index].one, edges[index].other
         best = found[one, other].best
@@ -96,7 +96,7 @@ def plan_merge(
         likeness = StoredMatchProbabilities(model, sides[one].content, sides[other].content, check)
         return fits_as_well(sides[one].view, sides[other].view, pose, best, likeness, parameters)
 
-    checked = check_loops(edges, lies)
+    checked = check_loops(edges, fits)
     numbers = {(edge.one, edge.other): number for number, edge in enumerate(edges)}
     pairs = tuple(
         AlignedPair(

@@ -141,8 +141,8 @@ class Database:
             StoreError: none of the writes happened.
         """
         with self._writing, self._noted(), _translated(self.path):
-            if told := self._misplaced() or self._lock_trouble():
-                raise StoreError("moved", told)
+            if problem := self._misplaced() or self._lock_trouble():
+                raise StoreError("moved", problem)
             if not frees and not self._holds_reserve():
                 raise StoreError("full", f"{self.path}: the disk is full")
             self._connection.execute("BEGIN IMMEDIATE")
@@ -224,8 +224,8 @@ class Database:
 
     def trouble(self) -> str | None:
         """Return why writes fail; None if they work. Tries a small write after a failed one."""
-        if told := self._misplaced() or self._lock_trouble():
-            return told
+        if problem := self._misplaced() or self._lock_trouble():
+            return problem
         if not os.access(self.path, os.W_OK) or not os.access(self.path.parent, os.W_OK):
             return f"{self.path.name} cannot be written: the disk or the file is read-only."
         return self._lacks_room() or (self._tried(self._failed) if self._failed else None)
@@ -267,8 +267,8 @@ class Database:
 
         It keeps up to `VACUUM_PAGES` free pages for later writes; on a full disk it keeps none.
         """
-        if told := self._misplaced() or self._lock_trouble():
-            raise StoreError("moved", told)
+        if problem := self._misplaced() or self._lock_trouble():
+            raise StoreError("moved", problem)
         before, free = 0, self._free_pages()
         step, least = VACUUM_PAGES, VACUUM_PAGES
         if not self._reserve.is_held():
@@ -335,8 +335,8 @@ class Database:
         return None
 
     def _check_placed(self) -> None:
-        if told := self._misplaced():
-            raise StoreError("moved", told)
+        if problem := self._misplaced():
+            raise StoreError("moved", problem)
 
     @contextmanager
     def _noted(self) -> Iterator[None]:

@@ -139,7 +139,7 @@ def _line(text: str) -> str:
 
 
 def _text(line: str) -> str:
-    text, _, told = line.rpartition(" ")
-    if told != f"{zlib.crc32(text.encode()):08x}":
+    text, _, checksum = line.rpartition(" ")
+    if checksum != f"{zlib.crc32(text.encode()):08x}":
         raise ValueError(f"a line was altered: {line:.60}")
     return text

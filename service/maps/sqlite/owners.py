@@ -36,8 +36,8 @@ class _Owned:
 
     def digest(self, row: int) -> str:
         """Hash the run, so that an altered run is noticed."""
-        told = [row, self.first, self.until, self.author, self.reserved]
-        return hashlib.sha256(json.dumps(told).encode()).hexdigest()[:16]
+        fields = [row, self.first, self.until, self.author, self.reserved]
+        return hashlib.sha256(json.dumps(fields).encode()).hexdigest()[:16]
 
 
 class Owners:

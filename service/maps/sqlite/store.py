@@ -201,7 +201,7 @@ class SqliteMapStore:
                     f"{most:,}"
                 )
             if head.next_id + count > head.end_id:
-                # A larger gap may lie beside an id that a robot chose far from the others.
+                # A larger gap may be beside an id that a robot chose far from the others.
                 first, end = owners.largest_gap()
                 if end - first < max(count, head.end_id - head.next_id):
                     first, end = head.next_id, head.end_id

@@ -116,7 +116,7 @@ def save_head(connection: sqlite3.Connection, row: int, head: MapHead) -> MapHea
 
 def digest_of(head: MapHead) -> str:
     """Hash a map's head, so that an altered row is noticed."""
-    told = [
+    fields = [
         head.name,
         head.uid,
         head.sequence,
@@ -127,7 +127,7 @@ def digest_of(head: MapHead) -> str:
         head.log_bytes,
         head.end_id,
     ]
-    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+    return hashlib.sha256(json.dumps(fields).encode()).hexdigest()
 
 
 def row_of(connection: sqlite3.Connection, uid: str) -> int:

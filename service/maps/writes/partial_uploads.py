@@ -240,5 +240,5 @@ def _prefix(author: str, name: str) -> str:
 
 
 def _hash(text: str) -> str:
-    """Return a hash that stands for a name in a file name."""
+    """Return a hash that represents a name in a file name."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]

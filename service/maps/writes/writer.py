@@ -170,7 +170,7 @@ class MapWriter:
         """Remove a map; return how many segments it had, 0 if it was damaged."""
         with self.maps.writing(name):
             if name in self.maps.damaged():
-                # Nobody can tell which robots' segments a damaged map has.
+                # The robots of a damaged map are not known.
                 self.principal.check_all()
                 self.maps.delete(name)
                 return 0
@@ -266,7 +266,7 @@ class MapWriter:
 
     def _deduplicated(self, edit: Delta, layers: MapLayers) -> Deduplicated:
         upload = edit.changed
-        # All views of an object count, so the search reaches as far as they can lie.
+        # All views of an object count, so the search reaches as far as they extend.
         near = layers.near(upload.centroids, VIEWS * RADIUS)
         stored = apply(near, Delta(layers.take(upload.ids), NONE))
         # The robot did not see again what its edit removes.

@@ -74,7 +74,7 @@ def joined(*parts: CompactMap) -> CompactMap:
 
 
 def look(upload: CompactMap, stored: CompactMap = NOTHING, views: int = 3) -> Deduplicated:
-    # Codes apart by 1 are 7 ** 0.5 steps apart.
+    # Codes that differ by 1 are 7 ** 0.5 steps apart.
     return deduplicate(upload, stored, SameView(QUANTIZER, 2 * 7**0.5), views=views)
 
 
@@ -113,7 +113,7 @@ def test_segment_seen_from_the_same_viewpoint_is_a_repeat(stand: float, repeats:
     stored = joined(seen_at(10, [1], [0.0], [0], stand=0.0))
     found = look(seen_at(20, [7], [0.1], [50], stand=stand), stored)
     assert found.repeats == repeats
-    # Of all its views, not only of the one that looks most like it.
+    # The viewpoint is compared with all views of the object, not only with the most similar one.
     far = joined(stored, look(seen_at(15, [2], [0.0], [60], stand=30.0), stored).changed)
     found = look(seen_at(20, [7], [0.1], [57], stand=stand), far)
     assert found.repeats == repeats
@@ -189,10 +189,10 @@ def test_stored_segment_is_known_to_later_uploads(
     upload = joined(*second)
     found = look(upload, stored)
     after = apply(stored, Delta(found.changed, NONE))
-    # Sent again, it changes nothing.
+    # The repeated upload changes nothing.
     again = look(upload, after)
     assert encode(apply(after, Delta(again.changed, NONE))) == encode(after)
-    # Nothing is lost: each segment is there, or was seen no earlier than it says, where it was.
+    # Nothing is lost: each segment is stored, or a stored one near it was seen at that time or later.
     assert after.seen is not None
     for row, id_ in enumerate(upload.ids):
         if id_ in after.ids:
@@ -223,14 +223,14 @@ def test_deduplication_over_http(service: Any, manifest: Manifest) -> None:
         assert (again.json()["segments"], again.json()["sequence"]) == (3, 2)
     stored = decode(service.get("/maps/site").content)
     assert told(stored) == [(1, 1, 20), (2, 2, 10), (4, 2, 20)]
-    # What an edit removes it has not seen again, whatever stands there now.
+    # An edit does not refresh segments that it removes.
     upload = seen_at(25, [5], [0.1], [0], model_id=manifest.model_id)
     instead = service.post(
         "/maps/site/segments?deduplicate=true",
         content=encode_delta(Delta(upload, np.array([1], np.uint32))),
     ).json()
     assert (instead["changed"], instead["removed"], instead["repeats"]) == (1, 1, 0)
-    # What was not seen again can be told from what was.
+    # Prune distinguishes segments that were seen again.
     assert service.post("/maps/site/age?unseen_since=15").json()["removed"] == 1
     plain = seen_at(30, [9], [0.1], [0], model_id=manifest.model_id)
     stored_all = service.post("/maps/site/segments", content=encode_delta(Delta(plain, NONE)))
@@ -254,7 +254,7 @@ def test_robot_key_may_refresh_another_robots_segments(
         assert send("zoe", 20, [2]).json()["repeats"] == 1
         stored = decode(service.get("/maps/site", headers=keys["ann"]).content)
         assert (told(stored), stored.robots) == ([(1, 1, 20)], ("ann",))
-        # But not write them.
+        # It may not replace them.
         assert_problem(send("zoe", 30, [1]), 403, "forbidden")
 
 
@@ -384,7 +384,7 @@ def peak_bytes(upload: CompactMap) -> int:
 @pytest.mark.parametrize("moments", [1, 30, 20_000], ids=["one-moment", "some", "all-differ"])
 def test_A1_memory_is_linear_in_the_upload(moments: int) -> None:
     upload = scattered(np.random.default_rng(0), 20_000, 0.0, 0, moments)
-    # Neighbors listed for each would be 400 million: 3.2 GB.
+    # A list of all neighbors would have 400 million entries: 3.2 GB.
     assert peak_bytes(upload) < 1_000 * len(upload)
 
 
@@ -392,7 +392,7 @@ def test_A1_memory_is_linear_in_the_upload(moments: int) -> None:
 def test_A1_segment_is_compared_with_the_latest_segments(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # 60 things of one moment at one spot; what comes a moment later looks as the first of them.
+    # 60 objects of one time at one position; later segments look like the first of them.
     upload = scattered(np.random.default_rng(1), 61, 0.0, 0, 2)
     upload = replace(
         upload,

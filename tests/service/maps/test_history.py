@@ -51,7 +51,7 @@ def test_restore_makes_a_version_that_can_be_undone(service: Any, files: list[by
     assert response.json()["sequence"] == 5
     assert response.headers["etag"] == service.get("/maps/yard").headers["etag"]
     assert service.get("/maps/yard").content == files[1]
-    # Again it changes nothing: a request whose answer was lost may be repeated.
+    # The repeated request changes nothing, so a client may repeat it after a lost answer.
     assert service.post("/maps/yard/versions/2/restore").json()["sequence"] == 5
     assert service.post("/maps/yard/versions/4/restore").json()["sequence"] == 6
     assert service.get("/maps/yard").content == files[3]
@@ -97,7 +97,7 @@ def test_compaction_keeps_the_newest_versions(start: Any, manifest: Manifest, ke
         assert listed["oldest"] == oldest
         assert [one["sequence"] for one in listed["versions"]] == list(range(4, oldest - 1, -1))
         assert service.get("/maps/yard").headers["etag"] == tag
-        # And it goes on from there.
+        # Later writes continue from there.
         data = edit_of(random_codes(2, 9), manifest.model_id, 500)
         assert service.post("/maps/yard/segments", content=data).json()["sequence"] == 5
         again = service.post(f"/maps/yard/compact?keep={keep + 1}").json()

@@ -93,7 +93,7 @@ def test_A8_far_unreserved_id_is_refused(start: Any, file: Path, manifest: Manif
         whole = encode(map_of(random_codes(1), manifest.model_id, LAST))
         refused = service.put("/maps/yard", content=whole, headers=ann)
         assert_problem(refused, 409, "id-not-reserved")
-        # Who numbers from 0, with gaps, goes on as before.
+        # A robot that numbers from 0, with gaps, continues as before.
         for first in (0, 1_000, SLACK):
             data = edit_of(random_codes(5), manifest.model_id, first)
             assert edited(service, data, ann).is_success, first
@@ -118,7 +118,7 @@ def test_A8_number_of_reserved_ids_is_limited(
         assert_problem(reserved(service, 41, ann), 409, "too-many-ids", "60 reserved ids")
         assert reserved(service, 40, ann).json()["first"] == 61
         assert_problem(reserved(service, 1, ann), 409, "too-many-ids", "Write segments")
-        # Another key has its own, and what is written counts no more.
+        # Another key has its own limit, and written ids do not count.
         assert reserved(service, 100, zoe).json()["first"] == 101
         assert edited(service, edit_of(random_codes(10), manifest.model_id, 50), ann).is_success
         assert reserved(service, 10, ann).status_code == 200
@@ -172,9 +172,9 @@ def test_B17_robot_of_same_name_with_other_key_overwrites_nothing(
         assert refused.json()["ids"] == [0, 1, 2, 3, 4]
         assert_problem(edited(service, removal, two), 409, "id-taken")
         assert service.get("/maps/yard", headers=one).content == before
-        # Sent again it changes nothing, whoever sends it.
+        # The repeated edit changes nothing, whichever key sends it.
         assert edited(service, first, two).json()["changed"] == 0
-        # What it adds itself is its own, and what the other reserved is not.
+        # New ids belong to the key that writes them; ids that another key reserved are refused.
         own = edit_of(random_codes(3), manifest.model_id, 20, "robot")
         assert edited(service, own, two).is_success
         changed = edit_of(random_codes(3, 5), manifest.model_id, 20, "robot")
@@ -183,7 +183,7 @@ def test_B17_robot_of_same_name_with_other_key_overwrites_nothing(
         taken = edit_of(random_codes(1), manifest.model_id, ids + 3, "robot")
         assert_problem(edited(service, taken, two), 409, "id-taken")
         assert edited(service, taken, one).is_success
-        # Where it is meant it is said.
+        # If-Match confirms the replacement.
         assert edited(service, second, two, **ANY).json()["changed"] == 5
         assert_problem(edited(service, first, one), 409, "id-taken")
     with start(keys_file=file) as service:
@@ -278,7 +278,7 @@ def test_A16_other_robots_segment_is_refreshed_to_capture_time_at_most(
         content = decode(service.get("/maps/yard", headers=ann).content)
         assert content.seen is not None
         assert content.seen.tolist() == [now - 5_000] * 4
-        # A key speaks for its own robot, also where all is seen again.
+        # A robot key sends only segments of its robot, even if all are repeats.
         other = replace(later, robots=("ann",))
         data = encode_delta(Delta(other, np.zeros(0, np.uint32)))
         assert_problem(edited(service, data, zoe, "&deduplicate=true"), 403, "forbidden")

@@ -45,7 +45,7 @@ def test_search_equals_comparison_with_all_rows(per_byte: int, rows: int, querie
 
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 def test_search_orders_ties_by_row(per_byte: int) -> None:
-    # More rows equally near than are fetched at first.
+    # There are more ties than rows fetched at first.
     quantizer = Quantizer(1.0, per_byte)
     stored = np.repeat(codes_of(4, per_byte), 200, axis=0)
     stored[::200] = stored[0] * 0 - 100  # the farthest corner: sums as large as they can be

@@ -121,7 +121,7 @@ def test_change_to_another_content_is_found_by_one_comparison(
     change = layers.change_to(other.content(), 3)
     assert encode(layers.after(change.delta).content()) == encode(other.content())
     assert change.is_empty == (encode(other.content()) == encode(layers.content()))
-    # Nothing is left to leave out: the change is its own effect.
+    # The change has no entries without effect.
     again = layers.effect_of(change.delta)
     assert encode_delta(again.delta) == encode_delta(change.delta)
     assert again.before.ids.tolist() == change.before.ids.tolist()
@@ -159,12 +159,12 @@ def test_optional_columns_of_an_edit_are_added_to_the_map() -> None:
         3: 1_700_000_000,
         9: 8,
     }
-    # An edit that lacks the column is filled up, as the map would be.
+    # An edit without the column gets its default values.
     plain = Delta(segments([9], 5), np.zeros(0, np.uint32))
     effect = after.effect_of(plain).delta
     assert effect.changed.seen is not None
     assert effect.changed.seen.tolist() == [1_700_000_000]
-    # A column alone is a change, once.
+    # A new column alone is a change, once.
     nothing = Delta(replace(NOTHING, seen=np.zeros(0, np.uint32)), np.zeros(0, np.uint32))
     assert not start.effect_of(nothing).is_empty
     assert after.effect_of(nothing).is_empty

@@ -60,7 +60,7 @@ def test_flattened_layers_are_the_same_map(start: Any, manifest: Manifest, data_
         assert told(service, manifest) == before
     with start() as service:
         assert told(service, manifest) == before
-        # From the cache, which needed nothing replayed.
+        # The start used the cache and replayed nothing.
         stored = service.app.state.placecell.engine.maps.get("site")
         assert (stored.base_sequence, len(stored.layers.recent)) == (6, 0)
 
@@ -74,7 +74,7 @@ def test_write_during_flattening_stays(
         indexed = state.engine.maps._index
 
         def slowly(*arguments: Any) -> Any:
-            # Once, in the fold: all is read, and nothing is shown yet.
+            # A write happens once during flattening, after the read and before publication.
             monkeypatch.setattr(state.engine.maps, "_index", indexed)
             begun.set()
             assert written.wait(60)
@@ -138,7 +138,7 @@ def test_long_history_is_compacted(
         assert 1 < after[2]["oldest"] <= 6
         assert after[1] == before[1]
         assert after[3] == before[3][-len(after[3]) :]
-        # Enough that it is not to be done again at once.
+        # Compaction drops enough that it is not due again at once.
         keeper_of(state, data_dir, bounds).run_once()
         assert told(service, manifest) == after
     with start() as service:
@@ -262,7 +262,7 @@ def test_A2_maintenance_visits_only_written_maps(
         monkeypatch.setattr(keeper, "_maintain", noted)
         for _ in range(3):
             keeper.run_once()
-        # What failed is tried again.
+        # A failed run is retried.
         assert cared == ["m0", "m1", "m2", "m3", "m4", "m3"]
         edit = edit_of(random_codes(1), manifest.model_id, 900)
         assert service.post("/maps/m1/segments", content=edit).status_code == 200

@@ -90,7 +90,7 @@ def test_known_version_is_not_sent_again(
 
 def test_put_of_equal_file_changes_nothing(service: Any, yard: bytes) -> None:
     first = service.put("/maps/yard", content=yard)
-    # Whatever the client asks for: it may be an upload whose answer was lost, sent once more.
+    # Under any precondition: it may be an upload repeated after a lost answer.
     for headers in ({}, {"If-Match": '"x"'}, {"If-None-Match": "*"}):
         again = service.put("/maps/yard", content=yard, headers=headers)
         assert again.status_code == 200
@@ -116,7 +116,7 @@ def test_put_of_other_content_needs_the_etag(service: Any, yard: bytes, manifest
     found = service.post("/match", json=body).json()["queries"][0]["candidates"]
     assert {item["robot"] for item in found} == {"zoe"}
     assert len(found) == 4
-    # The version that it was made for is no longer there.
+    # The named version is outdated.
     back = service.put("/maps/yard", content=yard, headers={"If-Match": first})
     assert_problem(back, 412, "precondition-failed")
     anything = service.put("/maps/yard", content=yard, headers={"If-Match": "*"})
@@ -140,7 +140,7 @@ def test_delete_under_an_outdated_etag_fails(service: Any, yard: bytes, manifest
     assert_problem(refused, 412, "precondition-failed")
     now = service.get("/maps/yard").headers["etag"]
     assert service.delete("/maps/yard", headers={"If-Match": now}).status_code == 204
-    # Under a name that is taken again no version has a tag that was there before.
+    # A new map of the same name never has an earlier tag.
     assert service.put("/maps/yard", content=yard).headers["etag"] != first
 
 
@@ -315,7 +315,7 @@ def test_robot_quota_covers_all_maps(start: Any, yard: bytes, manifest: Manifest
         assert service.get("/maps").json() == before
         edit = edit_of(random_codes(20), manifest.model_id, 1000)
         assert service.post("/maps/a/segments", content=edit).status_code == 200
-    # What was stored under other limits stays, and may become less, but not more.
+    # A map stored under other limits stays; it may shrink, but not grow.
     with start(limits={"robot_segments": 10, "map_segments": 10}) as service:
         assert service.get("/maps/a").status_code == 200
         less = edit_of(random_codes(0), manifest.model_id, removed=[100])

@@ -150,7 +150,7 @@ def test_A28_flipped_bit_is_noticed_or_changes_nothing(
                 assert found == right or (table, column) == ("opened", "token"), (
                     *(table, row, column, value, altered),
                 )
-    # The token only tells whether ids are skipped; an owner's row that went to no map is unknown.
+    # The token only decides whether ids are skipped; rows of owners without a map are ignored.
     assert columns - noticed <= {("opened", "token"), ("maps", "map")}
 
 
@@ -186,7 +186,7 @@ def test_A28_database_of_version_1_is_migrated(start: Any, data_dir: Path) -> No
         links = connection.execute("SELECT map, sequence, link FROM commits").fetchall()
         newest_link = {row: link for row, _, link in sorted(links)}
         assert newest_link[1]  # that of the other changed nothing
-        # The note of a commit of before is in no mark, that of a new one is.
+        # Marks of old commits do not cover notes; marks of new commits do.
         connection.execute("UPDATE commits SET author = 'zoe' WHERE link = ''")
         connection.commit()
     with SqliteMapStore.owned(data_dir) as store:
@@ -274,7 +274,7 @@ def test_A10_moved_database_is_reported_and_nothing_is_lost(
             assert not (data_dir / FILE).exists()
             assert (data_dir / f"{FILE}-wal").exists()
         assert_problem(service.get("/readyz"), 503, "not-ready", "Move the same file back")
-        # Neither is another one taken for it.
+        # Another database in its place is refused, too.
         for content in (b"", b"rubbish", moved.read_bytes()):
             (data_dir / FILE).write_bytes(content)
             for request in requests:
@@ -284,7 +284,7 @@ def test_A10_moved_database_is_reported_and_nothing_is_lost(
         assert service.get("/maps/yard?version=1").content == file
         assert service.put("/maps/yard", content=other, headers=ANY).status_code == 200
         (data_dir / FILE).rename(moved)
-    # It is stopped meanwhile, too.
+    # The service also stops in the meantime.
     assert (data_dir / f"{FILE}-wal").stat().st_size
     moved.rename(data_dir / FILE)
     with start() as service:
@@ -380,7 +380,7 @@ def test_A23_restored_backup_gives_no_id_twice(folder: Path, tmp_path: Path, kil
     with SqliteMapStore.owned(folder) as store:
         first = store.reserve(head.uid, 1, "zoe")
         assert first > self_chosen
-    # And a start that brings nothing back skips nothing.
+    # A start without a restored backup skips nothing.
     with SqliteMapStore.owned(folder) as store:
         assert store.reserve(head.uid, 1, "zoe") == first + 1
 

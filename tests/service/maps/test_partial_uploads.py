@@ -94,7 +94,7 @@ def test_B9_map_grown_by_edits_is_pulled_and_pushed(service: Any, manifest: Mani
     assert again is not None
     assert encode(again) == encode(pulled)
     assert client.uploads("copy") == ()
-    # The same again changes nothing, in parts too.
+    # A repeated upload in parts changes nothing.
     assert client.put_map("copy", pulled).sequence == 1
     operations = [version.operation for version in client.versions("copy")]
     assert operations == ["put"]
@@ -132,7 +132,7 @@ def test_B9_repeated_push_continues(
         put(cut_after(forward, 3))
     (held,) = service.get("/maps/yard/uploads").json()["uploads"]
     assert (held["digest"], held["bytes"]) == (digest_of(data), 3 * LIMIT)
-    # Nobody sees a map yet.
+    # Readers see no map yet.
     assert_problem(service.get("/maps/yard"), 404, "unknown-map")
     assert service.get("/maps").json()["maps"] == []
     asked.clear()
@@ -185,7 +185,7 @@ def test_B9_completion_needs_the_etag_to_replace(service: Any, yard: CompactMap)
             client.put_map("yard", other, **conditions)  # type: ignore[arg-type]
         assert caught.value.status == status
         assert client.get_map_file("yard") == encode(yard)
-    # Nothing of the push is lost: it is completed under the right condition, without parts.
+    # The parts stay, so the push completes with the right ETag and without sending them again.
     (held,) = client.uploads("yard")
     assert held.bytes == len(other)
     assert client.put_map("yard", other, if_match=stored.etag).sequence == 2
@@ -222,7 +222,7 @@ def test_B9_damaged_upload_is_removed(service: Any, yard: CompactMap, data_dir: 
     file.write_bytes(bytes(len(file.read_bytes())))
     assert client_of(forward_to(service)).put_map("yard", yard).segments == 1_000
     assert service.get("/maps/yard").content == encode(yard)
-    # What stays damaged is told.
+    # Lasting damage is reported.
     digest = "0" * 64
     service.put(f"/maps/yard/uploads/{digest}?offset=0", content=b"not this")
     assert_problem(service.post(f"/maps/yard/uploads/{digest}"), 422, "upload-damaged")
@@ -317,7 +317,7 @@ def test_B9_key_scope_covers_uploads(start: Any, tmp_path: Path, yard: CompactMa
         assert_problem(service.post(path, **reader), 403, "forbidden")
         assert_problem(service.delete(path, **reader), 403, "forbidden")
         assert_problem(service.post(path.replace("yard", "hall"), **ann), 403, "forbidden")
-        # Another key neither sees nor completes it, and writes its own robot's segments alone.
+        # Another key neither sees nor completes it, and writes only segments of its robot.
         assert service.get("/maps/yard/uploads", **bob).json()["uploads"] == []
         assert_problem(service.post(path, **bob), 404, "unknown-upload")
         send_parts(service, "yard", data, **bob)

@@ -79,7 +79,7 @@ def test_A2_empty_map_takes_little_memory(start: Any, manifest: Manifest) -> Non
         assert put(0) == 201
         _, held, _ = traced(lambda: [put(n) for n in range(1, 41)])
         assert len(maps) == 41
-        # 10,000 of them are to take less than 200 MB; the service's own figures stand in the docs.
+        # 10,000 empty maps must take less than 200 MB; the docs have measurements.
         assert held < 40 * 20_000
 
 
@@ -99,7 +99,7 @@ def test_A2_number_of_maps_is_limited(start: Any, manifest: Manifest) -> None:
             service.post("/maps/d/segments?create=true", content=edit),
         ):
             assert_problem(response, 507, "quota-exceeded", "3 maps; the limit is 3")
-        # What is there can be written to, and one that goes makes room.
+        # Existing maps accept writes, and a deletion allows a new map.
         assert service.post("/maps/a/segments", content=edit).status_code == 200
         assert service.delete("/maps/b").status_code == 204
         assert service.put("/maps/d", content=file).status_code == 201
@@ -107,7 +107,7 @@ def test_A2_number_of_maps_is_limited(start: Any, manifest: Manifest) -> None:
     with start(limits={"maps": 3}) as service:
         assert_problem(service.put("/maps/e", content=file), 507, "quota-exceeded")
     with start(limits={"maps": 2}) as service:
-        # Under a lower limit what is there stays.
+        # Under a lower limit existing maps stay.
         assert len(service.get("/maps").json()["maps"]) == 3
         assert service.post("/maps/a/segments", content=edit).status_code == 200
 
@@ -127,7 +127,7 @@ def test_A2_number_of_maps_of_a_key_is_limited(
         for name in "ab":
             assert service.put(f"/maps/{name}", content=file, headers=ann).is_success
         refused("c")
-        # Who writes to another's map is not charged for it.
+        # A write to another key's map does not count for the writer.
         edit = edit_of(random_codes(1), manifest.model_id, 900)
         assert service.post("/maps/a/segments", content=edit, headers=bob).is_success
         for name in "de":
@@ -175,15 +175,15 @@ def test_A17_history_counts_and_deletion_is_always_possible(
         assert "50000" in response.json()["detail"]
         (told,) = service.get("/maps").json()["maps"]
         assert 40_000 < told["bytes"] <= 50_000
-        # What removes is stored all the same, and undone by nobody for want of room.
+        # Removals are stored nevertheless, but restoring the segments is refused.
         less = edit_of(random_codes(0), manifest.model_id, removed=[100])
         assert service.post("/maps/yard/segments?robot=ann", content=less).status_code == 200
         assert service.post("/maps/yard/age?unseen_since=0").status_code == 200
-        # The service lets go of old versions of a map that was refused.
+        # Maintenance compacts a map whose write was refused.
         keeper_of(service, data_dir, MaintenanceThresholds(map_bytes=50_000)).run_once()
         assert grow(service, manifest, 999).status_code == 200
         assert service.get("/maps/yard/versions").json()["oldest"] > 1
-        # By hand there is room at once.
+        # Manual compaction makes space at once.
         while grow(service, manifest, steps + 1).status_code == 200:
             steps += 1
         assert service.post("/maps/yard/compact").status_code == 200
@@ -272,13 +272,13 @@ def test_B19_flattening_leaves_one_copy_in_memory(
         keeper = keeper_of(service, data_dir, MaintenanceThresholds(recent=10, share=0.0))
         maps = service.app.state.placecell.engine.maps
         for step in range(1, 9):
-            # Not over HTTP: a thread that has answered holds the map for a moment longer.
+            # Not over HTTP, because a thread keeps the snapshot for a moment after its answer.
             changed = map_of(random_codes(200, step), manifest.model_id)
             delta = maps.get("yard").layers.effect_of(Delta(changed, np.zeros(0, np.uint32))).delta
             maps.commit(maps.get("yard"), delta, "ann", "edit")
             keeper.run_once()
         assert len(while_saved) == 8
-        # The old copy is gone before the new one's file is made.
+        # The old copy is freed before the new one's file is made.
         assert while_saved == [1] * 8
         gc.collect()
         assert len({id(each.base) for each in layers}) == 1
@@ -313,5 +313,5 @@ def test_B19_index_is_built_in_steps() -> None:
     codes = random_codes(100_000, dimension=8)
     for kind, quantizer in ((NibbleIndex, Quantizer(1.0, 4)), (FlatIndex, Quantizer(1.0))):
         _, _, most = traced(lambda kind=kind, quantizer=quantizer: kind(codes, quantizer))
-        # NumPy's indices of all codes would take eight times their bytes.
+        # NumPy indices of all codes would take eight times their bytes.
         assert most < 4 * codes.nbytes

@@ -77,7 +77,7 @@ def test_repeated_edit_changes_nothing(service: Any, yard: str, edit: Edit) -> N
         assert again.status_code == 200
         assert again.headers["etag"] == first.headers["etag"]
         assert again.json() == first.json() | {"changed": 0, "removed": 0}
-    # Only what differs is counted.
+    # Only segments that differ count.
     more = service.post(f"{yard}/segments", content=edit(5, 108, seed=7)).json()
     assert (more["changed"], more["sequence"]) == (1, 3)
 
@@ -106,11 +106,11 @@ def test_edit_of_another_robots_segment_is_refused(service: Any, yard: str, edit
             refused, 409, "id-taken", f"{len(ids)} ids belong to segments of other robots: ann"
         )
         assert refused.json()["ids"] == ids
-        # Nor if it says that it speaks for the other: an id keeps its robot.
+        # Naming the other robot does not help: an id keeps its robot.
     refused = service.post(f"{yard}/segments?robot=ann", content=edit(4, 108, "zoe", seed=3))
     assert_problem(refused, 409, "id-taken")
     assert service.get(yard).content == before.content
-    # Who has seen the map as it is may do so.
+    # With the current ETag it is allowed.
     seen = {"If-Match": before.headers["etag"]}
     done = service.post(f"{yard}/segments", content=edit(4, 108, "zoe", seed=3), headers=seen)
     assert done.json()["changed"] == 4
@@ -126,7 +126,7 @@ def test_removal_needs_the_robot_of_the_segments(service: Any, yard: str, edit: 
     assert_problem(wrong, 409, "id-taken")
     done = service.post(f"{yard}/segments?robot=ann", content=nothing_else)
     assert done.json()["removed"] == 1
-    # Ids of no segment do no harm.
+    # Ids without a segment are ignored.
     gone = service.post(f"{yard}/segments?robot=zoe", content=edit(0, removed=[101, 999]))
     assert (gone.status_code, gone.json()["sequence"]) == (200, 2)
 
@@ -198,7 +198,7 @@ def test_reserved_ids_are_given_out_once(start: Any, edit: Edit) -> None:
         service.post("/maps/yard/segments", content=edit(1, 200))
         service.post("/maps/yard/segments?robot=ann", content=edit(0, removed=[200]))
     with start() as service:
-        # An id that was used once is not used for another thing.
+        # A used id is never given out again.
         assert service.post("/maps/yard/ids?count=1").json() == {"first": 201, "count": 1}
         for count in ("0", "-1", "1000001", "x", ""):
             refused = service.post(f"/maps/yard/ids?count={count}")
@@ -206,7 +206,7 @@ def test_reserved_ids_are_given_out_once(start: Any, edit: Edit) -> None:
         assert_problem(service.post("/maps/other/ids?count=1"), 404, "unknown-map")
         last = (1 << 32) - 1
         assert service.post("/maps/yard/segments", content=edit(1, last)).status_code == 200
-        # One id takes no others with it.
+        # A far id does not use up the ids in between.
         assert service.post("/maps/yard/ids?count=3").json() == {"first": 202, "count": 3}
 
 
@@ -264,7 +264,7 @@ def test_robot_key_edits_only_its_own_segments(
             assert_problem(refused, 403, "forbidden", "may read maps")
         refused = service.post("/maps/yard/compact", headers=ann)
         assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
-        # To go back is to remove what others wrote since.
+        # A restore would remove segments of other robots.
         caplog.clear()
         with caplog.at_level(logging.INFO, "placecell.audit"):
             service.post(path, content=edit(1, 50, "zoe"), headers=anyone)

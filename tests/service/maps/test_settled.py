@@ -114,7 +114,7 @@ def test_B6_ids_have_no_gap_and_views_stay_limited() -> None:
     assert site.ids.tolist() == list(range(len(site)))
     assert site.views is not None
     first = np.count_nonzero(site.source == site.sources.index("a") + 1)
-    # The first map is stored as it is; of what others add, no thing gets more than so many views.
+    # The first map is stored as it is; later maps add views up to the limit of each object.
     views, counts = np.unique(site.views, return_counts=True)
     own = np.bincount(np.searchsorted(views, site.views[:first]), minlength=len(views))
     assert ((counts <= VIEWS) | (counts == own)).all()

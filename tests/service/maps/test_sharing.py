@@ -75,7 +75,7 @@ def test_concurrent_robots_end_with_the_same_map(service: Any, manifest: Manifes
             assert encode(copy.content) == expected
         (summary,) = owner.maps()
         assert summary.robots == {"owner": 1} | {f"robot-{n}": 18 - 4 for n in range(5)}
-        # A lost answer made nothing happen twice.
+        # No write happened twice after a lost answer.
         assert summary.sequence == 1 + 5 * 6
 
 

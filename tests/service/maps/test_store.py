@@ -222,7 +222,7 @@ def test_power_cut_leaves_an_earlier_state(folder: Path, tmp_path: Path) -> None
             (copy / f"{FILE}-wal").write_bytes(log[:length] + tail)
             with SqliteMapStore.owned(copy) as store:
                 assert store.verify() == []
-                # It came from elsewhere, so some ids were skipped.
+                # The files were copied, so some ids were skipped.
                 heads = store.heads()
                 heads = [replace(head, next_id=head.next_id - SKIPPED) for head in heads]
                 seen.append(states.index(heads))
@@ -322,7 +322,7 @@ def test_online_backup_is_a_valid_database(
         (came_back,) = restored.heads()
         assert came_back == replace(head, next_id=came_back.next_id)
         assert restored.verify() == []
-        # From there the two are different maps, though they count the same.
+        # From here on the maps differ, although their sequences are equal.
         other = restored.append(head, b"otherwise", NOTE, 0)
     assert other.sequence == after.sequence
     assert other.mark != after.mark
@@ -376,7 +376,7 @@ def test_freed_pages_return_to_the_disk(store: SqliteMapStore, folder: Path) -> 
     store.delete(head.uid)
     assert pages() == before
     store.release_space()
-    # A little is kept, to be written to again.
+    # A few free pages are kept for later writes.
     assert pages() <= VACUUM_PAGES + 20
 
 

@@ -90,7 +90,7 @@ def test_parts_lead_to_one_version_despite_writes(start: Any, manifest: Manifest
             more(service, step)
             if step < 5:
                 response = service.get(f"/maps/site/changes?cursor={cursor}&limit=1")
-    # Nor does it matter that the service was started anew.
+    # A restart of the service changes nothing.
     with start() as service:
         while cursor:
             response = service.get(f"/maps/site/changes?cursor={cursor}&limit=1")
@@ -108,14 +108,14 @@ def test_changes_since_a_dropped_version_are_gone(
     service.post(f"{site}/compact?keep=2")
     for query in (f"since={second}", "since=3"):
         assert_problem(service.get(f"{site}/changes?{query}"), 410, "version-gone", "since=0")
-    # A sync at work goes on.
+    # A running sync continues.
     assert service.get(f"{site}/changes?cursor={cursor}").status_code == 200
     for ahead in ("6", "0123456789abcdef-3", "0123456789abcdef-9"):
         refused = service.get(f"{site}/changes?since={ahead}")
         assert_problem(refused, 410, "version-gone")
     delta, _, _ = pull(service, site, "4")
     assert len(delta) == 3
-    # Another map of that name is another map, though it counts the same versions.
+    # A new map of the same name is another map, although its sequences are equal.
     content = service.get(site).content
     service.delete(site)
     service.put(site, content=content)
@@ -188,6 +188,6 @@ def test_full_sync_comes_in_parts(service: Any, site: str, manifest: Manifest) -
     assert parts == 5
     assert encode(delta.changed) == service.get(site).content
     other = map_of(random_codes(2), manifest.model_id, 5000)
-    # A whole one takes the place of whatever the robot had.
+    # A full sync replaces the robot's copy.
     assert encode(apply(other, delta)) == service.get(site).content
     assert np.all(np.diff(delta.changed.ids.astype(np.int64)) > 0)

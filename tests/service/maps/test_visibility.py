@@ -87,7 +87,7 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
         ],
         "/maps/{map}/segments": [
             {"content": edit(map_of(random_codes(2), manifest.model_id, 4, "zoe"))},
-            # More than the robot's quota over all maps, most of which is in maps that are secret.
+            # This exceeds the robot's quota over all maps, mostly by segments in hidden maps.
             {"content": edit(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
             {"content": b"rubbish"},
         ],
@@ -106,7 +106,7 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     }
     asked = set()
     for path, operations in document["paths"].items():
-        # What removes comes last.
+        # Removing requests come last.
         for method in sorted(operations, key=lambda method: method == "delete"):
             names = ["hall-site", "hall-none"] if method != "delete" else ["hall-none"]
             for name in names:
@@ -125,14 +125,14 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     succeeded = {(path, method) for path, method, good in asked if good}
     every = {(path, method) for path, each in document["paths"].items() for method in each}
     assert {(path, method) for path, method, _ in asked} == every
-    # Those that the key may do were done at least once, but for what replaces or merges.
+    # Each request that the key may send succeeded at least once, except replacements and merges.
     assert every - succeeded <= {
         ("/models/reload", "post"), ("/maps/{map}/ids/reset", "post"), ("/maps/{map}", "delete"),
         ("/maps/{map}/merge", "post"), ("/maps/{map}/align/{other}", "post"),
         ("/maps/{map}", "put"), ("/maps/{map}/uploads/{digest}", "post"),
         ("/maps/{map}/uploads/{digest}", "delete"),
     }  # fmt: skip
-    # A key that opens all sees all.
+    # A key of all maps sees all names.
     assert service.get("/maps", headers=boss).json()["maps"][1]["sources"]
     authors = [
         each["author"]
@@ -173,19 +173,19 @@ def test_A19_copy_with_pseudonyms_can_be_written_back(hall: Any, manifest: Manif
     assert sum(name.startswith("hidden:") for name in seen.sources) == 2
     np.testing.assert_array_equal(seen.ids, true.ids)
     np.testing.assert_array_equal(seen.source_ids, true.source_ids)
-    # Whole file, deltas from any version and the cursor's pages lead to the same copy.
+    # The file, the deltas from any version and the pages lead to the same copy.
     for since in range(1, 5):
         old = decode(service.get(f"/maps/hall-site?version={since}", headers=ann).content)
         changes = service.get(f"/maps/hall-site/changes?since={since}", headers=ann)
         assert encode(apply(old, decode_delta(changes.content))) == answer.content
-    # Written back, it changes nothing; nor are names lost that the key never saw.
+    # Writing the copy back changes nothing and keeps hidden names.
     back = service.put("/maps/hall-site", content=answer.content, headers=ann | {"If-Match": tag})
     assert back.headers["etag"] == tag
     some = edit(canonical(replace(seen, codes=random_codes(len(seen), 77))))
     headers = ann | {"If-Match": tag}
     assert service.post("/maps/hall-site/segments", content=some, headers=headers).is_success
     assert decode(service.get("/maps/hall-site", headers=boss).content).sources == true.sources
-    # Keys that see the same share a file; those that do not get their own.
+    # Keys that see the same content share a file; others get their own.
     assert service.get("/maps/hall-site", headers=boss).content != answer.content
 
 
@@ -199,7 +199,7 @@ def test_A19_guessed_source_names_are_refused(hall: Any, manifest: Manifest) -> 
         assert_problem(answer, 403, "forbidden", "source")
     own = canonical(replace(tried, sources=("hall-a", "hall-b", "hall-c")))
     assert service.put("/maps/hall-b", content=encode(own), headers=ann).status_code == 201
-    # Another map's pseudonyms mean nothing, and differ.
+    # Pseudonyms of another map differ and are not restored.
     copy = service.get("/maps/hall-site", headers=ann).content
     put = service.put("/maps/hall-copy", content=copy, headers=ann)
     assert put.status_code == 201

@@ -150,13 +150,13 @@ def test_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Manif
         frame_positions=east.frame_positions + (900.0, 0.0, 0.0),
         frame_times=east.frame_times + 5_000.0,
     )
-    # Laid beside itself by hand.
+    # The map is placed beside itself.
     edit = encode_delta(Delta(copy, np.zeros(0, np.uint32)))
     assert stocked.post("/maps/east/segments", content=edit).status_code == 200
     told = stocked.post("/maps/east/align/west").json()
     assert told["reason"] == "ambiguous"
     assert "Another alignment" in told["detail"]
-    # Both ways, the better one first.
+    # Both hypotheses, the better one first.
     first, second = told["others"]
     assert first["score"] == told["score"] >= second["score"]
     apart = pose_told(first["pose"]).translation - pose_told(second["pose"]).translation
@@ -164,7 +164,7 @@ def test_map_that_shows_another_twice_is_ambiguous(stocked: Any, manifest: Manif
 
 
 def test_align_uses_segments_written_since(stocked: Any, manifest: Manifest) -> None:
-    # West is put anew in parts: the base's index does not have the rest.
+    # West is written in parts, so that the index of the base lacks the rest.
     west = driven(manifest.model_id, "west", 60, 200)
     put(stocked, "parts", take(west, np.arange(100)))
     edit = encode_delta(Delta(take(west, np.arange(100, len(west))), np.zeros(0, np.uint32)))
@@ -247,7 +247,7 @@ def test_align_needs_a_key_for_both_maps(start: Any, tmp_path: Path, manifest: M
             assert told["aligned"]
         for path in (
             *("/maps/east/align/west", "/maps/west/align/east"),
-            # Nor does it tell which names there are.
+            # The answer does not reveal which names exist.
             "/maps/east/align/none",
         ):
             assert_problem(service.post(path, headers=bound), 403, "forbidden")
@@ -278,7 +278,7 @@ def test_too_many_alignments_get_429(
             assert_problem(busy, 429, "busy")
             assert busy.headers["retry-after"]
             assert_problem(service.post("/maps/new/merge", json={"maps": ["east"]}), 429, "busy")
-            # Who reads or writes does not wait.
+            # Readers and writers do not wait.
             assert service.get("/maps/east").status_code == 200
             edit = edit_of(random_codes(1), manifest.model_id, 9_000, "east robot")
             edited = service.post("/maps/east/segments", content=edit)
@@ -303,5 +303,5 @@ def test_align_ends_at_its_deadline(start: Any, manifest: Manifest, monkeypatch:
         put(service, "east", driven(manifest.model_id, "east", 0, 150))
         answer = service.post("/maps/east/align/east", headers={"Placecell-Timeout": "0.3"})
         assert_problem(answer, 504, "deadline-exceeded", "0.3 s")
-        # Of some fifteen parts those that were begun; the rest are not looked at.
+        # Of about fifteen parts only those that had begun are searched.
         assert 1 <= len(asked) <= 4

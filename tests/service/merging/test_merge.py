@@ -138,7 +138,7 @@ def test_new_merged_map_has_the_frame_of_the_first_map(
     site = content(stocked)
     assert site.frame == "east's odometry"
     assert_lies_as_driven(site, maps, "east")
-    # Each with its map, its id there, its robot, its moment and its look.
+    # Each segment keeps its map, its id there, robot, time and codes.
     assert sorted(origins(site)) == sorted(
         (name, id_) for name, each in maps.items() for id_ in each.ids.tolist()
     )
@@ -157,7 +157,7 @@ def test_new_merged_map_has_the_frame_of_the_first_map(
     (summary,) = [each for each in stocked.get("/maps").json()["maps"] if each["name"] == "site"]
     assert summary["sources"] == {name: len(each) for name, each in sorted(maps.items())}
     assert summary["robots"] == {f"{name} robot": len(each) for name, each in sorted(maps.items())}
-    # The parts are as they were.
+    # The merged parts are unchanged.
     for name, each in maps.items():
         assert stocked.get(f"/maps/{name}").content == encode(each)
 
@@ -168,12 +168,12 @@ def test_segments_shown_by_another_map_are_left_out(
     whole = merge(stocked, "whole", ["east", "west"], deduplicate=False).json()
     told = merge(stocked, "site", ["east", "west"]).json()
     east, west = told["parts"]
-    # The first map is whole, though it shows many things more than once.
+    # The first map is complete, although it shows many objects more than once.
     assert (east["added"], east["repeats"]) == (len(maps["east"]), 0)
     assert west["added"] + west["repeats"] == len(maps["west"])
     assert 0.2 < west["repeats"] / len(maps["west"]) < 0.8
     assert told["segments"] == whole["segments"] - west["repeats"]
-    # What is left out lies where both were.
+    # Segments left out are where both robots were.
     kept = {id_ for name, id_ in origins(content(stocked)) if name == "west"}
     west_map = maps["west"]
     out = west_map.centroids[~np.isin(west_map.ids, [*kept])]
@@ -203,7 +203,7 @@ def test_dry_run_returns_changes_and_writes_nothing(stocked: Any) -> None:
     same = ("parts", "alignments", "loops", "segments", "changed", "removed", "frame")
     assert {key: would[key] for key in same} == {key: done[key] for key in same}
 
-    # Into a site that is there.
+    # Merge into an existing merged map.
     before = [stocked.get(path).content for path in ("/maps", "/maps/site", "/maps/site/versions")]
     etag = stocked.get("/maps/site").headers["etag"]
     would = merge(stocked, "site", ["north"], dry_run=True).json()
@@ -227,7 +227,7 @@ def test_merge_is_undone_byte_for_byte(stocked: Any) -> None:
     assert stocked.get("/maps/site").content != before
     assert stocked.post(f"/maps/site/versions/{told['previous']}/restore").status_code == 200
     assert stocked.get("/maps/site").content == before
-    # A new site is undone by removing it.
+    # A new merged map is undone by deleting it.
     assert stocked.delete("/maps/site").status_code == 204
     assert stocked.get("/maps/site").status_code == 404
 
@@ -259,7 +259,7 @@ def test_map_with_few_shared_segments_keeps_its_pose(
     again = merge(stocked, "site", ["north"]).json()
     assert (again["changed"], again["sequence"]) == (0, first["sequence"])
     pose, before = (told["parts"][0]["pose"]["translation"] for told in (again, first))
-    # Its frame's origin is two kilometres away; where the map is, that is less than a millimetre.
+    # The frame's origin is two kilometers away; at the map, the error is below a millimeter.
     np.testing.assert_allclose(pose, before, atol=1e-3)
 
 
@@ -280,7 +280,7 @@ def test_merge_takes_one_id_per_new_segment(stocked: Any, maps: dict[str, Compac
     told = merge(stocked, "site", ["north"]).json()
     (part,) = told["parts"]
     assert part["added"] > 0 < part["repeats"]
-    # The two that were asked for belong to whoever asked.
+    # The two reserved ids belong to the key that asked for them.
     new = range(first + 2, first + 2 + part["added"])
     assert content(stocked).ids.tolist() == [*range(first), *new]
     assert next_id(stocked) == new.stop
@@ -295,7 +295,7 @@ def test_views_of_new_segments_name_a_stored_segment(
     site = content(stocked)
     assert site.views is not None
     assert set(site.views.tolist()) <= set(site.ids.tolist())
-    # Those of one thing that are alone in the site are still of one thing.
+    # New views of one object still share one object.
     rows = rows_from(site, "west")
     assert site.source_ids is not None
     things, named = site.source_ids[rows] // 3, site.views[rows]
@@ -342,7 +342,7 @@ def test_merge_again_follows_added_and_removed_segments(service: Any, manifest: 
         *range(10),
         *range(40, len(west)),
     }
-    # What was known is as it was, under its id; no id is given twice.
+    # Known segments are unchanged, under their ids; no id is given twice.
     rows, places = np.isin(before.ids, after.ids), np.isin(after.ids, before.ids)
     np.testing.assert_array_equal(before.centroids[rows], after.centroids[places])
     assert rows.sum() == len(before) - 30
@@ -372,10 +372,10 @@ def test_merge_again_updates_seen(stocked: Any, maps: dict[str, CompactMap]) -> 
     assert sorted(after.source_ids[lately]) == west.ids[rows].tolist()
     np.testing.assert_array_equal(after.ids, before.ids)
     np.testing.assert_array_equal(after.centroids, before.centroids)
-    # What the site has seen later than the map, it does not forget.
+    # The merged map keeps a later `seen` of its own.
     edited(stocked, "site", seen_at(after, lately, later + 9))
     assert merge(stocked, "site", ["west"], deduplicate=False).json()["changed"] == 0
-    # What none has seen since is old.
+    # Segments that no map saw since keep their `seen`.
     answer = stocked.post(f"/maps/site/age?unseen_since={later}", headers={"If-Match": "*"})
     assert answer.status_code == 200, answer.text
     assert len(content(stocked)) == 30
@@ -449,10 +449,10 @@ def test_merge_again_takes_replaced_segments(
     np.testing.assert_array_equal(
         after.frame_times[after.frame_index[order]], now.frame_times[now.frame_index]
     )
-    # Where the map has them now, and laid as the rest of it was before.
+    # They are where the map has them now, at the pose of the first merge.
     pose = register_yaw(now.centroids, after.centroids[order], np.ones(len(now)))
     assert np.abs(pose.apply(now.centroids) - after.centroids[order]).max() < 0.03
-    # All else is as it was, under its id; no id is given twice.
+    # All other segments are unchanged, under their ids; no id is given twice.
     same, places = np.isin(before.ids, after.ids), np.isin(after.ids, before.ids)
     assert same.sum() == len(before) - 30
     np.testing.assert_array_equal(before.centroids[same], after.centroids[places])
@@ -532,7 +532,7 @@ def test_merged_map_in_a_merged_map_keeps_provenance(stocked: Any) -> None:
     site = content(stocked)
     assert site.sources == ("east", "north", "west")
     assert told["segments"] == len(site)
-    # So a map that came by way of another site is known.
+    # So a map merged through another merged map is known.
     again = merge(stocked, "site", ["west"], deduplicate=False).json()
     (part,) = again["parts"]
     assert (part["added"], part["removed"], again["changed"]) == (0, 0, 0)
@@ -593,7 +593,7 @@ def test_map_is_prepared_once_for_all_alignments(
     assert told.status_code == 201, told.text
     assert all(part["merged"] for part in told.json()["parts"])
     assert len(joined) == len(names)
-    # Nothing is held against the last.
+    # No map is aligned with the last one.
     assert indexed == [len(maps[name]) - 1 for name in names[:-1]]
 
 
@@ -746,7 +746,7 @@ def test_merge_needs_keys_for_all_maps(
         assert_problem(merge(service, "site", ["east", "west"]), 401, "unauthorized")
         assert service.get("/maps/site", headers=writes).status_code == 404
         assert merge(service, "site", ["east", "west"], headers=writes).status_code == 201
-        # Nor does a robot's key add others' segments to a site that is there.
+        # A robot key cannot add other robots' segments to an existing merged map.
         assert_problem(merge(service, "site", ["north"], headers=robots), 403, "forbidden")
 
 
@@ -819,7 +819,7 @@ def test_empty_merged_map_takes_the_frame_of_the_first_map(
     stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(stocked, "site", take(maps["north"], NONE))
-    # Of what is written into it meanwhile nobody knows how it lies.
+    # The pose of segments written in the meantime is unknown.
     meanwhile(monkeypatch, lambda: edited(stocked, "site", take(maps["north"], np.arange(4))))
     assert_problem(merge(stocked, "site", ["east", "west"]), 409, "map-changed")
     edited(stocked, "site", take(maps["north"], NONE), np.arange(4))

@@ -82,13 +82,13 @@ def test_provenance_survives_a_restart(start: Any, site: bytes, manifest: Manife
 
 
 def test_edit_adds_and_removes_sources(service: Any, stored: str, manifest: Manifest) -> None:
-    # A robot that sees a segment anew writes it to this very map; others keep what they had.
+    # A robot that replaces a segment writes it to this map; other segments keep their provenance.
     edit = edit_of(random_codes(1, 9), manifest.model_id, 10, removed=[20, 21, 22])
     assert service.post(f"{stored}/segments?robot=ann", content=edit).status_code == 200
     assert sources_of(service) == {"east": 3}
     now = whence(decode(service.get(stored).content))
     assert [now[10], now[11]] == [("", 10), ("east", 101)]
-    # The source alone is a change, once.
+    # New provenance alone is a change, once.
     content = take(decode(service.get(stored).content), np.array([2]))
     renamed = encode_delta(
         Delta(
