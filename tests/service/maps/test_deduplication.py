@@ -192,7 +192,7 @@ def test_stored_segment_is_known_to_later_uploads(
     # The repeated upload changes nothing.
     again = look(upload, after)
     assert encode(apply(after, Delta(again.changed, NONE))) == encode(after)
-    # Nothing is lost: each segment is stored, or a stored one near it was seen at that time or later.
+    # Nothing is lost: each segment is stored, or one near it was seen at that time or later.
     assert after.seen is not None
     for row, id_ in enumerate(upload.ids):
         if id_ in after.ids:

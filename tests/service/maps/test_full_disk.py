@@ -193,7 +193,7 @@ def test_A18_a_log_that_is_larger_than_the_reserve_moves_into_the_database(
             assert store.heads()[0].sequence == yard.sequence + 1
 
 
-def test_A18_reserve_takes_part_of_a_nearly_full_disk(tmp_path: Path) -> None:
+def test_A18_partly_released_reserve_keeps_the_rest(tmp_path: Path) -> None:
     reserve = DiskReserve(tmp_path)
     assert reserve.hold_for_log(3_000_000)
     held = reserve.size + reserve.log_bytes

@@ -74,7 +74,7 @@ def test_write_during_flattening_stays(
         indexed = state.engine.maps._index
 
         def slowly(*arguments: Any) -> Any:
-            # A write happens once during flattening, after the read and before publication.
+            # Block once in `flatten`: it has read everything and published nothing.
             monkeypatch.setattr(state.engine.maps, "_index", indexed)
             begun.set()
             assert written.wait(60)

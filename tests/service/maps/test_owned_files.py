@@ -150,7 +150,7 @@ def test_A28_flipped_bit_is_noticed_or_changes_nothing(
                 assert found == right or (table, column) == ("opened", "token"), (
                     *(table, row, column, value, altered),
                 )
-    # The token only decides whether ids are skipped; rows of owners without a map are ignored.
+    # Only these may go unnoticed: the token, which decides whether ids are skipped, and map numbers.
     assert columns - noticed <= {("opened", "token"), ("maps", "map")}
 
 
@@ -284,7 +284,7 @@ def test_A10_moved_database_is_reported_and_nothing_is_lost(
         assert service.get("/maps/yard?version=1").content == file
         assert service.put("/maps/yard", content=other, headers=ANY).status_code == 200
         (data_dir / FILE).rename(moved)
-    # The service also stops in the meantime.
+    # The service stopped while its database was moved away.
     assert (data_dir / f"{FILE}-wal").stat().st_size
     moved.rename(data_dir / FILE)
     with start() as service:

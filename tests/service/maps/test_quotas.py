@@ -175,7 +175,7 @@ def test_A17_history_counts_and_deletion_is_always_possible(
         assert "50000" in response.json()["detail"]
         (told,) = service.get("/maps").json()["maps"]
         assert 40_000 < told["bytes"] <= 50_000
-        # Removals are stored nevertheless, but restoring the segments is refused.
+        # Removals are stored nevertheless.
         less = edit_of(random_codes(0), manifest.model_id, removed=[100])
         assert service.post("/maps/yard/segments?robot=ann", content=less).status_code == 200
         assert service.post("/maps/yard/age?unseen_since=0").status_code == 200
