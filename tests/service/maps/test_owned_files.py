@@ -150,7 +150,7 @@ def test_A28_flipped_bit_is_noticed_or_changes_nothing(
                 assert found == right or (table, column) == ("opened", "token"), (
                     *(table, row, column, value, altered),
                 )
-    # Only these may go unnoticed: the token, which decides whether ids are skipped, and map numbers.
+    # Only these may go unnoticed: map numbers, and the token, which decides if ids are skipped.
     assert columns - noticed <= {("opened", "token"), ("maps", "map")}
 
 
