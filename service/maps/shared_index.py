@@ -92,11 +92,11 @@ class SharedIndex:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IndexPart:
-    """Part of a search: one map by its own index, or several by a shared one.
+    """Part of a search: one map by its own index, or several maps by a shared one.
 
     Attributes:
-        places: int64 (maps,), indices of the maps in what was asked about; -1: not asked about.
-        shared: the index of several; None: the map's own.
+        places: index of each map among the searched maps, int64 (maps,); -1 if it is not searched.
+        shared: the shared index; None for the map's own index.
     """
 
     places: Int64
@@ -104,7 +104,7 @@ class IndexPart:
 
     @property
     def hidden(self) -> Bool | None:
-        """Return which rows of the shared index are excluded; None: none are."""
+        """Return which rows of the shared index are excluded; None if no row is."""
         assert self.shared is not None
         if (self.places >= 0).all():
             return None
@@ -131,10 +131,10 @@ class SharedIndexes:
 
         Args:
             searched: maps with an index, of one model.
-            known: all maps there are, for indexes are made of what all keys open.
-            model_id: of that model.
-            quantizer: of that model.
-            patterns: what the keys open.
+            known: all maps, since an index is built of all maps that the same keys open.
+            model_id: id of the model.
+            quantizer: quantizer of the model.
+            patterns: map name patterns that keys open.
         """
         with self._lock:
             if patterns != self._patterns:
