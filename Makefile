@@ -1,4 +1,4 @@
-# Two commands do all: `make demo` and `make test`; each sets up what it needs in .venv.
+# `make help` lists the targets. Each sets up what it needs in .venv.
 PYTHON ?= python3
 DRIVE ?=
 BIN := .venv/bin
@@ -19,10 +19,10 @@ unexport PYTHONDONTWRITEBYTECODE
 help:  ## Show this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
-demo: .venv/demo.stamp  ## Two robots recognise each other's places; DRIVE=path for a recorded drive
+demo: .venv/demo.stamp  ## Run two robots and a service; DRIVE=path uses a recorded drive
 	$(BIN)/placecell demo $(if $(DRIVE),--drive "$(DRIVE)")
 
-serve: .venv/demo.stamp  ## Keep a service running on http://127.0.0.1:8000
+serve: .venv/demo.stamp  ## Run a service on http://127.0.0.1:8000
 	$(BIN)/placecell serve
 
 test: install  ## Run all tests, with coverage; JOBS=N sets the parallel workers
@@ -37,17 +37,17 @@ lint: install  ## Check style and types
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-format: install  ## Put the code into its form
+format: install  ## Format the code
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-docs: .venv-docs/stamp  ## The documentation as a site, in site/; every warning is an error
+docs: .venv-docs/stamp  ## Build the documentation into site/; every warning is an error
 	NO_MKDOCS_2_WARNING=1 .venv-docs/bin/python -m mkdocs build --strict --quiet
 
-reference: install  ## Write the generated parts of docs/reference anew
+reference: install  ## Write the generated parts of docs/reference
 	$(BIN)/python -m cli.reference
 
-install: .venv/development.stamp  ## What the tests need, torch included
+install: .venv/development.stamp  ## Install all that the tests need, torch included
 
 # The demo installs no torch. The two packages are built by what is installed already, and bring
 # nothing along.
@@ -64,7 +64,7 @@ install: .venv/development.stamp  ## What the tests need, torch included
 	$(PIP) --constraint constraints.txt torch pytorch-metric-learning
 	touch $@
 
-lock: .venv-lock/stamp  ## Write requirements/*.txt anew, after constraints.txt has changed
+lock: .venv-lock/stamp  ## Write requirements/*.txt after constraints.txt has changed
 	.venv-lock/bin/python .ci/lock
 
 .venv-lock/stamp:
@@ -78,13 +78,13 @@ lock: .venv-lock/stamp  ## Write requirements/*.txt anew, after constraints.txt 
 	.venv-docs/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements/docs.txt
 	touch $@
 
-# What we are compared with pins NumPy and more otherwise than we do.
-peers: .venv-peers/stamp  ## The systems to compare with, for 'placecell bench peers'
+# The compared systems pin other versions of NumPy.
+peers: .venv-peers/stamp  ## Install the systems to compare with, for 'placecell bench peers'
 
 .venv-peers/stamp: benchmarks/peers/requirements.txt
 	$(PYTHON) -m venv .venv-peers
 	.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --requirement $<
 	touch $@
 
-clean:  ## Remove the environment and what the tools left
+clean:  ## Remove environments, caches and the site
 	rm -rf .venv .venv-docs .venv-lock .venv-peers site .mypy_cache .pytest_cache .ruff_cache .coverage
