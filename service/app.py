@@ -11,7 +11,7 @@ from service.api import docs_pages, error_handlers, openapi
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
-from service.api.middleware.request_log import Account
+from service.api.middleware.request_log import RequestLog
 from service.api.routes import (
     align,
     describe,
@@ -108,7 +108,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
             expose_headers=EXPOSED_HEADERS,
         )
     app.add_middleware(OriginGuard, settings=settings)
-    app.add_middleware(Account)
+    app.add_middleware(RequestLog)
     error_handlers.install(app)
     openapi.install(app)
     if settings.docs:

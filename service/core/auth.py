@@ -29,7 +29,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from service.core.problems import Problem
 
 PREFIX = "placecell_"
-"""Prefix of every key, so that a key found in a file or a log is recognized as one."""
+"""Prefix of every key, which makes keys in files and logs easy to find."""
 
 GRACE_SECONDS = 60.0
 """Seconds for which a key that was removed from an unreadable file still works."""
@@ -38,7 +38,7 @@ logger = logging.getLogger("placecell")
 
 
 class Key(BaseModel):
-    """Scope of a key: the maps and operations that it allows."""
+    """Key and its scope: the maps and operations that it allows."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -12,10 +12,10 @@ SHOWN_IDS = 10_000
 
 
 class ProblemError(BaseModel):
-    """One wrong value."""
+    """Invalid value of a request."""
 
     pointer: str = Field(description="JSON pointer to the value (RFC 6901).")
-    detail: str = Field(description="What is wrong with the value.")
+    detail: str = Field(description="Error of the value.")
 
 
 class Problem(Exception):  # noqa: N818 -- RFC 9457's own word

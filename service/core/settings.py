@@ -36,7 +36,7 @@ OTHER_NAMES = {
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
 }
-"""Environment names that are no settings of the service, with the program that reads them."""
+"""Environment names that are not settings of the service, and their meaning."""
 
 SERVICE_LINK = re.compile(
     r"PLACECELL_([A-Z0-9_]+_)?"
@@ -265,14 +265,14 @@ class Limits(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _bound_json(cls, given: object) -> object:
-        """Let `body_bytes` bound JSON, too, as it did before `json_bytes` came."""
+        """Apply `body_bytes` to JSON if `json_bytes` is not set, as earlier versions did."""
         if isinstance(given, dict) and "body_bytes" in given and "json_bytes" not in given:
             return {**given, "json_bytes": given["body_bytes"]}
         return given
 
 
 class Settings(BaseSettings):
-    """Settings of the service; every default works from a checkout."""
+    """Settings of the service; all defaults work in a checkout."""
 
     model_config = SettingsConfigDict(
         env_prefix=PREFIX, env_nested_delimiter="__", frozen=True, extra="forbid"
@@ -360,7 +360,7 @@ class Settings(BaseSettings):
         """Order the sources: arguments, then the environment, then the file.
 
         Raises:
-            ValueError: the environment or the file has a name that is no setting.
+            ValueError: the environment or the file has a name that is not a setting.
         """
         del dotenv_settings, file_secret_settings
         environment = {
@@ -380,7 +380,7 @@ class Settings(BaseSettings):
 
 
 def is_service_link(name: str, value: str) -> bool:
-    """Return whether Kubernetes set this name for a Service and it is no setting."""
+    """Return whether Kubernetes set this name for a Service, and the name is not a setting."""
     name = name.upper()
     if SERVICE_LINK.fullmatch(name):
         return True
@@ -405,10 +405,10 @@ def variables(model: type[BaseModel], inside: str = PREFIX) -> Iterator[str]:
 
 
 def check_environment(model: type[BaseModel], environment: Mapping[str, str]) -> None:
-    """Refuse names that begin with the prefix but are no settings, so that typos are noticed.
+    """Check that all names with the prefix are settings, so that typing errors are noticed.
 
     Raises:
-        ValueError: such a name, and the nearest setting.
+        ValueError: a name is not a setting; the message names the nearest setting.
     """
     known = [*variables(model), *OTHER_NAMES]
     wrong = [
@@ -424,10 +424,10 @@ def check_environment(model: type[BaseModel], environment: Mapping[str, str]) ->
 
 
 def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -> None:
-    """Refuse keys of the file that are no settings.
+    """Check that all keys of the file are settings.
 
     Raises:
-        ValueError: such a key, and the nearest setting.
+        ValueError: a key is not a setting; the message names the nearest setting.
     """
     wrong = list(unknown_keys(model, content))
     if wrong:
@@ -439,7 +439,7 @@ def check_keys(model: type[BaseModel], content: Mapping[str, Any], file: Path) -
 def unknown_keys(
     model: type[BaseModel], content: Mapping[str, Any], inside: str = ""
 ) -> Iterator[str]:
-    """Yield the keys that are no settings, each with the nearest setting."""
+    """Yield the keys that are not settings, each with the nearest setting."""
     for name, value in content.items():
         field = model.model_fields.get(name)
         if field is None:
@@ -463,7 +463,7 @@ def read_settings(file: Path) -> dict[str, Any]:
     """Return the content of the settings file; empty if there is none.
 
     Raises:
-        ValueError: it cannot be read, or is no TOML.
+        ValueError: the file cannot be read or is not valid TOML.
     """
     try:
         return tomllib.loads(file.read_text(encoding="utf-8-sig"))
@@ -476,7 +476,7 @@ def read_settings(file: Path) -> dict[str, Any]:
 
 
 def settings_file() -> Path:
-    """Return the path of the settings file, whether it exists or not.
+    """Return the path of the settings file, even if it does not exist.
 
     Raises:
         ValueError: the environment names a file that does not exist.

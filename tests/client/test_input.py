@@ -108,9 +108,7 @@ def test_B3_arrays_in_any_memory_layout_are_accepted(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ["json", "msgpack"])
 @pytest.mark.parametrize("kind", ["f4", "f8"])
-def test_B10_points_that_are_not_finite_are_left_out_and_counted(
-    encoding: Encoding, kind: str
-) -> None:
+def test_B10_nonfinite_points_are_dropped_and_counted(encoding: Encoding, kind: str) -> None:
     broken = CLOUD.astype(kind)
     broken[3, 1], broken[7], broken[9, 2] = np.nan, np.inf, -np.inf
     masked = np.ma.masked_array(CLOUD, mask=np.zeros((40, 3), bool))

@@ -1,17 +1,17 @@
-"""Client addresses, grouped as limits and fair shares count them."""
+"""Client addresses: grouped into networks, for limits and fair shares."""
 
 import ipaddress
 from functools import lru_cache
 
 IPV6_PREFIX = 64
-"""Network prefix of an IPv6 address, bits: one client has all addresses of a network."""
+"""Network prefix of an IPv6 address, bits. One client usually holds a whole network."""
 
 
 @lru_cache(maxsize=4_096)
 def client_network(address: str) -> str:
-    """Return the network that an address counts as: IPv4 itself, IPv6 its /64.
+    """Return the network that an address counts as: an IPv4 address or an IPv6 /64 network.
 
-    An IPv4 address that came to a socket of IPv6 (`::ffff:192.0.2.1`) counts as itself.
+    An IPv4 address in IPv6 form (`::ffff:192.0.2.1`) counts as the IPv4 address.
     """
     try:
         parsed = ipaddress.ip_address(address.partition("%")[0])

@@ -1,8 +1,8 @@
 """Admission control: limits concurrent requests (429), enforces deadlines (504), cancels work.
 
-Work is cancelled when it is late, or when its client disconnects. Requests take one of several
-lanes: recognition, reads of stored maps, edits, uploads, alignments. Each lane has places and
-threads of its own, shared fairly among clients. A client is a key, or an address where there are no
+Work is cancelled at its deadline or when its client disconnects. Requests take one of several
+lanes: recognition, reads of stored maps, edits, uploads, alignments. Each lane has its own places
+and threads, which clients share fairly. A client is an API key, or an address if the service has no
 keys.
 """
 
@@ -40,11 +40,11 @@ HEAVY_BYTES = 1 << 20
 """Bytes from which a body counts as heavy; a compressed one counts as heavy at any size."""
 
 SHARING_SECONDS = 5.0
-"""Seconds after its last request during which a client still has a share of a lane."""
+"""Time after its last request during which a client keeps its share of a lane, seconds."""
 
 
 class Lane:
-    """Lane of requests of one kind, with its own limits and threads."""
+    """Lane: the requests of one kind, with their own limits and threads."""
 
     def __init__(
         self,
@@ -59,13 +59,13 @@ class Lane:
         """Create a lane.
 
         Args:
-            most: requests at work or waiting.
-            threads: that work at once.
-            seconds: that a request may take once its body is there.
-            body: how long its body may take.
-            body_bytes: that a compressed body may hold.
-            receiver: receives bodies.
-            gauge: shows how many requests are inside.
+            most: largest number of requests that run or wait.
+            threads: number of requests that run at once.
+            seconds: longest time of a request after its body has arrived, seconds.
+            body: time limits of a body.
+            body_bytes: largest size of a decompressed body, bytes.
+            receiver: receiver of the bodies.
+            gauge: metric of the number of requests in the lane.
         """
         self.threads = FairThreads(threads)
         self._most = most
@@ -81,11 +81,11 @@ class Lane:
     async def admit(
         self, request: Request, media_types: Collection[str], timing: Timing
     ) -> AsyncIterator[Body]:
-        """Receive a request's body; the block ends at the deadline or when the client disconnects.
+        """Receive a request's body; cancel the block at the deadline or on disconnect.
 
         Raises:
-            Problem: 429 if the lane is full, 504 if the deadline passes, 408, 413 or 415 if the
-                body is not as it should be.
+            Problem: 429 if the lane is full; 504 if the deadline passes; 408, 413 or 415 if the
+                body is late, too large or of the wrong type.
         """
         client = client_of(request)
         asked = _timeout_of(request)
@@ -119,7 +119,7 @@ class Lane:
 
     @asynccontextmanager
     async def enter(self, request: Request) -> AsyncIterator[None]:
-        """Admit a request that needs no body; raises as `admit` does."""
+        """Admit a request without a body; raise as `admit` does."""
         client = client_of(request)
         asked = _timeout_of(request)
         limit = self._limit(asked, 0.0)
@@ -129,7 +129,7 @@ class Lane:
     def _limit(self, asked: float | None, spent: float) -> float:
         """Return the seconds that are left for the work.
 
-        Where a body has its time from the same account, it is not given twice.
+        If the body and the work share one time limit, the body's time is subtracted.
         """
         together = self._body.seconds <= self._seconds
         left = self._seconds - (spent if together else 0.0)
@@ -159,9 +159,9 @@ class Lane:
                         yield admitted
                     except Cancelled:
                         stopped = True
-                        # If the client has left, that is what is told.
+                        # If the client has disconnected, that error comes first.
                         await anyio.lowlevel.checkpoint()
-                # A thread was not interrupted; late is late all the same.
+                # The thread was not interrupted, but the deadline has passed.
                 await anyio.lowlevel.checkpoint_if_cancelled()
         finally:
             _admitted.reset(before)
@@ -179,10 +179,12 @@ class Lane:
             self._gauge.set(self._inside.total())
 
     def _check(self, client: str) -> None:
-        """Check that a client may have one more request in the lane; 429 if not.
+        """Check that a client may have one more request in the lane.
 
-        Places are shared by the clients that ask: each may have an equal part of them, and each may
-        always have one.
+        Active clients share the places equally, and each client always has one place.
+
+        Raises:
+            Problem: 429 if the client's share or the lane is full.
         """
         now = time.monotonic()
         self._asked[client] = now
@@ -198,12 +200,12 @@ class Lane:
             )
 
     async def _check_early(self, client: str, request: Request) -> None:
-        """Refuse a request before its body arrives, if it would be refused afterwards too."""
+        """Refuse a request before its body arrives if the lane is full already."""
         try:
             self._check(client)
         except Problem as problem:
-            # A body that was heard out leaves the connection fit for the next request; a client
-            # that waits for a 100 must not be made to send it.
+            # If the whole body was received, the connection can carry the next request. A client
+            # that waits for `100 Continue` must not be made to send its body.
             if "expect" in request.headers or not await discard(request.receive):
                 problem.headers = {**(problem.headers or {}), "Connection": "close"}
             raise
@@ -211,7 +213,7 @@ class Lane:
 
 @dataclass(frozen=True, slots=True)
 class Admitted:
-    """Request that has a place in a lane."""
+    """Admitted request: holds a place in a lane."""
 
     lane: Lane
     client: str
@@ -219,7 +221,7 @@ class Admitted:
     is_heavy: bool = False
 
     async def run(self, work: Callable[[], Result]) -> Result:
-        """Run blocking work in one of the lane's threads, in the client's turn."""
+        """Run blocking work in one of the lane's threads, when it is the client's turn."""
         self.token.check()
         return await self.lane.threads.run(self.client, work, self.is_heavy)
 
@@ -228,12 +230,12 @@ _admitted: ContextVar[Admitted | None] = ContextVar("placecell_admitted", defaul
 
 
 def admitted() -> Admitted | None:
-    """Return the request at hand if it has a place in a lane; None otherwise."""
+    """Return the current request if it has a place in a lane; None otherwise."""
     return _admitted.get()
 
 
 def client_of(request: Request) -> str:
-    """Return the client that shares are counted for: the request's key, or its address."""
+    """Return the client of a request, for fair shares: its API key or its address."""
     state = request.app.state.placecell
     if state.keys:
         return f"key {request.scope['state'].get('key', '')}"
@@ -241,7 +243,7 @@ def client_of(request: Request) -> str:
 
 
 def _timeout_of(request: Request) -> float | None:
-    """Return the seconds that the client waits; None if it states none."""
+    """Return the seconds that the client waits; None if the request has no such header."""
     asked = request.headers.get(TIMEOUT)
     if asked is None:
         return None
@@ -249,7 +251,7 @@ def _timeout_of(request: Request) -> float | None:
         seconds = float(asked)
     except ValueError:
         seconds = float("nan")
-    if not seconds > 0:  # and so not for NaN
+    if not seconds > 0:  # excludes NaN
         raise Problem(
             400,
             "invalid-header",
@@ -259,7 +261,7 @@ def _timeout_of(request: Request) -> float | None:
 
 
 def _late(seconds: float) -> Problem:
-    return Problem(504, "deadline-exceeded", f"Not done within {seconds:.3g} s.")
+    return Problem(504, "deadline-exceeded", f"Not finished within {seconds:.3g} s.")
 
 
 @asynccontextmanager
@@ -267,7 +269,7 @@ async def _while_connected(request: Request, token: CancelToken) -> AsyncIterato
     """Cancel the block and its token when the client closes the connection.
 
     Raises:
-        ClientDisconnect: it did.
+        ClientDisconnect: the client closed the connection.
     """
     with anyio.CancelScope() as scope:
 

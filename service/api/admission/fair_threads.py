@@ -1,4 +1,4 @@
-"""Threads that clients share fairly: no client can occupy all threads."""
+"""Fair threads: a thread pool that no single client can occupy."""
 
 import asyncio
 import time
@@ -12,10 +12,13 @@ import anyio.to_thread
 Result = TypeVar("Result")
 
 LONG_SECONDS = 0.25
-"""Seconds after which a running call lends its place to waiting ones and continues beside them."""
+"""Time after which a running call gives up its place to a waiting call, seconds.
+
+The running call then continues beside the other one.
+"""
 
 LENT = 4
-"""Largest number of calls at once, as a multiple of the places; one client has half of it."""
+"""Largest number of calls at once, as a multiple of the places. One client may have half."""
 
 
 Kind = tuple[str, bool]
@@ -25,17 +28,17 @@ Kind = tuple[str, bool]
 class FairThreads:
     """Pool of threads for blocking calls, shared fairly among clients.
 
-    Calls that wait are started in turn of their clients, round robin. A client that has no call at
-    work may always start one, and a call that takes long lends its place to others; so a small call
-    never waits for the end of a large one. Heavy calls, which take much memory, wait apart from the
-    others, and no place is lent to them. Belongs to one event loop.
+    Waiting calls start round robin over the clients. A client without a running call may always
+    start one, and a long call gives up its place. So a small call never waits for the end of a
+    large one. Heavy calls, which need much memory, have a queue of their own and take no place from
+    running calls. A pool belongs to one event loop.
     """
 
     def __init__(self, places: int) -> None:
         """Create the threads.
 
         Args:
-            places: calls that work at once, as long as none takes long.
+            places: number of calls that run at once, as long as all calls are short.
         """
         self._places = places
         self._threads = anyio.CapacityLimiter(LENT * places)
@@ -44,7 +47,7 @@ class FairThreads:
         self._timer: asyncio.TimerHandle | None = None
 
     async def run(self, client: str, work: Callable[[], Result], heavy: bool = False) -> Result:
-        """Run a call; a call cancelled before its turn is not started."""
+        """Run a call; do not start it if it is cancelled before its turn."""
         ticket = await self._turn((client, heavy))
         try:
             return await anyio.to_thread.run_sync(work, limiter=self._threads)
@@ -96,7 +99,7 @@ class FairThreads:
         return short < self._places and own < LENT * self._places // 2
 
     def _start_waiting(self) -> None:
-        """Start waiting calls in free places, one client at a time."""
+        """Start waiting calls in free places, round robin over the clients."""
         turned = True
         while turned:
             turned = False
@@ -113,7 +116,7 @@ class FairThreads:
         self._look_again_later()
 
     def _look_again_later(self) -> None:
-        """Check again when a running call becomes a long one, so that another may start."""
+        """Schedule the next check for when a running call becomes a long call."""
         if self._timer is not None or not self._waiting:
             return
         recent = time.monotonic() - LONG_SECONDS

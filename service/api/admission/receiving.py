@@ -1,4 +1,4 @@
-"""Receiving request bodies: media type, progress and memory."""
+"""Receiving of request bodies, with limits on media type, progress and memory."""
 
 import time
 from collections import Counter
@@ -15,7 +15,7 @@ from service.core.problems import Problem
 RETRY_SECONDS = 1
 
 SLOWEST_RATE = 1_000
-"""Lowest average rate of a body after the first `stall_seconds`, bytes/s."""
+"""Lowest average rate of a body after its first `stall_seconds`, bytes/s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,8 +23,8 @@ class BodyRules:
     """Time limits of a body.
 
     Attributes:
-        seconds: until it must be there.
-        stall_seconds: without a byte, at most.
+        seconds: longest time until the body has arrived, seconds.
+        stall_seconds: longest time without a new byte, seconds.
     """
 
     seconds: float
@@ -32,15 +32,15 @@ class BodyRules:
 
 
 class ByteBudget:
-    """Budget of bytes that clients may hold at once, together and each."""
+    """Budget of bytes that clients may hold at once, in total and per client."""
 
     def __init__(self, total: int, share: int, what: str) -> None:
         """Create a budget.
 
         Args:
-            total: bytes over all clients.
-            share: bytes of one client.
-            what: names in errors what the bytes are of.
+            total: budget of all clients together, bytes.
+            share: budget of one client, bytes.
+            what: kind of content that the bytes hold, named in errors.
         """
         self.total = total
         self.share = share
@@ -49,7 +49,11 @@ class ByteBudget:
         self.bytes = 0
 
     def take(self, client: str, count: int) -> None:
-        """Count bytes of a client; 429 if they exceed the budget."""
+        """Count bytes of a client.
+
+        Raises:
+            Problem: 429 if the bytes exceed the budget.
+        """
         if self._held[client] + count > self.share:
             raise busy(
                 f"This client has {self._held[client]} bytes of {self._what} in progress; "
@@ -63,7 +67,7 @@ class ByteBudget:
         self.bytes += count
 
     def has_room(self, client: str, count: int) -> bool:
-        """Return whether a client could take that many bytes."""
+        """Return whether the budget has that many bytes left for a client."""
         return self._held[client] + count <= self.share and self.bytes + count <= self.total
 
     def give_back(self, client: str, count: int) -> None:
@@ -83,12 +87,16 @@ class Held:
         self._bytes = 0
 
     def add(self, count: int) -> None:
-        """Hold more bytes; 429 if they exceed the budget."""
+        """Hold more bytes.
+
+        Raises:
+            Problem: 429 if the bytes exceed the budget.
+        """
         self._budget.take(self._client, count)
         self._bytes += count
 
     def release(self) -> None:
-        """Hold no bytes any longer."""
+        """Return all held bytes to the budget."""
         self._budget.give_back(self._client, self._bytes)
         self._bytes = 0
 
@@ -100,8 +108,8 @@ class Receiver:
         """Create a receiver.
 
         Args:
-            bodies: of one client at once.
-            budget: of bytes.
+            bodies: largest number of bodies that one client sends at once.
+            budget: budget of the bytes of all bodies.
         """
         self._bodies = bodies
         self._budget = budget
@@ -117,10 +125,11 @@ class Receiver:
             held.release()
 
     async def receive(self, request: Request, client: str, rules: BodyRules, held: Held) -> bytes:
-        """Return the body as it was sent.
+        """Receive a body and return its bytes, without decoding.
 
         Raises:
-            Problem: 408 if it does not come, 429 if the client sends too much at once.
+            Problem: 408 if the body does not arrive in time, 429 if the client sends too many
+                bodies or bytes at once.
         """
         if self._receiving[client] >= self._bodies:
             raise busy(
@@ -176,17 +185,17 @@ def _slow(rules: BodyRules, spent: float, received: int) -> Problem:
 
 
 def check_types(request: Request, media_types: Collection[str]) -> tuple[str, str]:
-    """Return the body's media type, empty if the request names none, and its coding.
+    """Return the body's media type and content coding; empty strings for missing headers.
 
     Raises:
-        Problem: 415 for another type or coding.
+        Problem: 415 if the type or the coding is not supported.
     """
     stated = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if stated and stated not in media_types:
         raise Problem(
             415,
             "unsupported-media-type",
-            f"The body is {stated!r:.80}; expected {' or '.join(sorted(media_types))}."
+            f"Invalid Content-Type {stated!r:.80}: expected {' or '.join(sorted(media_types))}."
             + form_hint(stated, media_types),
             headers={"Accept": ", ".join(sorted(media_types))},
         )
@@ -195,14 +204,14 @@ def check_types(request: Request, media_types: Collection[str]) -> tuple[str, st
         raise Problem(
             415,
             "unsupported-content-encoding",
-            f"The body is coded as {coding!r:.80}; expected {' or '.join(CODINGS)}.",
+            f"Invalid Content-Encoding {coding!r:.80}: expected {' or '.join(CODINGS)}.",
             headers={"Accept-Encoding": ", ".join(CODINGS)},
         )
     return stated, coding
 
 
 def busy(detail: str, closes: bool = False) -> Problem:
-    """Return the problem of a client that asks for too much at once."""
+    """Return the problem of a client that exceeds a limit on concurrent work."""
     headers = {"Retry-After": str(RETRY_SECONDS)}
     if closes:
         headers["Connection"] = "close"
@@ -210,7 +219,7 @@ def busy(detail: str, closes: bool = False) -> Problem:
 
 
 def form_hint(stated: str, media_types: Collection[str]) -> str:
-    """Return the header to add if a program took the body for a form, as curl does."""
+    """Return a hint about Content-Type if a program labeled the body a form, as curl does."""
     if stated != "application/x-www-form-urlencoded":
         return ""
     wanted = min(media_types)

@@ -1,7 +1,7 @@
-"""Streaming: answers sent in pieces as the client takes them, from disk if they are large.
+"""Streaming: sends answers in pieces at the client's pace, and large answers from disk.
 
-A large answer is written once to a file without a name, is shared by all that ask for it meanwhile,
-and is gone with the last of them, or with the process.
+A large answer is written once to an unnamed temporary file. All concurrent requests for the answer
+share the file. The file disappears with the last of these requests, or with the process.
 """
 
 import asyncio
@@ -25,13 +25,16 @@ from service.core.problems import Problem
 Result = TypeVar("Result")
 
 SMALL_BYTES = 64 << 10
-"""Largest size of an answer that is sent at once, bytes."""
+"""Largest size of an answer that is sent in one piece, bytes."""
 
 PIECE_BYTES = 128 << 10
-"""Bytes of an answer in memory beside those in the socket."""
+"""Size of a piece of an answer, bytes. One piece is in memory, besides the socket's buffer."""
 
 MEMORY_BYTES = 32 << 20
-"""Bytes of all answers in memory; more go to disk. One client has half of it."""
+"""Largest size of all answers in memory, bytes. Further answers go to disk.
+
+One client may have half of it.
+"""
 
 READERS = 4
 """Number of threads that read answers from disk."""
@@ -41,15 +44,15 @@ Run = Callable[[Callable[[], bytes]], Awaitable[bytes]]
 
 
 class Answers:
-    """Sender of answers that bounds their bytes in progress. Belongs to one event loop."""
+    """Sender of answers that limits the bytes in progress. It belongs to one event loop."""
 
     def __init__(self, folder: Path, total: int, seconds: float) -> None:
         """Create the sender.
 
         Args:
-            folder: where files are made, of no name.
-            total: bytes of answers in progress, over all clients; each may have half.
-            seconds: that an answer may take to be sent.
+            folder: folder of the unnamed temporary files.
+            total: largest size of all answers in progress, bytes. One client may have half of it.
+            seconds: longest time to send an answer, seconds.
         """
         self._folder = folder
         self._seconds = seconds
@@ -62,7 +65,7 @@ class Answers:
 
     @property
     def under_way(self) -> int:
-        """Return the bytes of large answers being sent; shared content counts once."""
+        """Return the bytes of the large answers in progress; count shared content once."""
         return self._memory.bytes + self._disk.bytes
 
     async def respond(
@@ -72,7 +75,11 @@ class Answers:
         media_type: str,
         headers: Mapping[str, str] | None = None,
     ) -> Response:
-        """Answer with the content of one client; 429 if too many bytes are in progress."""
+        """Answer one client with content.
+
+        Raises:
+            Problem: 429 if too many bytes are in progress.
+        """
         if len(content) <= SMALL_BYTES:
             return Response(content, media_type=media_type, headers=headers)
         if self._memory.has_room(client, len(content)):
@@ -94,15 +101,15 @@ class Answers:
         """Answer with named content, which is made once for all concurrent requests.
 
         Args:
-            name: of the content; the same name is the same content.
-            make: makes it.
-            run: runs `make` off the event loop.
-            client: that asked.
-            media_type: of the content.
-            headers: of the answer.
+            name: name of the content. Equal names mean equal content.
+            make: function that returns the content.
+            run: function that runs `make` outside the event loop.
+            client: client of the request.
+            media_type: media type of the content.
+            headers: headers of the answer.
 
         Raises:
-            Problem: 429 if too many bytes are in progress, and what `make` raises.
+            Problem: 429 if too many bytes are in progress; also the problems that `make` raises.
         """
         making = self._locks.setdefault(name, _Making())
         making.users += 1
@@ -131,13 +138,17 @@ class Answers:
         )
 
     def use(self, file: "_File", client: str) -> None:
-        """Count one more answer of a file; 429 if its client has too many bytes in progress."""
+        """Count one more answer that uses a file.
+
+        Raises:
+            Problem: 429 if the client has too many bytes in progress.
+        """
         if not file.users[client]:
             self._own.take(client, file.size)
         file.users[client] += 1
 
     def unuse(self, file: "_File", client: str) -> None:
-        """Count one answer less; drop a file without answers."""
+        """Count one answer less; close the file if no answer uses it any longer."""
         file.users[client] -= 1
         if not file.users[client]:
             del file.users[client]
@@ -187,8 +198,8 @@ class Answers:
             raise Problem(
                 503,
                 "no-room-for-answer",
-                "The answer is too large for memory and cannot be written to disk. Free disk "
-                "space, or try again later.",
+                "The answer is too large for memory, and writing it to disk failed. Free disk "
+                "space or try again later.",
                 headers={"Retry-After": "5"},
             ) from error
         raise error
@@ -203,7 +214,7 @@ class _File:
 
 
 class _Making:
-    """Requests for the same content: one makes it, the others wait."""
+    """Content in the making: one request makes it, and the others wait."""
 
     def __init__(self) -> None:
         self.lock = asyncio.Lock()
@@ -259,7 +270,7 @@ class _OnDisk(_Source):
 
 
 class Streamed(Response):
-    """Answer in pieces: the next one is read when the socket has space."""
+    """Answer in pieces; each piece is read when the socket has space."""
 
     def __init__(
         self,
@@ -274,7 +285,7 @@ class Streamed(Response):
         self._seconds = seconds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send the answer; release what it holds, however sending ends."""
+        """Send the answer; release its bytes and its file at the end, even after an error."""
         try:
             with anyio.fail_after(self._seconds), anyio.CancelScope() as gone:
 
@@ -302,17 +313,17 @@ class Streamed(Response):
         while offset < size:
             piece = await self._source.piece(offset)
             if not piece:
-                raise EOFError("the answer's file is shorter than it was")
+                raise EOFError("the file of the answer ends too early")
             offset += len(piece)
             await send({"type": "http.response.body", "body": piece, "more_body": True})
         await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     def release(self) -> None:
-        """Release what the answer holds."""
+        """Release the bytes and the file of the answer."""
         source, self._source = self._source, None
         if source is not None:
             source.release()
 
     def __del__(self) -> None:
-        # An answer that was made, but whose client left before it was sent.
+        # For an answer whose client disconnected before it was sent.
         self.release()

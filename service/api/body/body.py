@@ -1,4 +1,4 @@
-"""Reading a request's body and writing a response's: media type, then bytes, then schema."""
+"""Parsing of request bodies and rendering of responses, as JSON or msgpack."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -19,7 +19,7 @@ JSON = "application/json"
 MSGPACK = "application/msgpack"
 OCTETS = "application/octet-stream"
 ENCODINGS = (JSON, MSGPACK)
-"""The first one unless the client says otherwise."""
+"""Media types of answers; the first is the default."""
 
 Schema = TypeVar("Schema", bound=BaseModel)
 Packed = TypeVar("Packed", bound=PackedRequest)
@@ -27,17 +27,17 @@ Packed = TypeVar("Packed", bound=PackedRequest)
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """A request's body, and its media type: empty if the request names none."""
+    """Body of a request and its media type, which is empty if the request names none."""
 
     media_type: str
     content: bytes
 
 
 def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:
-    """Of the media types on offer, the one that the request's Accept likes best; ties: the first.
+    """Return the offered media type that the Accept header prefers; the first of equals.
 
     Raises:
-        Problem: 406 if none fits.
+        Problem: 406 if no offered type is acceptable.
     """
     accept = ",".join(request.headers.getlist("accept"))
     if not accept.strip():
@@ -45,19 +45,24 @@ def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:
     best = max(offered, key=lambda media_type: _quality(media_type, accept))
     if _quality(best, accept) <= 0:
         raise Problem(
-            406, "not-acceptable", f"The answer can be {' or '.join(offered)}, not {accept!r:.80}."
+            406,
+            "not-acceptable",
+            f"Unsupported media type in Accept {accept!r:.80}: expected {' or '.join(offered)}.",
         )
     return best
 
 
 def _quality(media_type: str, accept: str) -> float:
-    """What an Accept header gives a media type, 0 to 1; the range that fits closest decides."""
+    """Return the quality of a media type in an Accept header, 0 to 1.
+
+    The most specific range that matches decides.
+    """
     fits = (media_type, media_type.partition("/")[0] + "/*", "*/*")
     qualities: dict[str, float] = {}
     for part in accept.lower().split(","):
         name, *parameters = (piece.strip() for piece in part.split(";"))
         weights = [piece[2:] for piece in parameters if piece.startswith("q=")]
-        # A weight that cannot be read is none; `float` alone would take `nan`.
+        # An invalid weight counts as 0. `float` alone would accept `nan`.
         good = all(re.fullmatch(r"[01](\.\d*)?", weight) for weight in weights)
         quality = float(weights[0]) if good and weights else float(good)
         qualities[name] = max(quality, qualities.get(name, 0.0))
@@ -67,11 +72,11 @@ def _quality(media_type: str, accept: str) -> float:
 def parse(
     schema: type[Schema], packed: type[Packed], body: Body, limits: Limits
 ) -> Schema | Packed:
-    """The body as its schema says: the one for JSON, or the one for msgpack.
+    """Parse a body by the schema of its encoding, JSON or msgpack.
 
     Raises:
-        Problem: 413 if it holds too many values, 400 if it is not in its encoding, 422 if it does
-            not fit the schema.
+        Problem: 413 if the body holds too many values, 400 if it is invalid JSON or msgpack, 422
+            if it does not match the schema.
     """
     try:
         if body.media_type == MSGPACK:
@@ -84,7 +89,7 @@ def parse(
 def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
     """Encode a response.
 
-    Its lists are encoded one item after the other, so that other threads get their turn.
+    Lists are encoded item by item, so that other threads can run in between.
     """
     content = response.model_dump() if isinstance(response, BaseModel) else response
     return msgpack_codec.pack(content) if media_type == MSGPACK else b"".join(_json_parts(content))

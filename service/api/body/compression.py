@@ -1,4 +1,4 @@
-"""Decompression of bodies within limits, because a small body can hold a large one."""
+"""Decompression of bodies with limits, because a small body can expand to a large one."""
 
 import zlib
 from collections.abc import Iterator
@@ -12,29 +12,30 @@ from service.core.problems import Problem
 CODINGS = ("gzip", "zstd")
 
 WINDOW_BYTES = 8 << 20
-"""Of zstd, at most, as RFC 8878 wants every decoder to support."""
+"""Largest window of a zstd frame, bytes. RFC 8878 asks every decoder to support this size."""
 
 MEMBERS = 4_096
-"""Largest number of gzip members or zstd frames of a body: each costs time, even empty."""
+"""Largest number of gzip members or zstd frames in a body. Even an empty one costs time."""
 
 GZIP_PIECE = 64 << 10
-"""Compressed gzip bytes per step; the work can be cancelled after each step."""
+"""Compressed gzip bytes per step. The work can be cancelled after each step."""
 
 ZSTD_PIECE = 512
-"""Compressed zstd bytes per step; four bytes can hold 128 KiB, and the decoder has no limit."""
+"""Compressed zstd bytes per step. Four bytes can expand to 128 KiB."""
 
 
 def decompress(content: bytes, coding: str, limit: int) -> bytes:
     """Return the decompressed content of a body.
 
     Args:
-        content: the body.
-        coding: one of `CODINGS`.
-        limit: bytes that it may hold; not much more is ever decompressed.
+        content: compressed body.
+        coding: content coding, one of `CODINGS`.
+        limit: largest decompressed size, bytes. Decompression stops soon after it.
 
     Raises:
-        Problem: 413 if it holds more, or has too many members; 400 if it is not in its coding.
-        Cancelled: the request is late, or its client has left.
+        Problem: 413 if the content is larger or has too many members; 400 if it is not validly
+            compressed.
+        Cancelled: the deadline has passed, or the client has disconnected.
     """
     try:
         return _gunzip(content, limit) if coding == "gzip" else _unzstd(content, limit)
@@ -45,7 +46,7 @@ def decompress(content: bytes, coding: str, limit: int) -> bytes:
 
 
 class _Output:
-    """Output that was decompressed so far."""
+    """Decompressed output so far."""
 
     def __init__(self, limit: int) -> None:
         self._parts: list[bytes] = []
@@ -59,7 +60,8 @@ class _Output:
             raise Problem(
                 413,
                 "body-too-large",
-                f"The decompressed body exceeds the limit of {self._limit} bytes; see /info.",
+                f"The decompressed body is larger than {self._limit} bytes, the limit. Send "
+                "smaller bodies; GET /info shows all limits.",
             )
         if part:
             self._parts.append(part)
@@ -70,8 +72,8 @@ class _Output:
             raise Problem(
                 413,
                 "too-many-members",
-                f"The compressed body has more than {MEMBERS} members, the limit. "
-                "Compress it as a single member.",
+                f"The compressed body has more than {MEMBERS} members, the limit. Compress the "
+                "body as a single member.",
             )
 
     @property
@@ -97,7 +99,7 @@ def _gunzip(content: bytes, limit: int) -> bytes:
         while rest:
             if decoder is None:
                 if output.members and not (rest := rest.lstrip(b"\0")):
-                    break  # padding, as on tapes
+                    break  # zero padding
                 output.begin_member()
                 decoder = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
             output.add(decoder.decompress(rest, output.room))

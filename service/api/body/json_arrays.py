@@ -1,13 +1,13 @@
-"""Arrays of a JSON request, read by compiled code while other threads run.
+"""Arrays of a JSON request, parsed by compiled code while other threads run.
 
-A request is nearly all numbers: the points of its segments, or codes and centroids. A parser that
-makes a Python object of each holds the interpreter for the whole body, 140 ms for 11 MB, and no
-other request is answered meanwhile. So the arrays are cut out first, straight into NumPy arrays and
-without the interpreter's lock. What is left is small, and pydantic reads it as ever.
+A request consists mostly of numbers: the points of its segments, or codes and centroids. A parser
+that makes a Python object of each number holds the interpreter's lock for the whole body (140 ms
+for 11 MB), and no other request is answered meanwhile. So compiled code first cuts the arrays out
+of the body, without the lock, into NumPy arrays. The rest is small, and pydantic parses it.
 
-Numbers are read as the field does it: Clinger's fast path, otherwise the method of Eisel and Lemire
-("Number parsing at a gigabyte per second", 2021). Both round correctly. The few numbers that
-neither settles are left to `float`.
+Numbers are parsed by Clinger's fast path and else by the method of Eisel and Lemire ("Number
+parsing at a gigabyte per second", 2021). Both round correctly. `float` parses the few numbers that
+neither method can decide.
 """
 
 import re
@@ -26,17 +26,17 @@ NAMES = ("points", "centroids", "codes")
 STAND_INS = (b"[]", b"[[0,0,0]]", b"[[]]")
 """Valid arrays that replace arrays of each kind while a body is searched for errors."""
 LONGEST_ROW = 1 << 16
-"""Largest size of a point or code that is parsed again to name its error, bytes."""
+"""Largest size of an invalid point or code that is parsed again to describe its error, bytes."""
 
 # Columns of `spans`, one row for each array.
 BEGIN, END, KIND, FIRST, ROWS, BAD = range(6)
 # Elements of `tally`.
 SPANS, FLOAT_ROWS, POINT_ROWS, INTS, CODE_ROWS, HARD, VALUES, SYNTAX_AT, SYNTAX, DEPTH = range(10)
-# Columns of `bad`, one row for each kind: the first array of that kind with an error.
+# Columns of `bad`. Each row is the first array of one kind that has an error.
 BAD_ROW, BAD_BEGIN, BAD_END = range(3)
 
 DEEPEST = 200
-"""Largest depth of nested lists and objects; pydantic's parser has the same limit."""
+"""Largest depth of nested lists and objects. Pydantic's parser has the same limit."""
 
 SYNTAX_ERRORS = {
     1: "EOF while parsing a list",
@@ -79,20 +79,20 @@ class Arrays:
     """Arrays that were cut out of a body.
 
     Attributes:
-        body: whole.
-        token: stands before the number of an array, where it was cut out.
-        spans: int64 (arrays, 6): place in the body, kind, first row and rows among the values, and
-            whether it has an error.
-        floats: float64 (rows, 3), of points and centroids.
-        codes: int8 (values,), of codes.
-        lengths: int64 (rows,), values of each code.
-        bad: int64 (kinds, 3): the row with an error, and its place in the body; -1: none.
-        amounts: arrays of points, rows of points and rows of codes: all there are, not only those
-            that were kept.
-        complete: whether all values were kept.
-        values: lists, objects and commas outside of the arrays.
-        syntax: what is wrong with the body's JSON, and where; empty if nothing is.
-        text: the body with the arrays cut out.
+        body: complete body.
+        token: text that precedes the number of an array in the place of the array.
+        spans: int64 (arrays, 6): begin and end in the body, kind, first row, number of rows, and 1
+            if the array has an error.
+        floats: float64 (rows, 3): rows of points and centroids.
+        codes: int8 (values,): values of codes.
+        lengths: int64 (rows,): number of values of each code.
+        bad: int64 (kinds, 3): row with an error, and its begin and end in the body; -1 for none.
+        amounts: numbers of arrays of points, rows of points and rows of codes in the body, those
+            beyond the limits included.
+        complete: True if all values were kept.
+        values: number of lists, objects and commas outside the arrays.
+        syntax: error in the body's JSON and its position; None if there is no error.
+        text: body with the arrays cut out.
     """
 
     body: bytes
@@ -112,16 +112,18 @@ class Arrays:
     def rows(self, value: object, kind: int) -> Float64 | None:
         """Return the points or centroids of an array that was cut out, float64 (rows, 3).
 
-        None if this is none, or has an error.
+        Returns:
+            None if the value does not name such an array, or if the array has an error.
         """
         span = self._span(value, kind)
         return None if span is None else self.floats[span[0] : sum(span)]
 
     def code_rows(self, value: object) -> Int8 | list[list[int]] | None:
-        """Return the codes of an array that was cut out; None if this is no such array.
+        """Return the codes of an array that was cut out.
 
         Returns:
-            int8 (rows, bytes); a list for each row if they differ in length.
+            int8 (rows, bytes); a list for each row if the rows differ in length; None if the value
+            does not name such an array.
         """
         span = self._span(value, CODES)
         if span is None:
@@ -136,7 +138,7 @@ class Arrays:
         return [each.tolist() for each in np.split(own, np.cumsum(lengths)[:-1])]
 
     def _span(self, value: object, kind: int) -> tuple[int, int] | None:
-        """Return first row and number of rows of a valid array of this kind; None otherwise."""
+        """Return the first row and the number of rows of a valid array; None otherwise."""
         if not isinstance(value, str) or not value.startswith(self.token):
             return None
         _, _, found, first, rows, bad = self.spans[int(value[len(self.token) :])].tolist()
@@ -146,7 +148,7 @@ class Arrays:
         """Return the body without its valid arrays; `place` maps positions back.
 
         Raises:
-            ValueError: a row with an error is too long to be looked at.
+            ValueError: a row with an error is too long to be parsed again.
         """
         shown = set[int]()
         stand_ins = []
@@ -163,11 +165,11 @@ class Arrays:
         return self._joined(stand_ins)
 
     def row_of(self, kind: int) -> int:
-        """Return the row that `named` shows in the place of row 0; 0 if it shows none."""
+        """Return the row that stands in place of row 0 in `named`; 0 if there is none."""
         return max(int(self.bad[kind, BAD_ROW]), 0)
 
     def place(self, line: int, column: int, named: bytes) -> tuple[int, int]:
-        """Return line and column in the body of a position in `named`."""
+        """Return the line and column in the body for a position in `named`."""
         start = 0
         for _ in range(line - 1):
             start = named.find(b"\n", start) + 1
@@ -187,7 +189,7 @@ class Arrays:
         )
 
     def _joined(self, stand_ins: list[tuple[int, int, bytes, int]]) -> bytes:
-        """Return the body with stand-ins for arrays, each with its original position."""
+        """Return the body with a stand-in for each array, and record its original position."""
         view, parts, past, length = memoryview(self.body), list[bytes | memoryview](), 0, 0
         self._pieces = [(0, 0)]
         for begin, end, stand_in, source in stand_ins:
@@ -201,18 +203,18 @@ class Arrays:
 
 
 def cut_arrays(body: bytes, *, points: int, segments: int, values: int) -> Arrays:
-    """Cut the arrays out of a JSON body; other threads run meanwhile.
+    """Cut the arrays out of a JSON body, without the interpreter's lock.
 
     Args:
-        body: any bytes.
-        points: rows of points to keep, at most; the others are only counted.
-        segments: arrays of points, centroids and codes to keep, at most.
-        values: of codes to keep, at most.
+        body: body of a request; any bytes.
+        points: largest number of points to keep; further points are only counted.
+        segments: largest number of arrays of points, centroids and codes to keep.
+        values: largest number of values of codes to keep.
     """
     data = np.frombuffer(body, np.uint8)
-    # Eight bytes from every place on.
+    # The eight bytes that begin at each position.
     words = np.ndarray((max(len(body) - 7, 0),), "<u8", body, strides=(1,))
-    rows = min(points + segments, len(body) // 8 + 1)  # [0,0,0], is the shortest
+    rows = min(points + segments, len(body) // 8 + 1)  # the shortest row is [0,0,0],
     floats = np.empty((rows, 3))
     codes = np.empty(min(values, len(body) // 2 + 1), dtype=np.int8)
     lengths = np.empty(min(segments, len(body) // 3 + 1), dtype=np.int64)
@@ -248,12 +250,12 @@ def cut_arrays(body: bytes, *, points: int, segments: int, values: int) -> Array
 
 
 def warm() -> None:
-    """Compile the functions, so that the first request need not wait."""
+    """Compile the functions before the first request."""
     cut_arrays(b'{"points":[[0.5,0,0]],"codes":[[1]]}', points=1, segments=1, values=1)
 
 
 def _mark(arrays: Arrays, row: int, place: int) -> None:
-    """Note that a row of points or centroids has an error after all."""
+    """Mark a row of points or centroids as invalid."""
     for span in arrays.spans:
         if span[KIND] != CODES and span[FIRST] <= row < span[FIRST] + span[ROWS]:
             span[BAD] = 1
@@ -265,7 +267,7 @@ def _mark(arrays: Arrays, row: int, place: int) -> None:
 
 
 def moved(message: str, arrays: Arrays, named: bytes) -> str:
-    """Return a parser's message about `named`, with the position in the body."""
+    """Return a parser's message about `named` with positions in the body."""
 
     def of_body(match: "re.Match[str]") -> str:
         line, column = arrays.place(int(match[1]), int(match[2]), named)
@@ -319,8 +321,8 @@ def _hexadecimal(c: int) -> int:
 
 @compiled_part
 def _kind_of(data: Bytes, begin: int, end: int) -> int:
-    """Return the kind of array that a key names; -1: none. Letters may be escaped."""
-    kinds = 7  # a bit for each that it may be
+    """Return the kind of array that a key names, or -1; letters may be escaped."""
+    kinds = 7  # one bit for each possible kind
     names = (b"points", b"centroids", b"codes")
     at = 0
     i = begin
@@ -352,9 +354,9 @@ def _kind_of(data: Bytes, begin: int, end: int) -> int:
 
 @compiled_part
 def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bool]:
-    """Return the first 19 digits of a number, how many more there are, and whether any is not 0.
+    """Return the first 19 digits, the number of further digits, and whether any of these is not 0.
 
-    Zeros before the first digit do not count.
+    Leading zeros do not count.
     """
     digits, count, left, more = np.uint64(0), 0, 0, False
     for i in range(begin, end):
@@ -370,15 +372,14 @@ def _first_digits(data: Bytes, begin: int, end: int) -> tuple[np.uint64, int, bo
 
 
 @compiled_part
-def _number(  # noqa: PLR0912 -- one look at each byte
+def _number(  # noqa: PLR0912 -- one pass over the bytes
     data: Bytes, i: int
 ) -> tuple[int, np.uint64, int, bool, bool, bool]:
-    """Parse a number of JSON's grammar that begins at i.
+    """Parse the JSON number that begins at position i.
 
     Returns:
-        the place after it, -1 if there is none; its first 19 digits; the power of ten that they
-        are multiplied by; whether it is negative, whether it is an integer, and whether digits that
-        are not zero were left out.
+        Position after the number, -1 if there is no number; its first 19 digits; its power of ten;
+        True if it is negative; True if it is an integer; True if nonzero digits were left out.
     """
     n = len(data)
     ten, nine, zero = np.uint64(10), np.uint64(9), np.uint64(48)
@@ -447,9 +448,9 @@ def _product(a: np.uint64, b: np.uint64) -> tuple[np.uint64, np.uint64]:
 
 @compiled_part
 def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
-    """Return the bits of the float64 nearest to w * 10^q, and whether they are settled.
+    """Return the bits of the float64 nearest to w * 10^q, and whether they are certain.
 
-    w is not 0. Names as in the paper; what is below the normal range is left unsettled.
+    w is not 0. Names are those of the paper. Subnormal results are never certain.
     """
     none = np.uint64(0)
     if q < SMALLEST_POWER or q > LARGEST_POWER:
@@ -457,7 +458,7 @@ def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
     one = np.uint64(1)
     zeros = 0
     for bits in (32, 16, 8, 4, 2, 1):
-        shift = bits * int(w < one << np.uint64(64 - bits))  # no branch: it would be a surprise
+        shift = bits * int(w < one << np.uint64(64 - bits))  # without a branch
         w = w << np.uint64(shift)
         zeros += shift
     row = q - SMALLEST_POWER
@@ -477,7 +478,7 @@ def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
     if exponent <= 0 or exponent >= 0x7FE:
         return none, False
     if low <= one and -4 <= q <= 23 and mantissa & np.uint64(3) == one and mantissa << drop == high:
-        mantissa = mantissa & ~one  # halfway between two: to the even one
+        mantissa = mantissa & ~one  # halfway between two numbers: round to even
     mantissa = (mantissa + (mantissa & one)) >> one
     if mantissa >= np.uint64(1) << np.uint64(53):
         mantissa = one << np.uint64(52)
@@ -488,13 +489,10 @@ def _double(w: np.uint64, q: int) -> tuple[np.uint64, bool]:
 
 @compiled_part
 def _digits(word: np.uint64) -> tuple[np.uint64, int]:
-    """Return the value and count of the digits that eight bytes begin with.
-
-    All eight are looked at together, with no branch.
-    """
+    """Return the value and the number of leading digits of eight bytes, without a branch."""
     word = word ^ np.uint64(0x3030303030303030)
     other = (word | (word + np.uint64(0x7676767676767676))) & np.uint64(0x8080808080808080)
-    # A byte above 0x8F could carry into the next; what comes first is told right all the same.
+    # A byte above 0x8F could carry into the next byte, but the first byte that differs is right.
     lowest = other & (~other + np.uint64(1))
     count = int(_PLACES[(lowest * np.uint64(_DE_BRUIJN)) >> np.uint64(58)]) if other else 8
     if count == 0:
@@ -516,7 +514,7 @@ def _coordinate(
     hard: Int64,
     tally: Int64,
 ) -> int:
-    """Read a coordinate into its place; return the position after it, -1 for an error."""
+    """Store the coordinate at position i; return the position after it, or -1 for an error."""
     end, w, q, negative, _, more = _number(data, i)
     if end < 0:
         return -1
@@ -548,11 +546,11 @@ def _coordinate(
 
 @compiled_part
 def _code(data: Bytes, i: int, place: int, codes: Int8) -> int:
-    """Read a code's value into its place; return the position after it, -1 if it is none."""
+    """Store the code value at position i; return the position after it, or -1 for an error."""
     end, w, _, negative, whole, _ = _number(data, i)
     if end < 0 or not whole or w > np.uint64(128) or (w == np.uint64(128) and not negative):
         return -1
-    # Digits that were not kept would be beyond 128.
+    # A number with more digits than were kept is larger than 128.
     if place < len(codes):
         codes[place] = np.int8(-int(w) if negative else int(w))
     return end
@@ -570,7 +568,7 @@ def _row(  # noqa: PLR0911
     hard: Int64,
     tally: Int64,
 ) -> tuple[int, int]:
-    """Read a row; return the position after it, -1 for an error, and its number of values."""
+    """Store a row; return the position after it, or -1 for an error, and its number of values."""
     n = len(data)
     if i >= n or data[i] != 91:
         return -1, 0
@@ -599,20 +597,24 @@ def _row(  # noqa: PLR0911
 
 
 @compiled_part
-def _usual_rows(  # noqa: PLR0911, PLR0912, PLR0915 -- calls take longer than its work
+def _usual_rows(  # noqa: PLR0911, PLR0912, PLR0915 -- function calls would dominate the time
     data: Bytes, words: Words, i: int, place: int, floats: Float64, bits: Words
 ) -> tuple[int, int]:
-    """Read rows of points in plain notation, such as [1.5,-0.25,12].
+    """Store rows of points in plain notation, such as [1.5,-0.25,12].
 
-    Nothing here is called for each number but what the compiler puts in place: to hand arrays over
-    takes longer than to read a number.
+    The loop calls inlined functions only, because passing arrays takes longer than parsing a
+    number.
 
     Args:
-        i: where a row begins.
-        place: of its first value.
+        data: bytes of the body.
+        words: the eight bytes that begin at each position.
+        i: position of the first row.
+        place: index of its first value in `floats`.
+        floats: float64 (rows, 3) to fill.
+        bits: the same memory as uint64.
 
     Returns:
-        the place after the last row that was read, and how many were.
+        Position after the last row that was stored, and the number of rows.
     """
     n, most = len(data), len(floats)
     one, ten, zero = np.uint64(1), np.uint64(10), np.uint64(48)
@@ -729,7 +731,7 @@ def _scan(  # noqa: PLR0912, PLR0915 -- one look at each byte
         begin = after
         i = _past_space(data, begin + 1)
         if i < n and data[i] == 93:
-            i += 1  # an empty array is left where it is
+            i += 1  # an empty array stays in the text
             tally[VALUES] += 1
             point_arrays[0] += kind == POINTS
             continue

@@ -1,7 +1,7 @@
-"""JSON requests whose arrays are read without the interpreter's lock; see `json_arrays`.
+"""JSON requests whose arrays are parsed without the interpreter's lock; see `json_arrays`.
 
-The schemas of `schemas` and `localization` say what is right, and name what is wrong. Those
-here take the same bodies with each array cut out, and give the same values as NumPy arrays.
+The schemas of `service.api.schemas` define valid requests and describe errors. The schemas here
+accept the same bodies with each array cut out, and return the same values as NumPy arrays.
 """
 
 from typing import Annotated, Any, TypeVar
@@ -26,9 +26,9 @@ from service.core.settings import Limits
 Schema = TypeVar("Schema", bound=BaseModel)
 
 CODE_VALUES = 1_000
-"""Largest number of values of a code that are kept; no model has as many."""
+"""Largest number of values of a code that are kept. Codes of all models are shorter."""
 REST_BYTES = 2_048
-"""Bytes of a body per segment outside of its arrays."""
+"""Largest size of a body outside its arrays, bytes per segment."""
 
 
 def _arrays(info: ValidationInfo) -> Arrays:
@@ -95,7 +95,8 @@ def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
     """Parse a JSON body by its schema, with arrays as NumPy arrays.
 
     Raises:
-        Problem: 413 if it holds too much, 400 if it is not JSON, 422 if it does not fit the schema.
+        Problem: 413 if the body holds too many values, 400 if it is not JSON, 422 if it does not
+            match the schema.
     """
     arrays = cut_arrays(
         body,
@@ -113,8 +114,8 @@ def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
         raise Problem(
             413,
             "too-many-values",
-            f"The body has {len(arrays.text)} bytes outside of its points and codes. The limit is "
-            f"{REST_BYTES * (limits.segments + 32)}.",
+            f"The body has {len(arrays.text)} bytes outside its points and codes; the limit is "
+            f"{REST_BYTES * (limits.segments + 32)}. Remove spaces and unknown keys.",
         )
     try:
         return CUT[schema].model_validate_json(arrays.text, context=arrays)
@@ -125,10 +126,10 @@ def read_json(schema: type[Schema], body: bytes, limits: Limits) -> Any:
 def _told(schema: type[Schema], arrays: Arrays) -> Schema:
     """Raise the problem of an invalid body.
 
-    Only what may be wrong is read again, so that it takes no time worth mentioning.
+    Only the text and the first invalid row of each kind are parsed again, which takes little time.
 
     Raises:
-        Problem: as `read_json`.
+        Problem: the problems of `read_json`.
     """
     try:
         named = arrays.named()
@@ -142,7 +143,7 @@ def _told(schema: type[Schema], arrays: Arrays) -> Schema:
             item["loc"] = _moved(item["loc"], arrays)
             item["msg"] = moved(str(item["msg"]), arrays, named)
         raise invalid_values(found) from error
-    # The two ways to read disagree; the plain one is right.
+    # The two parsers disagree. The result of the plain schema counts.
     try:
         return schema.model_validate_json(arrays.body)
     except ValidationError as error:
@@ -150,7 +151,7 @@ def _told(schema: type[Schema], arrays: Arrays) -> Schema:
 
 
 def _moved(place: tuple[int | str, ...], arrays: Arrays) -> tuple[int | str, ...]:
-    """Return an error's position in the body, if only one row of an array was shown."""
+    """Return an error's location in the body, though `named` shows one row of an array only."""
     for kind, name in enumerate(NAMES):
         if name not in place:
             continue
@@ -168,23 +169,23 @@ def _check_amounts(arrays: Arrays, limits: Limits) -> None:
         ("segments", "queries", codes, limits.segments),
     ):
         if amount > limit:
-            detail = f"{amount} {what} in a request; the limit is {limit}."
+            detail = f"{amount} {what} in a request; the limit is {limit}. Send several requests."
             raise Problem(413, f"too-many-{kind}", detail)
-    # A segment has five, and its sensor's; the rest is for the names of maps.
+    # A segment needs five values and those of its sensor. The rest is for the names of maps.
     limit = 16 * limits.segments + 1_000
     if not arrays.complete:
         raise Problem(
             413,
             "too-many-values",
-            "The body holds too many values in its points, codes and centroids. The limit is what "
-            f"{limits.points} points in {limits.segments} segments need.",
+            "The body holds too many values in its points, codes and centroids. The limits are "
+            f"{limits.points} points and {limits.segments} segments.",
         )
     if arrays.values > limit:
         raise Problem(
             413,
             "too-many-values",
-            f"The body holds {arrays.values} lists, objects and values outside of its points and "
-            f"codes; the limit is {limit}. {limits.segments} segments need fewer.",
+            f"The body holds {arrays.values} lists, objects and values outside its points and "
+            f"codes; the limit is {limit}. Remove unknown keys.",
         )
 
 

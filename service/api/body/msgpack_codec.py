@@ -1,4 +1,4 @@
-"""Between the bytes of a msgpack body and Python values, within bounds of memory."""
+"""msgpack codec: decodes request bodies with limits on memory, and encodes responses."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,11 +13,11 @@ from service.core.settings import Limits
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Items:
-    """List of an answer whose items are made while they are encoded, one at a time.
+    """List of an answer whose items are created one at a time, during encoding.
 
     Attributes:
         length: number of items.
-        items: yields them, once.
+        items: iterator over the items; it can be used once.
     """
 
     length: int
@@ -31,19 +31,20 @@ class Items:
 
 
 KEYS = 16
-"""A map, at most; the schemas know fewer."""
+"""Largest number of keys of a map. The schemas have fewer."""
 
 
 def unpack(body: bytes, limits: Limits) -> object:
-    """The one value of a body, its maps as `Pairs`.
+    """Decode a body; return its single value, with maps as `Pairs`.
 
     Raises:
-        Problem: 413 if it holds too many values, 400 if it is not msgpack, or more than one value.
+        Problem: 413 if the body holds too many values, 400 if it is not msgpack or holds more than
+            one value.
     """
-    # The limit of bytes is not enough: one can stand for an empty list, which takes 64 of them. So
-    # lists and maps are counted as they end, and those that have not ended yet (at most 1,024,
-    # one in the other) are short. A segment is 9 values; the rest is for the names of maps, and
-    # so that a segment too many is told as such.
+    # The limit of bytes is not enough, because one byte can encode an empty list, which takes 64
+    # bytes of memory. So each list and map is counted when it ends. Those that have not ended are
+    # nested (at most 1,024 deep) and short. A segment has 9 values. The rest is for the names of
+    # maps, and so that one segment too many gets its own error.
     limit = 16 * limits.segments + 1_000
     values = 0
 
@@ -71,7 +72,7 @@ def unpack(body: bytes, limits: Limits) -> object:
         )
     except Problem:
         raise
-    # Most of msgpack's own exceptions are ValueErrors, but not all.
+    # Most exceptions of msgpack are ValueErrors, but not all.
     except (ValueError, msgpack.UnpackException) as error:
         if isinstance(error, ValueError) and "max_array_len" in str(error):
             raise _too_long(error, limits) from error
@@ -82,14 +83,14 @@ def unpack(body: bytes, limits: Limits) -> object:
 
 
 def pack(content: dict[str, Any]) -> bytes:
-    """A response as msgpack; `bytes` become blobs."""
+    """Encode a response as msgpack; `bytes` become binary data."""
     packer = msgpack.Packer(autoreset=False)
     packer.pack_map_header(len(content))
     for key, value in content.items():
         packer.pack(key)
         if isinstance(value, list | Items):
             packer.pack_array_header(len(value))
-            # One after the other, so that other threads get their turn.
+            # Item by item, so that other threads can run in between.
             for item in value:
                 packer.pack(item)
         else:
@@ -101,8 +102,8 @@ def _too_many(limit: int, limits: Limits) -> Problem:
     return Problem(
         413,
         "too-many-values",
-        f"The body holds more than {limit} values, each blob counted as one. "
-        f"{limits.segments} segments, the limit of a request, have fewer.",
+        f"The body holds more than {limit} values, each blob counted as one. Send at most "
+        f"{limits.segments} segments and no unknown keys.",
     )
 
 
@@ -112,5 +113,5 @@ def _too_long(error: ValueError, limits: Limits) -> Problem:
         413,
         "too-many-values",
         f"The body holds a list of {length} items; the limit is {limits.segments} segments or "
-        "descriptors in a request.",
+        "descriptors in a request. Send several requests.",
     )

@@ -19,7 +19,7 @@ MEDIA_TYPE = "application/problem+json"
 
 
 class ProblemBody(BaseModel):
-    """Refusal or failure (RFC 9457)."""
+    """Problem: a refused or failed request (RFC 9457)."""
 
     type: str = Field(
         description="Kind of problem, a URI.", examples=["urn:placecell:problem:unknown-map"]
@@ -27,7 +27,8 @@ class ProblemBody(BaseModel):
     title: str = Field(description="Kind of problem in words.", examples=["Unknown map"])
     status: int = Field(description="HTTP status.", examples=[404])
     detail: str = Field(
-        description="What is wrong with this request.", examples=["No map is named 'yard'."]
+        description="Error of this request, and the way to correct it.",
+        examples=["No map is named 'yard'."],
     )
     errors: list[ProblemError] | None = Field(None, description="Wrong values of the request.")
     ids: list[int] | None = Field(None, description="Ids of the segments in question.")
@@ -52,7 +53,7 @@ def response_of(problem: Problem) -> JSONResponse:
 
 
 def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """Describe the problems that a route may answer, for OpenAPI."""
+    """Return OpenAPI descriptions of the problems that a route may answer with."""
     return {
         status: {
             "description": HTTPStatus(status).phrase,

@@ -1,4 +1,4 @@
-"""The limit on a request's body, enforced while it streams in, before anything buffers it."""
+"""Body limit: enforces the largest size of a request's body while the body streams in."""
 
 import anyio
 from starlette._utils import get_route_path
@@ -9,21 +9,28 @@ from service.core.problems import Problem
 from service.core.settings import Limits
 
 PATIENCE = (256 << 20, 5.0)
-"""Bytes and seconds of a body that is too large, until the client may be cut off."""
+"""Bytes and seconds for which a body that is too large is still received.
+
+The connection may be closed afterwards, even if the client has not read the answer.
+"""
 
 
 RECOGNITION = frozenset({"/describe", "/match", "/localize"})
+"""Paths whose JSON bodies have the limit `json_bytes`."""
 
 
 class BodyLimit:
-    """ASGI middleware: 413 for a body that is, or turns out to be, too large."""
+    """ASGI middleware that answers 413 if a body is larger than its limit.
+
+    The limit is checked against Content-Length and against the bytes that arrive.
+    """
 
     def __init__(self, app: ASGIApp, limits: Limits) -> None:
         self._app = app
         self._limits = limits
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on, counting its bytes."""
+        """Pass the request on and count the bytes of its body."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -31,7 +38,7 @@ class BodyLimit:
         headers = dict(scope["headers"])
         stated = headers.get(b"content-length", b"")
         if stated.isdigit() and int(stated) > limit:
-            # A client that expects a 100 waits for the answer before it sends.
+            # A client that sends `Expect: 100-continue` waits for the answer before the body.
             if b"expect" not in headers:
                 await discard(receive, *PATIENCE)
             scope["app"].state.placecell.metrics.rejected.labels("body-too-large").inc()
@@ -69,16 +76,23 @@ def _too_large(limit: int) -> Problem:
     return Problem(
         413,
         "body-too-large",
-        f"The body is larger than {limit} bytes, the limit; see /info.",
-        # What is left of the body would be read as the next request.
+        f"The body is larger than {limit} bytes, the limit. Send smaller bodies; GET /info shows "
+        "all limits.",
+        # Otherwise the rest of the body would be read as the next request.
         headers={"Connection": "close"},
     )
 
 
 async def discard(receive: Receive, most: int = 4 << 20, seconds: float = 0.5) -> bool:
-    """Take what is left of a body, within reason; whether that was all.
+    """Receive and drop the rest of a body; return whether the body ended.
 
-    A connection closed on a client that still sends is reset, and the client may never read why.
+    If a connection is closed while the client still sends, it is reset, and the client may never
+    read the answer.
+
+    Args:
+        receive: ASGI channel of the request.
+        most: number of bytes after which to stop.
+        seconds: time after which to stop.
     """
     discarded = 0
     with anyio.move_on_after(seconds):

@@ -13,7 +13,7 @@ class Head:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on; a HEAD becomes a GET whose content is dropped."""
+        """Pass the request on; treat HEAD as a GET whose content is dropped."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

@@ -1,8 +1,8 @@
-"""Protection from web pages without keys: checks `Host` and `Origin`.
+"""Origin guard: protects a service without keys from web pages, by `Host` and `Origin`.
 
-A page that a user opens can send requests to any service on the user's machine, and with a name
-that its owner points to 127.0.0.1 (DNS rebinding) read the answers. A key stops that, for no page
-knows it. Without keys the names in `Host` and `Origin` do.
+A page that a user opens can send requests to any service on the user's machine. If the page's name
+resolves to 127.0.0.1 (DNS rebinding), the page can also read the answers. API keys prevent both,
+because no page knows a key. Without keys this guard checks the names in `Host` and `Origin`.
 """
 
 import ipaddress
@@ -30,7 +30,7 @@ class OriginGuard:
         self._hosts = [name.lower().rstrip(".") for name in settings.allowed_hosts]
         self._origins = {origin.lower().rstrip("/") for origin in settings.cors_origins}
         own = socket.gethostname().lower()
-        # Names of this machine, for those who reach it from another one.
+        # Names of this machine, for clients on other machines.
         self._names = {settings.host.lower(), own, f"{own}.local"}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -45,7 +45,7 @@ class OriginGuard:
 
     def _problem(self, scope: Scope) -> Problem | None:
         named = _values(scope, b"host")
-        # Without Host a request is HTTP/1.0, or was made in this process: no browser sends it.
+        # A request without Host is HTTP/1.0 or comes from this process. No browser sends it.
         host = _host(named[0]) if named else None
         if len(named) > 1 or (named and (host is None or not self._is_known(host[0], scope))):
             return _refusal(
@@ -57,7 +57,7 @@ class OriginGuard:
         for origin in _values(scope, b"origin"):
             if not self._is_own(origin, host):
                 return _foreign_origin(origin)
-        # A page of an allowed origin says so in Origin; what a link opens says none.
+        # A page of an allowed origin sends Origin. A request that a link opens has no Origin.
         if not (_values(scope, b"origin") and self._origins):
             for site in _values(scope, b"sec-fetch-site"):
                 if site.strip().lower() not in {"same-origin", "none"}:
@@ -65,7 +65,7 @@ class OriginGuard:
         return None
 
     def _is_known(self, name: str, scope: Scope) -> bool:
-        """Return whether a name in `Host` is one of this service."""
+        """Return whether a name in `Host` belongs to this service."""
         if _fits(name, self._hosts) or name == "localhost" or name.endswith(".localhost"):
             return True
         address, here = _address(name), (scope.get("server") or ("", 0))[0]
@@ -73,15 +73,15 @@ class OriginGuard:
             return True
         reached = _address(here)
         if reached is None:
-            # No socket of the Internet: a Unix socket, whose name is a path, or a caller in this
-            # process, such as a test, that made up a name without dots.
+            # Not an Internet socket: either a Unix socket, named by its path, or a caller in this
+            # process, such as a test, that uses a name without dots.
             return name == here.lower() and "." not in name and "/" not in name
-        # Beyond loopback the service listens only where the operator said so. An address cannot be
-        # rebound, a name can.
+        # The service listens on other addresses only if the operator configured that. DNS
+        # rebinding needs a name, so addresses are safe.
         return not reached.is_loopback and (address is not None or name in self._names)
 
     def _is_own(self, origin: str, host: tuple[str, int | None] | None) -> bool:
-        """Return whether a page's origin is the service itself or one that the settings allow."""
+        """Return whether a page's origin is the service itself or is allowed by the settings."""
         origin = origin.strip().lower()
         if origin in self._origins or "*" in self._origins:
             return True
@@ -134,5 +134,5 @@ def _foreign_origin(origin: str) -> Problem:
 
 
 def _refusal(kind: str, detail: str) -> Problem:
-    # What is left of the body would be read as the next request.
+    # Otherwise the rest of the body would be read as the next request.
     return Problem(403, kind, detail, headers={"Connection": "close"})

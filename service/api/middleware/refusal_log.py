@@ -1,4 +1,4 @@
-"""Log of refused requests, with a bounded number of lines."""
+"""Refusal log: log lines about refused requests, limited in number per minute."""
 
 import ipaddress
 import logging
@@ -11,57 +11,58 @@ from starlette.types import Scope
 
 logger = logging.getLogger("placecell.refusals")
 
-TOLD = frozenset({401, 403, 429})
+LOGGED_STATUSES = frozenset({401, 403, 429})
 """Statuses that are logged: no key, no permission, too many requests."""
 
 WINDOW_SECONDS = 60.0
+"""Period of the line limits, seconds."""
 
 ADDRESS_LINES = 10
-"""Lines per window and address; further refusals are counted and reported with the next line."""
+"""Largest number of lines per period and client address; further refusals are only counted."""
 
 ALL_LINES = 100
-"""Lines per window over all addresses."""
+"""Largest number of lines per period over all addresses."""
 
 
 class RefusalLog:
-    """Logger of refused requests, with a limit of lines per minute."""
+    """Logger of refused requests with a limit of lines per minute."""
 
     def __init__(self, clock: Callable[[], float] = monotonic) -> None:
         """Create an empty log.
 
         Args:
-            clock: gives seconds that only grow.
+            clock: function that returns a monotonic time, seconds.
         """
         self._clock = clock
         self._begun = clock()
         self._lines: Counter[str] = Counter()
-        self._untold = 0
+        self._unlogged = 0
 
-    def tell(
+    def add(
         self, status: int, method: str, route: str, address: str, key: str | None, request_id: str
     ) -> None:
-        """Log a refusal, or count it.
+        """Log a refusal, or only count it once the limit of lines is reached.
 
         Args:
-            status: of the answer.
-            method: of the request.
-            route: its path, with names of parameters in place of their values.
-            address: of the client.
-            key: name of the key that it came with, if that is known.
-            request_id: of the request.
+            status: HTTP status of the answer.
+            method: HTTP method of the request.
+            route: path of the route, with the names of its parameters instead of their values.
+            address: network address of the client.
+            key: name of the API key; None if it is unknown.
+            request_id: id of the request.
         """
         now = self._clock()
         if now - self._begun >= WINDOW_SECONDS:
-            if self._untold:
+            if self._unlogged:
                 logger.warning(
                     "%d further requests were refused and not logged",
-                    self._untold,
-                    extra={"untold": self._untold},
+                    self._unlogged,
+                    extra={"unlogged": self._unlogged},
                 )
-            self._begun, self._untold = now, 0
+            self._begun, self._unlogged = now, 0
             self._lines.clear()
         if self._lines[address] >= ADDRESS_LINES or self._lines.total() >= ALL_LINES:
-            self._untold += 1
+            self._unlogged += 1
             return
         self._lines[address] += 1
         logger.warning(
@@ -84,9 +85,9 @@ class RefusalLog:
 
 
 def address_of(scope: Scope) -> str:
-    """Return the client's address for the log, safe against forged lines.
+    """Return the client's address for the log, in a form that cannot forge log lines.
 
-    Behind a proxy of `forwarded_allow_ips` it is the one that the proxy states (X-Forwarded-For).
+    Behind a proxy of the setting `forwarded_allow_ips` this is the address in X-Forwarded-For.
     """
     client = scope.get("client")
     if not client:

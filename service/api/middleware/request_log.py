@@ -1,4 +1,4 @@
-"""An account of every request: its id, its times, who sent it, in headers, metrics and the log."""
+"""Request log: records each request's id, times and client in headers, metrics and the log."""
 
 import asyncio
 import logging
@@ -10,35 +10,35 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.api.body.problem_json import response_of
-from service.api.middleware.refusal_log import TOLD, RefusalLog, address_of
+from service.api.middleware.refusal_log import LOGGED_STATUSES, RefusalLog, address_of
 from service.core.problems import Problem, unexpected
 from service.core.timing import Timing
 
 logger = logging.getLogger("placecell.requests")
 
 METHODS = {"GET", "HEAD", "OPTIONS", "PUT", "POST", "DELETE", "PATCH"}
-"""Told by name; others are made up by clients, without end."""
+"""Methods that metrics show by name; all others count as `other`, so labels stay bounded."""
 
 ID_PATTERN = re.compile(r"[A-Za-z0-9._-]{1,64}")
-"""Of a request's id that a client may choose: nothing that could forge a line of the log."""
+"""Pattern of a request id that a client may choose; it excludes forged log lines."""
 
 
-class Account:
-    """ASGI middleware, the outermost."""
+class RequestLog:
+    """ASGI middleware that records every request. It is the outermost middleware."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
         self._refusals = RefusalLog()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on, and note what became of it."""
+        """Pass the request on; record its status, time and client."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
         given = dict(scope["headers"]).get(b"x-request-id", b"").decode("latin-1")
         request_id = given if ID_PATTERN.fullmatch(given) else secrets.token_hex(8)
         timing = Timing()
-        # The server's own dictionary is that of all requests.
+        # All requests share the server's dictionary, so each request gets a copy.
         facts = scope["state"] = dict(scope.get("state", {}))
         facts |= {"timing": timing, "request_id": request_id}
         status = 0
@@ -53,21 +53,24 @@ class Account:
                 headers["Placecell-Model"] = facts.get("model_id", default)
                 if times := timing.header():
                     headers["Server-Timing"] = times
-            # How long a client may take to read it is the server's matter, which sees the socket.
+            # The server limits the time that a client takes to read the answer.
             await send(message)
 
         try:
             await self._app(scope, receive, noted)
         except asyncio.CancelledError:
-            # The server stops, and no longer waits for this request.
+            # The server stops and no longer waits for this request.
             if status:
                 raise
             stopping = Problem(
-                503, "stopping", "The service stops.", headers={"Connection": "close"}
+                503,
+                "stopping",
+                "The service is stopping. Send the request again after the restart.",
+                headers={"Connection": "close"},
             )
             await response_of(stopping)(scope, receive, noted)
         except Exception:
-            logger.exception("failed at %s", scope["path"])
+            logger.exception("request to %s failed", scope["path"])
             if status:
                 raise
             await response_of(unexpected())(scope, receive, noted)
@@ -84,8 +87,8 @@ class Account:
         metrics.observe(timing)
         address = address_of(scope)
         key, request_id = scope["state"].get("key"), scope["state"]["request_id"]
-        if status in TOLD:
-            self._refusals.tell(status, method, route, address, key, request_id)
+        if status in LOGGED_STATUSES:
+            self._refusals.add(status, method, route, address, key, request_id)
         logger.info(
             "%s %s %s",
             method,

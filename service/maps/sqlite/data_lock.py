@@ -66,8 +66,8 @@ def locked(data_dir: Path) -> Iterator[DataLock]:
             except OSError as error:
                 if error.errno in {errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES}:
                     raise StoreLockedError(in_use) from error
-                # Network file systems may not lock directories.
-                logger.info("%s itself cannot be locked: %s", data_dir, error)
+                # Some network file systems cannot lock directories.
+                logger.info("the directory %s cannot be locked: %s", data_dir, error)
         try:
             lock = filelock.FileLock(data_dir / "lock").acquire(timeout=0)
         except filelock.Timeout as error:

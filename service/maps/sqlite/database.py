@@ -26,11 +26,13 @@ VACUUM_PAGES = 1_000
 """Number of pages of 4 kB that return to the disk per step."""
 
 FULL_DISK_PAGES = 50
-"""Pages returned per step on a full disk: each step needs as much space in the log."""
+"""Number of pages that are returned per step on a full disk; the log needs as much space."""
 
 MIGRATION_BYTES = 1 << 20
+"""Free disk space that every migration needs, bytes."""
+
 MIGRATION_PAGE_BYTES = 64
-"""Free disk bytes that a migration needs, and as many more for each page of the database."""
+"""Free disk space that a migration needs for each page of the database, bytes."""
 
 BUSY_SECONDS = 5.0
 """Seconds to wait for another process, such as a backup, to release its lock."""
@@ -38,7 +40,7 @@ BUSY_SECONDS = 5.0
 logger = logging.getLogger("placecell")
 
 _KINDS: dict[str, Trouble] = {
-    # The shared-memory file could not grow.
+    # The disk has no space for the shared-memory file.
     "SQLITE_IOERR_SHMSIZE": "full",
     "SQLITE_FULL": "full",
     "SQLITE_READONLY": "read-only",
@@ -160,7 +162,7 @@ class Database:
                 self._reserve.hold_for_log(self._log_growth())
 
     def _holds_reserve(self) -> bool:
-        """Allocate the reserve with room for what the log holds; the caller holds the lock."""
+        """Allocate the reserve and space for the content of the log; the caller holds the lock."""
         if self._reserve.hold() or self._reserve.hold_for_log(self._log_growth()):
             return True
         # Log pages that fit into the database need no space beside it.
@@ -168,7 +170,7 @@ class Database:
         return self._reserve.hold_for_log(self._log_growth())
 
     def _log_growth(self) -> int:
-        """Return by how many bytes the file grows when the log moves into it."""
+        """Return the bytes that the file grows by when the log moves into it."""
         (pages,) = self._connection.execute("PRAGMA page_count").fetchone()
         (page_bytes,) = self._connection.execute("PRAGMA page_size").fetchone()
         return int(pages) * int(page_bytes) - self.path.stat().st_size
@@ -203,7 +205,7 @@ class Database:
         return done
 
     def _release_all(self, bytes_left: int) -> None:
-        """Return freed pages to a full disk; `bytes_left` of the reserve stay."""
+        """Return freed pages to a full disk; keep `bytes_left` of the reserve."""
         self._reserve.release(bytes_left)
         try:
             self.release_space()
@@ -330,7 +332,7 @@ class Database:
             if found != inode:
                 return (
                     f"{path.name} in the data directory was moved, removed or replaced while the "
-                    f"service ran. {advice}, or restart it to use what is there now."
+                    f"service ran. {advice}, or restart the service to use the current files."
                 )
         return None
 
@@ -340,7 +342,7 @@ class Database:
 
     @contextmanager
     def _noted(self) -> Iterator[None]:
-        """Remember a write that failed because of the disk, until one succeeds."""
+        """Record a write that failed because of the disk, until a write succeeds."""
         try:
             yield
         except StoreError as error:

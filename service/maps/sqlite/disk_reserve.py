@@ -11,7 +11,7 @@ DISK_SHARE = 16
 """Divisor of a small disk's size that gives its reserve."""
 
 STEP = 1 << 18
-"""Step in which room for the log is kept, bytes."""
+"""Step in which the space for the log grows, bytes."""
 
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 

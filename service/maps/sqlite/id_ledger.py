@@ -21,10 +21,10 @@ from service.maps.sqlite.disk_reserve import FULL
 from service.maps.store import StoreError
 
 LEASE = 4_096
-"""Ids recorded ahead, so that not every write needs a sync."""
+"""Number of ids that are recorded in advance, so that few writes need an fsync."""
 
 SKIPPED = 1 << 22
-"""Ids of each map that are skipped when the number given out is unknown."""
+"""Number of ids of each map that are skipped if the ledger cannot be trusted."""
 
 logger = logging.getLogger("placecell")
 
@@ -46,7 +46,7 @@ class IdLedger:
 
     @property
     def is_there(self) -> bool:
-        """Return whether the ledger file exists, whatever it holds."""
+        """Return whether the ledger file exists, even if it is invalid."""
         return self._path.exists()
 
     def rewrite(self, limits: Mapping[str, int]) -> None:
@@ -69,7 +69,11 @@ class IdLedger:
         self.is_trusted = True
 
     def raise_to(self, uid: str, end: int) -> None:
-        """Record that ids below `end` may be given out; StoreError if that fails."""
+        """Record that ids below `end` may be given out.
+
+        Raises:
+            StoreError: the disk is full or failing.
+        """
         if self.limits.get(uid, 0) >= end:
             return
         line = _line(f"{uid} {end + LEASE}").encode()
@@ -84,7 +88,7 @@ class IdLedger:
         self.limits[uid] = end + LEASE
 
     def forget(self, uid: str) -> None:
-        """Forget a map's ids; the next call rewrites the file with a lower end."""
+        """Forget a map's ids; the next call rewrites the file."""
         self.limits.pop(uid, None)
         self.is_trusted = False
 
@@ -105,7 +109,7 @@ class IdLedger:
 
 
 def _touch(path: Path) -> str:
-    """Create a file, or change only its modification time."""
+    """Create a file, or update its modification time; return that time."""
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
     try:
         os.utime(descriptor)

@@ -47,7 +47,7 @@ LEDGER = "ids"
 LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate})
 
 RESERVED_SECONDS = 7 * 24 * 3600.0
-"""Seconds for which a reserved, unwritten id counts against the key's limit."""
+"""Time for which a reserved, unwritten id counts against its key's limit, seconds."""
 
 logger = logging.getLogger("placecell")
 
@@ -112,7 +112,7 @@ class SqliteMapStore:
             # Ids that were only recorded ahead were not given out.
             self._ledger.rewrite({head.uid: head.next_id for head in self.heads()})
         except (StoreError, OSError) as error:
-            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
+            logger.warning("%s was not updated: %s", self._folder / LEDGER, error)
         self._database.close()
 
     def heads(self) -> list[MapHead]:
@@ -285,7 +285,7 @@ class SqliteMapStore:
         return self._database.trouble()
 
     def _opened_ledger(self) -> IdLedger:
-        """Read the end of the ids given out, and skip ids that the database does not know."""
+        """Open the id ledger; skip ids that were given out but are not in the database."""
         with self._database.snapshot() as connection:
             (token,) = connection.execute("SELECT token FROM opened").fetchone() or ("",)
         ledger = IdLedger(self._folder / LEDGER, token)
@@ -311,7 +311,7 @@ class SqliteMapStore:
         try:
             ledger.rewrite({head.uid: behind.get(head.uid, head.next_id) for head in heads})
         except OSError as error:
-            logger.warning("%s stays as it was: %s", self._folder / LEDGER, error)
+            logger.warning("%s was not updated: %s", self._folder / LEDGER, error)
         return ledger
 
     def verify(self) -> list[str]:
@@ -349,6 +349,6 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
 
 
 def _skipped(head: MapHead, given_out: int, count: int) -> int:
-    """Return a map's first free id after those that may have been given out."""
+    """Return the first id of a map after all ids that may have been given out."""
     first = min(max(head.next_id, given_out), head.end_id)
     return max(first, min(first + count, (first + head.end_id) // 2))

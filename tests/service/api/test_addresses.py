@@ -1,4 +1,4 @@
-"""Addresses that count as one client."""
+"""Addresses that count as one client, for limits and fair shares."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Overload, deadlines, clients that go, slow bodies; and what is told about each request."""
+"""Admission control: overload, deadlines, disconnects, slow bodies; metrics of requests."""
 
 import asyncio
 import threading
@@ -28,7 +28,7 @@ from tests.service.service_builders import (
 
 @contextmanager
 def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
-    """The model waits while this lasts; the event is set once it has begun."""
+    """Block the model's inference; the event is set once inference has begun."""
     begun, released = threading.Event(), threading.Event()
 
     def slow(_: object, inputs: Inputs) -> Any:
@@ -49,7 +49,7 @@ def value(service: Any, name: str) -> float:
     return next((float(line.split()[-1]) for line in lines if line.startswith(name + " ")), 0.0)
 
 
-def test_too_many_requests_are_refused_at_once(start: Any, monkeypatch: Any) -> None:
+def test_full_lane_answers_429_at_once(start: Any, monkeypatch: Any) -> None:
     body = request_of([cloud(0)])
     with start(limits={"requests": 2}) as service, ThreadPoolExecutor(2) as pool:
         with held(monkeypatch) as begun:
@@ -68,7 +68,7 @@ def test_too_many_requests_are_refused_at_once(start: Any, monkeypatch: Any) -> 
         assert value(service, 'placecell_rejected_total{reason="busy"}') == 1
 
 
-def test_a_request_ends_at_its_deadline(service: Any, monkeypatch: Any) -> None:
+def test_request_past_its_deadline_answers_504(service: Any, monkeypatch: Any) -> None:
     body = request_of([cloud(0)])
     timeout = {"Placecell-Timeout": "0.2"}
     with held(monkeypatch):
@@ -78,14 +78,14 @@ def test_a_request_ends_at_its_deadline(service: Any, monkeypatch: Any) -> None:
 
 
 @pytest.mark.parametrize("given", ["0", "-1", "nan", "soon", ""])
-def test_a_deadline_must_be_one(service: Any, given: str) -> None:
+def test_invalid_deadline_answers_422(service: Any, given: str) -> None:
     response = service.post(
         "/describe", json=request_of([cloud(0)]), headers={"Placecell-Timeout": given}
     )
     assert_problem(response, 400, "invalid-header", "seconds")
 
 
-def test_a_client_may_not_ask_for_more_time(start: Any, monkeypatch: Any) -> None:
+def test_client_deadline_cannot_exceed_the_limit(start: Any, monkeypatch: Any) -> None:
     with start(limits={"deadline": 0.2}) as service, held(monkeypatch):
         response = service.post(
             "/describe", json=request_of([cloud(0)]), headers={"Placecell-Timeout": "50"}
@@ -93,7 +93,7 @@ def test_a_client_may_not_ask_for_more_time(start: Any, monkeypatch: Any) -> Non
         assert_problem(response, 504, "deadline-exceeded")
 
 
-def test_work_for_a_client_that_is_gone_is_dropped(
+def test_work_of_disconnected_clients_is_dropped(
     models_dir: Any, data_dir: Any, monkeypatch: Any
 ) -> None:
     settings = Settings(models_dir=models_dir, data_dir=data_dir, model="tiny")
@@ -125,21 +125,21 @@ def test_work_for_a_client_that_is_gone_is_dropped(
     assert seen == [1, 2]
 
 
-def test_a_result_does_not_depend_on_other_requests(start: Any) -> None:
+def test_results_do_not_depend_on_concurrent_requests(start: Any) -> None:
     bodies = [request_of([cloud(10 * n + i) for i in range(1 + n % 5)]) for n in range(24)]
     with start(model="onnx", limits={"requests": 64}) as service:
         alone = [service.post("/describe", json=body).json() for body in bodies]
         with ThreadPoolExecutor(12) as pool:
             together = list(pool.map(lambda body: service.post("/describe", json=body), bodies))
         batches = value(service, "placecell_batch_requests_count")
-        assert batches < 2 * len(bodies)  # some did go together
+        assert batches < 2 * len(bodies)  # some requests shared a batch
     for one, other in zip(alone, together, strict=True):
         for a, b in zip(one["descriptors"], other.json()["descriptors"], strict=True):
             assert b["descriptor"] == pytest.approx(a["descriptor"], abs=1e-5)
             assert b["codes"] == a["codes"]
 
 
-def test_every_answer_tells_its_id_its_model_and_its_times(service: Any, manifest: Any) -> None:
+def test_every_answer_has_headers_of_id_model_and_times(service: Any, manifest: Any) -> None:
     sent = {"X-Request-Id": "robot-7.42"}
     response = service.post("/describe", json=request_of([cloud(0)]), headers=sent)
     assert response.headers["x-request-id"] == "robot-7.42"
@@ -152,7 +152,7 @@ def test_every_answer_tells_its_id_its_model_and_its_times(service: Any, manifes
     assert service.get("/nowhere").headers["placecell-model"] == manifest.model_id
 
 
-def test_metrics_tell_what_was_done(service: Any, manifest: Any) -> None:
+def test_metrics_count_requests_and_stages(service: Any, manifest: Any) -> None:
     from placecell_client import encode
 
     data = encode(map_of(random_codes(5), manifest.model_id))
@@ -174,7 +174,7 @@ def test_metrics_tell_what_was_done(service: Any, manifest: Any) -> None:
     assert value(service, "placecell_map_segments") == 0
 
 
-def test_a_body_that_does_not_come_is_given_up(models_dir: Any, data_dir: Any) -> None:
+def test_body_that_does_not_arrive_answers_408(models_dir: Any, data_dir: Any) -> None:
     settings = Settings.model_validate(
         {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny"}
         | {"limits": {"body_seconds": 0.1, "stall_seconds": 0.2}}
@@ -198,7 +198,7 @@ def test_a_body_that_does_not_come_is_given_up(models_dir: Any, data_dir: Any) -
     asyncio.run(run())
 
 
-def test_clients_cannot_make_up_metrics(service: Any) -> None:
+def test_unknown_methods_and_paths_add_no_metric_labels(service: Any) -> None:
     for n in range(5):
         service.request(f"MADE{n}", "/livez")
         service.get(f"/made-up-{n}")
@@ -209,7 +209,7 @@ def test_clients_cannot_make_up_metrics(service: Any) -> None:
     assert 'placecell_requests_total{method="GET",route="none",status="404"} 5.0' in text
 
 
-def test_a_fault_of_our_own_is_told_and_counted(service: Any, monkeypatch: Any) -> None:
+def test_unexpected_error_answers_500_and_is_counted(service: Any, monkeypatch: Any) -> None:
     def failing(*_: object) -> Any:
         raise RuntimeError("a secret of the inside")
 
@@ -221,15 +221,15 @@ def test_a_fault_of_our_own_is_told_and_counted(service: Any, monkeypatch: Any) 
     assert value(service, route) == 1
 
 
-def test_unknown_keys_without_end_are_refused_before_they_are_read(service: Any) -> None:
+def test_too_many_unknown_keys_are_refused_before_parsing(service: Any) -> None:
     body = b"{" + b",".join(b'"%x":0' % n for n in range(300_000)) + b"}"
     assert_problem(service.post("/describe", content=body), 413, "too-many-values")
 
 
-def test_departed_clients_do_not_let_more_in_than_there_is_room(
+def test_disconnected_clients_do_not_raise_concurrency(
     models_dir: Any, data_dir: Any, monkeypatch: Any
 ) -> None:
-    """A thread goes on after its client has gone; its place is free only when it is done."""
+    """A thread keeps its place until its work ends, even after the client has disconnected."""
     limits = {"requests": 4}
     settings = Settings.model_validate(
         {"models_dir": models_dir, "data_dir": data_dir, "model": "tiny", "limits": limits}

@@ -1,4 +1,4 @@
-"""Both encodings carry the same, and the service speaks the bytes of the msgpack page."""
+"""Both encodings give equal results, and match the bytes in the documentation of msgpack."""
 
 from dataclasses import replace
 from typing import Any
@@ -29,7 +29,7 @@ CLOUDS = [cloud(seed) for seed in range(7)] + [cloud(7)[:2]]
 
 @pytest.fixture
 def clients(service: Any, manifest: Manifest) -> list[Client]:
-    """One that speaks msgpack, one that speaks JSON, to a service with a map."""
+    """Return a client with msgpack and a client with JSON, for a service with a map."""
 
     def forward(request: httpx.Request) -> httpx.Response:
         told = service.request(
@@ -49,7 +49,9 @@ def clients(service: Any, manifest: Manifest) -> list[Client]:
 
 @pytest.mark.parametrize("shift", [np.zeros(3), FAR])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_both_encodings_say_the_same(clients: list[Client], shift: Any, dtype: type) -> None:
+def test_both_encodings_give_equal_descriptors_and_matches(
+    clients: list[Client], shift: Any, dtype: type
+) -> None:
     clouds = [(points + shift).astype(dtype) for points in CLOUDS]
     packed, listed = (client.describe(clouds, SENSORS + shift) for client in clients)
     np.testing.assert_array_equal(packed.codes, listed.codes)
@@ -65,7 +67,7 @@ def test_both_encodings_say_the_same(clients: list[Client], shift: Any, dtype: t
 
 
 @pytest.mark.parametrize("shift", [np.zeros(3), FAR])
-def test_both_encodings_find_the_same_place(clients: list[Client], shift: Any) -> None:
+def test_both_encodings_give_the_same_pose(clients: list[Client], shift: Any) -> None:
     clouds = [cloud(seed) for seed in range(30)] + [cloud(30)[:2]]
     described = clients[0].describe(clouds, np.zeros(3))
     good = [row for row in range(31) if row not in described.errors]
@@ -92,7 +94,7 @@ def test_both_encodings_find_the_same_place(clients: list[Client], shift: Any) -
 pytestmark = pytest.mark.filterwarnings("ignore::placecell_client.PrecisionWarning")
 
 
-def test_map_coordinates_lose_nothing(clients: list[Client]) -> None:
+def test_map_coordinates_keep_their_accuracy(clients: list[Client]) -> None:
     for client in clients:
         here = client.describe(CLOUDS, SENSORS)
         there = client.describe([points + FAR for points in CLOUDS], SENSORS + FAR)
@@ -100,7 +102,7 @@ def test_map_coordinates_lose_nothing(clients: list[Client]) -> None:
         np.testing.assert_allclose(there.centroids, here.centroids + FAR, rtol=0, atol=1e-5)
 
 
-def test_both_are_refused_with_the_same_words(clients: list[Client]) -> None:
+def test_both_encodings_give_the_same_errors(clients: list[Client]) -> None:
     beyond = [CLOUDS[0], np.full((20, 3), 1e9)]
     told = []
     for client in clients:
@@ -112,7 +114,7 @@ def test_both_are_refused_with_the_same_words(clients: list[Client]) -> None:
         clients[0].describe([np.full((20, 3), 1e300)], np.zeros(3))
 
 
-def test_the_documents_request_is_what_the_service_reads() -> None:
+def test_documented_msgpack_request_is_parsed() -> None:
     body = Body(MSGPACK, example("request"))
     request = parse(DescribeRequest, PackedDescribeRequest, body, Limits())
     scan = read_scan(request.segments, request.origin)
@@ -121,7 +123,7 @@ def test_the_documents_request_is_what_the_service_reads() -> None:
     np.testing.assert_array_equal(scan.sensors, np.add([[0.0, 0.0, 1.5]], ORIGIN))
 
 
-def test_the_documents_answer_is_what_the_service_writes() -> None:
+def test_documented_msgpack_answer_is_rendered() -> None:
     described = PackedDescriptor(
         codes=np.array([3, -7], np.int8).tobytes(),
         descriptor=np.array([0.0625, -0.125], "<f4").tobytes(),

@@ -1,4 +1,4 @@
-"""Compressed bodies: the same answers, and bombs that do not go off."""
+"""Compressed bodies: equal answers, and limits on their decompressed size."""
 
 import gzip
 import json
@@ -15,7 +15,9 @@ CODERS: dict[str, Any] = {"gzip": gzip.compress, "zstd": zstandard.compress}
 
 
 @pytest.mark.parametrize("coding", CODERS)
-def test_a_compressed_body_means_the_same(service: Any, coding: str, manifest: Manifest) -> None:
+def test_compressed_body_gives_the_same_answer(
+    service: Any, coding: str, manifest: Manifest
+) -> None:
     body = json.dumps(request_of([cloud(0)])).encode()
     headers = {"Content-Encoding": coding}
     answer = service.post("/describe", content=CODERS[coding](body), headers=headers)
@@ -28,7 +30,7 @@ def test_a_compressed_body_means_the_same(service: Any, coding: str, manifest: M
 
 @pytest.mark.slow
 @pytest.mark.parametrize("coding", CODERS)
-def test_bombs_are_refused(start: Any, coding: str) -> None:
+def test_body_that_expands_beyond_the_limit_answers_413(start: Any, coding: str) -> None:
     headers = {"Content-Encoding": coding}
     with start(
         limits={"body_bytes": 100_000, "json_bytes": 100_000, "map_bytes": 200_000}
@@ -46,7 +48,7 @@ def test_bombs_are_refused(start: Any, coding: str) -> None:
 
 
 @pytest.mark.parametrize("coding", CODERS)
-def test_what_is_not_compressed_is_told(service: Any, coding: str) -> None:
+def test_invalid_compressed_body_answers_400(service: Any, coding: str) -> None:
     response = service.post("/describe", content=b"{}", headers={"Content-Encoding": coding})
     assert_problem(response, 400, f"not-{coding}")
     whole = CODERS[coding](json.dumps(request_of([cloud(0)])).encode())
@@ -54,7 +56,7 @@ def test_what_is_not_compressed_is_told(service: Any, coding: str) -> None:
     assert response.status_code == 400
 
 
-def test_other_codings_are_told(service: Any) -> None:
+def test_unknown_coding_answers_415(service: Any) -> None:
     response = service.post("/describe", content=b"", headers={"Content-Encoding": "br"})
     assert_problem(response, 415, "unsupported-content-encoding", "gzip or zstd")
     assert response.headers["accept-encoding"] == "gzip, zstd"

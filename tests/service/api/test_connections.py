@@ -1,4 +1,4 @@
-"""Connections: slow readers get all, silent ones are dropped, health checks find room."""
+"""Connections: slow readers, silent clients, and health checks when all connections are in use."""
 
 import asyncio
 import socket
@@ -17,12 +17,12 @@ from service.server import Protocol
 Served = tuple[str, int]
 SECONDS = 60
 CLIENTS: list[asyncio.StreamWriter] = []
-"""Open clients of a test, closed at its end."""
+"""Open connections of a test, which are closed at its end."""
 
 
 @asynccontextmanager
 async def listening(app: Any, **facts: Any) -> AsyncIterator[Served]:
-    """An application behind the server's protocol with these limits."""
+    """Serve an application with the server's protocol and these limits."""
     kind = type("Limited", (Protocol,), facts)
     config = uvicorn.Config(app, lifespan="off", log_config=None, access_log=False)
     config.load()
@@ -45,7 +45,7 @@ async def listening(app: Any, **facts: Any) -> AsyncIterator[Served]:
 
 
 async def connected(address: Served, receive_bytes: int | None = None) -> Any:
-    """A client's connection, with a receive buffer of some size."""
+    """Open a client's connection with a receive buffer of a given size."""
     sock = socket.socket()
     if receive_bytes is not None:
         sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
@@ -57,7 +57,7 @@ async def connected(address: Served, receive_bytes: int | None = None) -> Any:
 
 
 def whole(content: bytes) -> Callable[..., Any]:
-    """An application that hands its answer over at once."""
+    """Return an application that sends its answer in one piece."""
 
     async def app(scope: Any, receive: Any, send: Any) -> None:
         size = str(len(content)).encode()
@@ -72,7 +72,7 @@ GET = b"GET /a HTTP/1.1\r\nHost: x\r\n\r\n"
 
 
 async def read_slowly(reader: asyncio.StreamReader, size: int, pieces: int) -> bytes:
-    """Read a head and so many bytes, with a pause after each piece."""
+    """Read a head and a number of bytes, with a pause after each piece."""
     await reader.readuntil(b"\r\n\r\n")
     found = b""
     for _ in range(pieces):
@@ -81,17 +81,17 @@ async def read_slowly(reader: asyncio.StreamReader, size: int, pieces: int) -> b
     return found + await reader.readexactly(size - len(found))
 
 
-def test_A3_slow_reader_gets_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The time for the next request does not count while the last answer is on its way."""
+def test_A3_slow_reader_gets_the_whole_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The idle time of a connection begins after the last answer is sent."""
     monkeypatch.setattr(server, "HEAD_SECONDS", 0.05)
-    content = bytes(range(256)) * (48 << 10)  # 12 MiB: more than sockets hold
+    content = bytes(range(256)) * (48 << 10)  # 12 MiB: more than the buffers of sockets
 
     async def main() -> None:
         async with listening(whole(content), stall_seconds=5.0) as address:
             reader, writer = await connected(address, 64 << 10)
             writer.write(GET)
             assert await read_slowly(reader, len(content), 40) == content
-            # Now that it has all, it must send its next request in time.
+            # The client has the whole answer and must send its next request in time.
             assert await reader.read() == b""
 
     asyncio.run(main())
@@ -141,7 +141,7 @@ def test_A3_reader_that_reads_nothing_is_dropped(close: bytes) -> None:
 
 
 def test_A7_slow_readers_of_one_file_hold_it_once(tmp_path: Any) -> None:
-    """40 slow readers of 13.5 MB: one file on disk, and little memory for each of them."""
+    """40 slow readers of 13.5 MB share one file on disk and need little memory each."""
     import tracemalloc
 
     content = bytes(13_500_000)
@@ -182,7 +182,7 @@ def test_A7_slow_readers_of_one_file_hold_it_once(tmp_path: Any) -> None:
         assert made == [1]
         assert answers.under_way == len(content)
         for task in tasks[:20]:
-            task.cancel()  # half of them leave
+            task.cancel()  # half of the readers disconnect
         go_on.set()
         await asyncio.gather(*tasks, return_exceptions=True)
         assert sum(stuck) >= 20 * len(content)
@@ -193,7 +193,7 @@ def test_A7_slow_readers_of_one_file_hold_it_once(tmp_path: Any) -> None:
     asyncio.run(main())
 
 
-def test_A7_bytes_of_answers_under_way_are_bounded(tmp_path: Any) -> None:
+def test_A7_answers_beyond_the_byte_budget_are_refused(tmp_path: Any) -> None:
     from service.core.problems import Problem
 
     async def main() -> None:
@@ -254,7 +254,7 @@ def test_A11_longest_idle_connection_makes_room(limit: dict[str, int]) -> None:
             for _ in range(3):
                 idle.append(await connected(address))
                 await asyncio.sleep(0.01)
-            # The first is used again, so the second is idle longest.
+            # The first connection is used again, so the second one is idle longest.
             idle[0][1].write(GET)
             assert (await idle[0][0].readline()).startswith(b"HTTP/1.1 200")
             assert await answered(address)

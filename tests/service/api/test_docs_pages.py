@@ -1,4 +1,4 @@
-"""The API's description: from the service itself, and true about keys."""
+"""API documentation pages: local files only, and correct statements about API keys."""
 
 import re
 from pathlib import Path
@@ -20,9 +20,9 @@ def files_of(html: str) -> list[str]:
 
 @pytest.mark.parametrize("prefix", ["", "/robots/placecell"])
 @pytest.mark.parametrize("page", ["/docs", "/redoc"])
-def test_A20_pages_load_files_of_the_service_alone(start: Any, page: str, prefix: str) -> None:
+def test_A20_pages_load_only_files_of_the_service(start: Any, page: str, prefix: str) -> None:
     with start(root_path=prefix) as service:
-        # As a proxy passes it on, without the prefix; the browser sees it.
+        # The proxy forwards the path without the prefix. The browser sees the prefix.
         answer = service.get(page)
         assert answer.status_code == 200
         assert answer.headers["content-type"].startswith("text/html")
@@ -50,7 +50,7 @@ def test_A20_pages_load_files_of_the_service_alone(start: Any, page: str, prefix
             assert document["servers"] == [{"url": prefix}]
 
 
-def test_A20_no_script_asks_another_host(service: Any) -> None:
+def test_A20_scripts_request_no_other_host(service: Any) -> None:
     start = service.get("/docs/start.js").text
     assert "validatorUrl: null" in start
     assert "http" not in start
@@ -59,7 +59,7 @@ def test_A20_no_script_asks_another_host(service: Any) -> None:
 
 
 @pytest.mark.slow
-def test_A20_the_description_says_which_routes_need_a_key(start: Any, tmp_path: Path) -> None:
+def test_A20_description_marks_routes_that_need_a_key(start: Any, tmp_path: Path) -> None:
     file = tmp_path / "keys.toml"
     file.write_text("[a]\nsha256 = '" + "0" * 64 + "'\n")
     with start(keys_file=file) as service:
@@ -81,7 +81,7 @@ def test_A20_the_description_says_which_routes_need_a_key(start: Any, tmp_path: 
             assert service.get(path).status_code == 200
 
 
-def test_A20_the_description_can_be_turned_off(start: Any) -> None:
+def test_A20_setting_turns_the_description_off(start: Any) -> None:
     with start(docs=False) as service:
         for path in ("/docs", "/redoc", "/openapi.json", "/docs/start.js", "/docs/favicon.png"):
             answer = service.get(path)

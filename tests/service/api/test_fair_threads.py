@@ -1,4 +1,4 @@
-"""Threads and places that clients share: nobody keeps all of them from the others."""
+"""Fair threads: no client can occupy all threads or places."""
 
 import asyncio
 import threading
@@ -19,7 +19,7 @@ def run(main: Any) -> Any:
 
 
 def test_A4_one_client_never_holds_all_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fairness: with 2 threads, another client's call runs while one client's calls do not end."""
+    """With 2 threads, another client's call runs while one client's calls do not end."""
     monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
     release = threading.Event()
 
@@ -34,8 +34,8 @@ def test_A4_one_client_never_holds_all_threads(monkeypatch: pytest.MonkeyPatch) 
     run(main)
 
 
-def test_call_that_takes_long_lends_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fairness: small calls of the same client do not wait for the end of its large ones."""
+def test_long_call_gives_up_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small calls of a client do not wait for the end of its large calls."""
     monkeypatch.setattr(fair_threads, "LONG_SECONDS", 0.02)
     release = threading.Event()
 
@@ -50,9 +50,9 @@ def test_call_that_takes_long_lends_its_place(monkeypatch: pytest.MonkeyPatch) -
     run(main)
 
 
-def test_clients_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_waiting_calls_start_round_robin(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
-    # The order of the starts: which of two running threads comes first is the system's choice.
+    # The order of the starts. The system decides which of two running threads comes first.
     order: list[str] = []
     start = FairThreads._start
 
@@ -64,7 +64,7 @@ def test_clients_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
 
     async def main() -> None:
         threads, release = FairThreads(1), threading.Event()
-        # Four clients, the most that are at work at once, keep all threads.
+        # Four clients occupy all threads, as many as may run at once.
         held = [asyncio.create_task(threads.run(name, lambda: release.wait(60))) for name in "wxyz"]
         await asyncio.sleep(0.05)
         calls = [asyncio.create_task(threads.run(name, lambda: None)) for name in "aaaaabbc"]
@@ -78,7 +78,7 @@ def test_clients_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
     assert set(order[4:7]) == {"a", "b", "c"}
 
 
-def test_cancelled_while_waiting_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_call_cancelled_while_waiting_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fair_threads, "LONG_SECONDS", 1e9)
     started: list[int] = []
 
@@ -102,7 +102,7 @@ def test_cancelled_while_waiting_is_not_started(monkeypatch: pytest.MonkeyPatch)
     assert started == [2]
 
 
-def test_failed_call_gives_its_place_back() -> None:
+def test_failed_call_frees_its_place() -> None:
     async def main() -> None:
         threads = FairThreads(1)
         for _ in range(9):
@@ -113,8 +113,8 @@ def test_failed_call_gives_its_place_back() -> None:
     run(main)
 
 
-def test_heavy_calls_leave_room_for_light_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fairness: no place is lent to heavy calls, so their memory is bounded; light ones pass."""
+def test_heavy_calls_leave_places_for_light_calls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Heavy calls take no place from running calls, so their memory is bounded."""
     monkeypatch.setattr(fair_threads, "LONG_SECONDS", 0.001)
     release, lock = threading.Event(), threading.Lock()
     inside = most = 0

@@ -1,4 +1,4 @@
-"""Disks that fail under the running service: a clear answer, the old map, and nothing lost."""
+"""Disks that fail under the running service: clear errors, the old map, and no lost data."""
 
 import random
 import re
@@ -24,13 +24,13 @@ DATABASE = "maps.sqlite"
 
 @pytest.fixture(scope="module")
 def files(manifest: Manifest) -> list[bytes]:
-    """Some versions of a map, of 20 to 30 kB."""
+    """Return several versions of a map, each of 20 to 30 kB."""
     return [encode(map_of(random_codes(1_000, seed), manifest.model_id)) for seed in range(6)]
 
 
 @contextmanager
 def running(models_dir: Path, data_dir: Path) -> Iterator[tuple[Service, httpx.Client]]:
-    """The service as a process, killed at the end, and a client."""
+    """Run the service as a process, and kill it at the end; yield it and a client."""
     service = Service(data_dir, "--models-dir", str(models_dir), "--model", "tiny")
     try:
         with httpx.Client(base_url=service.address(), timeout=60) as client:
@@ -48,7 +48,7 @@ def is_there(client: Any, name: str) -> bool:
 
 
 def versions(client: Any, name: str = "yard") -> list[bytes]:
-    """The files of all versions, oldest first."""
+    """Return the files of all versions, oldest first."""
     listed = client.get(f"/maps/{name}/versions").json()["versions"]
     answers = [
         client.get(f"/maps/{name}", params={"version": each["sequence"]})
@@ -66,7 +66,7 @@ FAULTS = [
 ]
 
 
-def test_a_write_that_the_disk_refuses_changes_nothing(
+def test_write_that_fails_on_disk_changes_nothing(
     models_dir: Path, data_dir: Path, tmp_path: Path, files: list[bytes]
 ) -> None:
     stored = files[:1]
@@ -90,10 +90,10 @@ def test_a_write_that_the_disk_refuses_changes_nothing(
         assert not is_there(client, "new")
 
 
-def test_what_was_refused_as_the_disk_failed_is_there_whole_or_not_at_all(
+def test_refused_write_is_stored_whole_or_not_at_all(
     models_dir: Path, data_dir: Path, tmp_path: Path, files: list[bytes]
 ) -> None:
-    """A sync that fails says not how much came to the disk; a kill may leave all of it there."""
+    """A failed fsync leaves unknown what was stored; after a kill all of it may be there."""
     with running(models_dir, data_dir) as (service, client):
         assert put(client, files[0]).status_code == 201
         with failing(service.process.pid, "fsync,fdatasync", "EIO", tmp_path / "strace.log"):
@@ -104,7 +104,7 @@ def test_what_was_refused_as_the_disk_failed_is_there_whole_or_not_at_all(
         assert put(client, files[2]).status_code == 200
 
 
-def test_a_disk_that_cannot_be_read_is_told(
+def test_unreadable_disk_answers_503(
     models_dir: Path, data_dir: Path, tmp_path: Path, files: list[bytes]
 ) -> None:
     with running(models_dir, data_dir) as (service, client):
@@ -116,7 +116,9 @@ def test_a_disk_that_cannot_be_read_is_told(
         assert versions(client) == files[:2]
 
 
-def test_a_full_disk(models_dir: Path, tmp_path: Path, files: list[bytes]) -> None:
+def test_full_disk_answers_507_and_changes_nothing(
+    models_dir: Path, tmp_path: Path, files: list[bytes]
+) -> None:
     data_dir = tmp_path / "disk"
     ballast = data_dir / "ballast"
     with small_disk(data_dir, "4m"):
@@ -133,7 +135,7 @@ def test_a_full_disk(models_dir: Path, tmp_path: Path, files: list[bytes]) -> No
             assert_problem(response, 507, "disk-full", "nothing was changed")
             assert client.get("/maps/yard").content == stored[-1]
             assert_problem(client.get("/readyz"), 503, "not-ready", "The disk is full")
-        # As good as full; what was refused is not there after a kill either.
+        # Almost full. The refused write is absent after a kill, too.
         with running(models_dir, data_dir) as (_, client):
             assert versions(client) == stored
             ballast.unlink()
@@ -142,9 +144,7 @@ def test_a_full_disk(models_dir: Path, tmp_path: Path, files: list[bytes]) -> No
             assert versions(client) == [*stored, file]
 
 
-def test_a_disk_that_takes_no_writes_stops_the_start(
-    start: Any, tmp_path: Path, files: list[bytes]
-) -> None:
+def test_read_only_disk_prevents_the_start(start: Any, tmp_path: Path, files: list[bytes]) -> None:
     data_dir = tmp_path / "disk"
     with small_disk(data_dir, "8m"):
         with start(data_dir=data_dir) as service:
@@ -155,10 +155,10 @@ def test_a_disk_that_takes_no_writes_stops_the_start(
 
 
 @pytest.mark.slow
-def test_whatever_is_flipped_no_map_is_other_than_it_was(
+def test_flipped_bits_never_change_a_map_unnoticed(
     start: Any, data_dir: Path, manifest: Manifest
 ) -> None:
-    """Of a whole database: it does not open, or a map is set aside, or all is as it was."""
+    """A database with a flipped bit does not open, sets the damaged map aside, or is unchanged."""
     draw = random.Random(0)
     small = [encode(map_of(random_codes(20, seed), manifest.model_id)) for seed in range(3)]
     with start() as service:
@@ -171,7 +171,7 @@ def test_whatever_is_flipped_no_map_is_other_than_it_was(
     named = [match.start() for match in re.finditer(b"yard|CREATE TABLE", whole)]
     results = set()
     for place in [*draw.sample(written, 60), *named]:
-        # The highest bit makes text no longer UTF-8.
+        # With the highest bit flipped, text is no longer UTF-8.
         altered = whole[place] ^ (draw.choice((1, 16, 128)))
         database.write_bytes(whole[:place] + bytes([altered]) + whole[place + 1 :])
         with ExitStack() as stack:
@@ -191,10 +191,10 @@ def test_whatever_is_flipped_no_map_is_other_than_it_was(
 
 
 @pytest.mark.slow
-def test_a_log_that_was_cut_or_flipped_leaves_an_earlier_version_whole(
+def test_damaged_log_leaves_an_earlier_version_intact(
     start: Any, data_dir: Path, tmp_path: Path, manifest: Manifest
 ) -> None:
-    """What a log has lost cannot be known; but nothing is half there, and all that is left goes."""
+    """Lost commits of a log go unnoticed, but no commit is stored in part."""
     draw = random.Random(0)
     small = [encode(map_of(random_codes(20, seed), manifest.model_id)) for seed in range(6)]
     with start() as service:

@@ -34,9 +34,7 @@ def test_info(start: Any, manifest: Manifest) -> None:
     }
 
 
-def test_the_service_answers_while_it_computes(
-    service: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_service_answers_during_inference(service: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     entered, released = threading.Event(), threading.Event()
 
     def slow(_: object, inputs: Inputs) -> Any:
@@ -55,14 +53,14 @@ def test_the_service_answers_while_it_computes(
         assert pending.result(60).status_code == 200
 
 
-def test_unknown_paths_and_methods_are_problems(service: Any) -> None:
+def test_unknown_paths_and_methods_answer_with_problems(service: Any) -> None:
     assert_problem(service.get("/nowhere"), 404, "not-found", "/nowhere")
     response = service.put("/maps")
     assert_problem(response, 405, "method-not-allowed", "PUT")
     assert "GET" in response.headers["allow"]
 
 
-def test_a_failure_tells_the_client_nothing_of_the_inside(
+def test_unexpected_error_reveals_no_internals(
     service: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def failing(*_: object) -> Any:
@@ -76,7 +74,7 @@ def test_a_failure_tells_the_client_nothing_of_the_inside(
     assert service.get("/livez").status_code == 200
 
 
-def test_only_json_is_taken_for_json(service: Any) -> None:
+def test_body_of_another_media_type_answers_415(service: Any) -> None:
     headers = {"Content-Type": "text/csv"}
     response = service.post("/describe", content=b"1,2,3", headers=headers)
     assert_problem(response, 415, "unsupported-media-type", "application/json")
@@ -84,7 +82,7 @@ def test_only_json_is_taken_for_json(service: Any) -> None:
     assert service.post("/describe", content=b"{}", headers=headers).status_code == 422
 
 
-def test_a_large_body_is_refused_stated_or_streamed(start: Any) -> None:
+def test_large_body_answers_413_with_and_without_content_length(start: Any) -> None:
     with start(limits={"body_bytes": 1000, "json_bytes": 1000}) as service:
         response = service.post("/describe", content=b" " * 1001)
         assert_problem(response, 413, "body-too-large", "1000 bytes")
@@ -100,7 +98,7 @@ def test_a_large_body_is_refused_stated_or_streamed(start: Any) -> None:
         assert service.post("/describe", content=b" " * 1000).status_code == 400
 
 
-def test_the_description_is_complete(service: Any) -> None:
+def test_openapi_lists_every_route(service: Any) -> None:
     document = service.get("/openapi.json").json()
     schemas = document["components"]["schemas"]
     for path, methods in document["paths"].items():
@@ -118,7 +116,7 @@ def test_the_description_is_complete(service: Any) -> None:
 
 
 @pytest.mark.slow
-def test_the_examples_of_the_description_run(service: Any) -> None:
+def test_examples_of_openapi_are_accepted(service: Any) -> None:
     document = service.get("/openapi.json").json()
     for path in ("/describe", "/match", "/localize"):
         content = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]

@@ -1,4 +1,4 @@
-"""Coordinates at the edge of what is taken: NaN, infinity, and sums that go too far."""
+"""Coordinates at the limits: NaN, infinity, and sums beyond the largest coordinate."""
 
 import json
 from typing import Any
@@ -21,7 +21,7 @@ PATHS = ("/describe", "/match", "/localize")
 
 @pytest.mark.parametrize("path", PATHS)
 @pytest.mark.parametrize("sign", [1, -1])
-def test_A15_a_sum_with_the_origin_that_is_too_large_is_refused(
+def test_A15_coordinate_plus_origin_beyond_the_limit_answers_422(
     service: Any, path: str, sign: int
 ) -> None:
     far, near = np.full((20, 3), sign * LIMIT), -sign * np.abs(cloud(0))
@@ -44,7 +44,7 @@ def test_A15_a_sum_with_the_origin_that_is_too_large_is_refused(
 @pytest.mark.parametrize(
     "value", [LIMIT, -LIMIT, np.nextafter(LIMIT, 0), 1e-320, -0.0, 1e-45, 3.4e38, 1e308]
 )
-def test_A15_coordinates_at_the_edges_give_no_500(service: Any, path: str, value: float) -> None:
+def test_A15_extreme_coordinates_never_answer_500(service: Any, path: str, value: float) -> None:
     for shift in (0.0, 999.0, -999.0, 1e-3):
         near = np.clip(cloud(0) * 0.01 + value, -LIMIT, LIMIT) if abs(value) <= LIMIT else cloud(0)
         segment = {"points": near.tolist(), "sensor": [value, value, value + shift]}
@@ -57,7 +57,7 @@ def test_A15_coordinates_at_the_edges_give_no_500(service: Any, path: str, value
 
 
 @pytest.mark.parametrize("path", PATHS)
-def test_B10_points_that_are_not_finite_are_left_out_and_counted(service: Any, path: str) -> None:
+def test_B10_nonfinite_points_are_dropped_and_counted(service: Any, path: str) -> None:
     clean = packed(request_of([cloud(0), cloud(1)]))
     points = cloud(1).astype("<f4")
     broken = np.insert(points, [0, 5, 5, len(points)], np.nan, axis=0)
@@ -70,7 +70,7 @@ def test_B10_points_that_are_not_finite_are_left_out_and_counted(service: Any, p
     assert unpacked(wanted)["dropped_points"] == 0
 
 
-def test_B10_a_segment_without_a_finite_point_is_an_error_of_its_own(service: Any) -> None:
+def test_B10_segment_without_finite_points_has_its_own_error(service: Any) -> None:
     clean = packed(request_of([cloud(0), cloud(1)]))
     nothing = np.full((40, 3), np.nan, "<f4").tobytes()
     body = {"segments": [clean["segments"][0] | {"points": nothing}, clean["segments"][1]]}
@@ -84,7 +84,7 @@ def test_B10_a_segment_without_a_finite_point_is_an_error_of_its_own(service: An
     assert_problem(told, 422, "no-usable-segment", "and 40 non-finite points")
 
 
-def test_B10_points_that_are_left_out_count_against_the_limit(start: Any) -> None:
+def test_B10_dropped_points_count_against_the_limit(start: Any) -> None:
     with start(limits={"points": 500}) as service:
         nothing = np.full((501, 3), np.nan, "<f4").tobytes()
         body = {"segments": [{"points": nothing, "sensor": [0.0, 0.0, 0.0]}]}

@@ -1,4 +1,4 @@
-"""JSON bodies read by compiled code: the same bodies are taken, with the same values, as before."""
+"""JSON bodies parsed by compiled code: the plain schemas accept the same bodies and values."""
 
 import json
 import sys
@@ -44,7 +44,7 @@ def plain(value: Any) -> Any:
 
 
 def read(schema: type[BaseModel], body: bytes) -> Any:
-    """Return the parsed request, or the status and the places of its errors."""
+    """Return the parsed request, or the status and the positions of its errors."""
     try:
         return plain(read_json(schema, body, LIMITS))
     except Problem as problem:
@@ -52,7 +52,7 @@ def read(schema: type[BaseModel], body: bytes) -> Any:
 
 
 def expected(schema: type[BaseModel], body: bytes) -> Any:
-    """Return the same from the plain schema."""
+    """Return the result of `read` for the plain schema."""
     try:
         return plain(schema.model_validate_json(body))
     except ValidationError as error:
@@ -79,7 +79,7 @@ PIECES = [
     ),
     schema=st.sampled_from(SCHEMAS),
 )
-def test_bodies_are_taken_as_by_the_schema(
+def test_compiled_parser_agrees_with_the_schema(
     body: str, changes: list[tuple[float, int, str]], schema: type[BaseModel]
 ) -> None:
     for where, removed, piece in changes:
@@ -101,7 +101,7 @@ def test_bodies_are_taken_as_by_the_schema(
 @example([5e-324, 2.2250738585072014e-308, 1e-308], "r")
 @example([1e8, -1e8, 99999999.99999999], "r")
 @example([9007199254740993.0 / 1e9, 0.1 + 0.2, 1 / 3], "r")
-def test_numbers_are_read_to_the_last_bit(values: list[float], form: str) -> None:
+def test_numbers_are_parsed_to_the_last_bit(values: list[float], form: str) -> None:
     texts = {
         "r": [repr(value) for value in values],
         "f": [f"{value:.25f}" for value in values],
@@ -109,7 +109,7 @@ def test_numbers_are_read_to_the_last_bit(values: list[float], form: str) -> Non
         "d": [f"{value:.40f}" + "1" for value in values],
     }[form]
     wanted = [float(text) for text in texts]
-    # Short and long bodies go different ways.
+    # Short and long bodies are parsed by different code.
     for padding in ("", " " * 200):
         body = '{"points":[[' + ",".join(texts) + "]]}" + padding
         found = cut_arrays(body.encode(), points=9, segments=9, values=9)
@@ -138,7 +138,7 @@ def test_numbers_are_read_to_the_last_bit(values: list[float], form: str) -> Non
         ("[[100000000.000000016,0,0]]", "/0/0", "less than or equal"),
     ],
 )
-def test_a_wrong_point_is_told_with_its_place(
+def test_invalid_point_error_names_its_position(
     service: Any, points: str, pointer: str, detail: str
 ) -> None:
     good = json.dumps(request_of([cloud(0)])["segments"][0])
@@ -149,7 +149,7 @@ def test_a_wrong_point_is_told_with_its_place(
     assert response.json()["errors"][0]["pointer"] == f"/segments/1/points{pointer}"
 
 
-def test_the_place_of_a_syntax_error_is_that_of_the_body(service: Any) -> None:
+def test_syntax_error_names_its_position_in_the_body(service: Any) -> None:
     good = json.dumps(request_of([cloud(0)])["segments"][0])
     bodies = [
         f'{{"segments": [{good},\n {good} {good}]}}',
@@ -164,7 +164,7 @@ def test_the_place_of_a_syntax_error_is_that_of_the_body(service: Any) -> None:
         assert_problem(told, 400, "not-json", str(invalid(caught.value).detail))
 
 
-def test_keys_may_be_written_as_escapes_and_stand_twice() -> None:
+def test_escaped_and_repeated_keys_are_accepted() -> None:
     body = (
         b'{"segments":[{"points":[[9,9,9]],"p\\u006fint\\u0073":[[1,2,3]],"sensor":[0,0,0]}],'
         b'"model":"points","origin":[0,0,0]}'
@@ -174,7 +174,7 @@ def test_keys_may_be_written_as_escapes_and_stand_twice() -> None:
     assert read(DescribeRequest, body) == expected(DescribeRequest, body)
 
 
-def test_a_client_cannot_name_an_array_that_was_cut_out() -> None:
+def test_body_cannot_refer_to_cut_arrays() -> None:
     for value in ('"0"', '":0"', '"0000000000000000:0"', "0", "[0]"):
         body = f'{{"segments":[{{"points":{value},"sensor":[0,0,0]}}]}}'.encode()
         assert read(DescribeRequest, body) == expected(DescribeRequest, body)
@@ -182,13 +182,13 @@ def test_a_client_cannot_name_an_array_that_was_cut_out() -> None:
 
 
 @pytest.mark.parametrize("length", range(30))
-def test_bodies_that_are_cut_short_are_refused(length: int) -> None:
+def test_truncated_bodies_are_refused(length: int) -> None:
     body = b'{"points":[[1.25,-2,3]],"codes":[[1]]}'[:length]
     assert read(DescribeRequest, body)[0] in (400, 422)
 
 
 @pytest.mark.slow
-def test_B18_json_takes_as_many_points_as_info_says(start: Any) -> None:
+def test_B18_json_accepts_as_many_points_as_info_states(start: Any) -> None:
     with start(limits={"segments": 4000}) as service:
         limit = service.get("/info").json()["limits"]["points"]
         random = np.random.default_rng(0)
@@ -204,7 +204,7 @@ def test_B18_json_takes_as_many_points_as_info_says(start: Any) -> None:
         assert_problem(told, 413, "too-many-points", f"{limit + 1} points in a request; the limit")
 
 
-def test_B18_too_many_segments_are_told_by_their_number(service: Any) -> None:
+def test_B18_too_many_segments_error_states_their_number(service: Any) -> None:
     segments = [{"points": [[0, 0, 0]], "sensor": [0, 0, 0]}] * 5_000
     told = service.post("/describe", json={"segments": segments})
     assert_problem(told, 413, "too-many-segments", "5000 segments in a request; the limit is 1000")
@@ -213,7 +213,7 @@ def test_B18_too_many_segments_are_told_by_their_number(service: Any) -> None:
 
 
 @pytest.mark.slow
-def test_other_threads_run_while_a_body_is_read() -> None:
+def test_other_threads_run_while_a_body_is_parsed() -> None:
     points = np.random.default_rng(0).normal(0, 40, (200_000, 3)).tolist()
     body = json.dumps({"segments": [{"points": points, "sensor": [0, 0, 0]}]}).encode()
     del points
@@ -241,12 +241,12 @@ def test_other_threads_run_while_a_body_is_read() -> None:
         ticker.join()
         sys.setswitchinterval(before)
     within = [at for at in ticks if began <= at <= ended]
-    # Not the clock, but that the other thread ran many times, all along.
+    # The other thread ran many times during the whole parse. The clock is not used.
     assert len(within) > 20
     assert max(after - before for before, after in pairwise(within)) < 0.9 * (ended - began)
 
 
-def test_every_request_has_a_form_with_its_arrays_cut_out() -> None:
+def test_cut_schemas_have_the_fields_of_their_schemas() -> None:
     assert set(CUT) == set(SCHEMAS)
     for schema, cut in CUT.items():
         assert set(cut.model_fields) == set(schema.model_fields)

@@ -1,4 +1,4 @@
-"""Lanes: reads, writes and recognition do not wait for each other, nor clients for one another."""
+"""Lanes: reads, writes and recognition do not wait for each other; clients share fairly."""
 
 import asyncio
 import gzip
@@ -38,7 +38,7 @@ SCAN = request_of([cloud(0)])
 
 @pytest.fixture
 def keys(tmp_path: Path) -> tuple[Path, dict[str, dict[str, str]]]:
-    """A file of keys, and each one's headers."""
+    """Return a file of API keys and the headers of each key."""
     file, headers, lines = tmp_path / "keys.toml", {}, []
     for name in ("ann", "bob", "cid"):
         key, digest = new_key()
@@ -50,7 +50,7 @@ def keys(tmp_path: Path) -> tuple[Path, dict[str, dict[str, str]]]:
 
 @contextmanager
 def held(monkeypatch: pytest.MonkeyPatch, place: str) -> Iterator[threading.Semaphore]:
-    """Calls of a function go on until they are cancelled or this ends; each one is counted."""
+    """Block and count all calls of a function, until they are cancelled or the block ends."""
     begun, released = threading.Semaphore(0), threading.Event()
 
     def slow(*_: object, **__: object) -> Any:
@@ -76,7 +76,7 @@ def put(service: Any, name: str, manifest: Manifest, headers: Any = None) -> Any
     return service.put(f"/maps/{name}", content=data, headers=headers)
 
 
-def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
+def test_A5_reads_have_a_lane_that_does_not_block_writes(
     start: Any, manifest: Manifest, keys: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, headers = keys
@@ -98,7 +98,7 @@ def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
                 answer = service.get(refused, headers=headers["ann"])
                 assert_problem(answer, 429, "busy", "Try again")
                 assert int(answer.headers["retry-after"]) >= 1
-            # Another key reads, and writes have threads of their own; health is never refused.
+            # Another key can read. Writes have their own threads. Health is never refused.
             assert service.get("/maps", headers=headers["bob"]).status_code == 200
             assert put(service, "hall", manifest, headers["ann"]).status_code == 201
             answer = service.post("/maps/hall/ids?count=5", headers=headers["ann"])
@@ -124,7 +124,7 @@ def test_A5_reads_are_admitted_and_do_not_hold_up_writes(
         ("service.maps.writes.writer.MapWriter.delete", "DELETE", "/maps/yard"),
     ],
 )
-def test_A5_every_path_ends_at_its_deadline(
+def test_A5_every_path_answers_504_at_its_deadline(
     service: Any,
     manifest: Manifest,
     monkeypatch: pytest.MonkeyPatch,
@@ -138,7 +138,7 @@ def test_A5_every_path_ends_at_its_deadline(
         assert_problem(answer, 504, "deadline-exceeded", "0.1 s")
 
 
-def test_a_write_that_waits_for_another_ends_at_its_deadline(
+def test_write_that_waits_for_a_lock_answers_504_at_its_deadline(
     service: Any, manifest: Manifest
 ) -> None:
     put(service, "yard", manifest)
@@ -152,7 +152,7 @@ def test_a_write_that_waits_for_another_ends_at_its_deadline(
     assert service.post("/maps/yard/segments", content=edit).status_code == 200
 
 
-def test_work_of_a_late_request_is_cancelled(service: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_work_of_late_request_is_cancelled(service: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[type[BaseException]] = []
 
     def slow(*_: object, **__: object) -> Any:
@@ -171,7 +171,7 @@ def test_work_of_a_late_request_is_cancelled(service: Any, monkeypatch: pytest.M
     assert seen == [Cancelled]
 
 
-def test_work_of_a_client_that_left_is_cancelled(
+def test_work_of_disconnected_client_is_cancelled(
     models_dir: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async def main() -> None:
@@ -202,10 +202,10 @@ def client_of(app: Any) -> httpx.AsyncClient:
     return httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://x")
 
 
-def test_A6_bodies_that_trickle_take_no_place(
+def test_A6_slow_bodies_take_no_place_in_a_lane(
     models_dir: Path, data_dir: Path, keys: Any, manifest: Manifest
 ) -> None:
-    """40 trickling connections of one key never give another key a 429, nor hold up its writes."""
+    """40 slow connections of one key neither cause a 429 of another key nor delay its writes."""
     file, headers = keys
 
     async def main() -> None:
@@ -242,7 +242,7 @@ def test_A6_bodies_that_trickle_take_no_place(
             edit = edit_of(random_codes(1), manifest.model_id, first_id=900)
             answer = await client.post("/maps/b/segments", content=edit, headers=headers["bob"])
             assert answer.status_code == 200
-            # The key itself may not send without end.
+            # The key itself has a limit on its bodies.
             answer = await client.post("/describe", json=SCAN, headers=headers["ann"])
             assert_problem(answer, 429, "busy", "40 bodies")
             stop.set()
@@ -292,7 +292,7 @@ def test_A6_bytes_of_bodies_are_bounded_for_each_key(
 def test_A6_full_lane_has_a_place_for_another_key(
     start: Any, keys: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Fairness: one key's slow requests fill the lane and the threads; another key is answered."""
+    """One key's slow requests fill the lane and the threads, and another key is answered."""
     file, headers = keys
     original = EigenvalueExtractor.prepare
     begun, released = threading.Semaphore(0), threading.Event()
@@ -329,10 +329,10 @@ def test_A6_full_lane_has_a_place_for_another_key(
         assert [each.result(60).status_code for each in pending] == [200] * 4
 
 
-def test_slow_and_steady_upload_arrives(
+def test_slow_steady_upload_is_accepted(
     models_dir: Path, data_dir: Path, manifest: Manifest
 ) -> None:
-    """A body's time counts from its last byte, as long as it makes progress."""
+    """The time limit of a body restarts with each byte, while the body makes progress."""
     data = encode(map_of(random_codes(400), manifest.model_id))
 
     async def steady() -> AsyncIterator[bytes]:
@@ -359,9 +359,9 @@ def test_slow_and_steady_upload_arrives(
         ("gzip", gzip.compress(b"")),
         ("gzip", gzip.compress(b"") + b"\0" * 5),
         ("zstd", zstandard.compress(b"")),
-        ("zstd", struct.pack("<II", 0x184D2A50, 0)),  # a frame to be skipped
+        ("zstd", struct.pack("<II", 0x184D2A50, 0)),  # a skippable frame
     ],
-    # gzip states the time, so the bytes would name the tests differently in each worker.
+    # gzip contains the time, so its bytes would give the test another name in each worker.
     ids=["gzip", "gzip-padded", "zstd", "zstd-skipped"],
 )
 def test_A14_many_empty_members_are_refused(service: Any, coding: str, member: bytes) -> None:
@@ -371,7 +371,7 @@ def test_A14_many_empty_members_are_refused(service: Any, coding: str, member: b
 
 
 @pytest.mark.parametrize("coding", ["gzip", "zstd"])
-def test_A14_some_members_are_one_body(service: Any, coding: str) -> None:
+def test_A14_several_members_form_one_body(service: Any, coding: str) -> None:
     import json
 
     compress = gzip.compress if coding == "gzip" else zstandard.compress
@@ -393,7 +393,7 @@ def test_A14_decompression_stops_when_cancelled() -> None:
             decompress(compress(b"a"), coding, 100)
 
 
-def test_A14_names_of_maps_are_bounded(service: Any) -> None:
+def test_A14_too_many_map_names_answer_422(service: Any) -> None:
     most = service.get("/info").json()["limits"]["named_maps"]
     codes = {"model_id": service.get("/info").json()["model"]["model_id"], "codes": [[0] * 7]}
     for path, body in (
@@ -411,7 +411,7 @@ def test_A14_names_of_maps_are_bounded(service: Any) -> None:
     assert unknown.status_code == 404
 
 
-def test_A14_limit_of_names_can_be_lowered(start: Any) -> None:
+def test_A14_setting_lowers_the_limit_of_map_names(start: Any) -> None:
     with start(limits={"named_maps": 2}) as service:
         model_id = service.get("/info").json()["model"]["model_id"]
         body = {"model_id": model_id, "codes": [[0] * 7], "maps": ["a", "b", "c"]}

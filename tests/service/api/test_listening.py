@@ -24,7 +24,7 @@ def listening(**settings: Any) -> Iterator[socket.socket]:
 
 @pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 with IPv4 here")
 @pytest.mark.parametrize("target", ["127.0.0.1", "::1"])
-def test_B11_all_addresses_of_ipv6_include_ipv4(target: str) -> None:
+def test_B11_ipv6_wildcard_address_accepts_ipv4(target: str) -> None:
     for found in listening(host="::"):
         port = found.getsockname()[1]
         try:
@@ -35,13 +35,13 @@ def test_B11_all_addresses_of_ipv6_include_ipv4(target: str) -> None:
             raise
 
 
-def test_B11_the_service_answers_on_a_unix_socket(
+def test_B11_service_answers_on_a_unix_socket(
     models_dir: Path, data_dir: Path, tmp_path: Path
 ) -> None:
     import subprocess
 
     path = tmp_path / "placecell.sock"
-    for _ in range(2):  # the second time a file is left over from a killed service
+    for _ in range(2):  # the second time, the killed service has left its file
         process = subprocess.Popen(
             command(models_dir, data_dir, "--unix-socket", str(path)),
             stdout=subprocess.PIPE,
@@ -61,7 +61,7 @@ def test_B11_the_service_answers_on_a_unix_socket(
         assert path.is_socket()
 
 
-def test_B11_unix_socket_in_use_is_not_taken(tmp_path: Path) -> None:
+def test_B11_unix_socket_in_use_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "placecell.sock"
     for _ in listening(unix_socket=path):
         with pytest.raises(typer.Exit):
@@ -71,7 +71,7 @@ def test_B11_unix_socket_in_use_is_not_taken(tmp_path: Path) -> None:
     assert not path.exists()
 
 
-def test_B11_file_that_is_no_socket_is_kept(tmp_path: Path) -> None:
+def test_B11_file_that_is_not_a_socket_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "notes.txt"
     path.write_text("mine")
     with pytest.raises(typer.Exit):
@@ -89,7 +89,7 @@ def test_B11_head_is_answered_wherever_get_is(service: Any, manifest: Manifest) 
         got, head = service.get(path), service.head(path)
         assert head.status_code == got.status_code == 200, path
         assert head.content == b""
-        if path != "/metrics":  # which counts itself
+        if path != "/metrics":  # counts its own requests
             assert head.headers["content-length"] == got.headers["content-length"]
         assert head.headers.get("etag") == got.headers.get("etag")
     assert service.head("/maps/none").status_code == 404
@@ -109,12 +109,12 @@ def test_B11_head_leaves_the_connection_usable(models_dir: Path, data_dir: Path)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("prefix", ["", "/robots/placecell"])
-def test_B11_the_service_works_under_a_path_prefix(
+def test_B11_service_answers_under_a_path_prefix(
     start: Any, manifest: Manifest, prefix: str
 ) -> None:
     data = encode(map_of(random_codes(5), manifest.model_id))
     with start(root_path="/robots/placecell", limits={"body_bytes": 10}) as service:
-        # With the prefix, as some proxies pass it on, and without it, as others do.
+        # Some proxies forward the path with the prefix, others without it.
         put = service.put(f"{prefix}/maps/yard", content=data)
         assert put.status_code == 201
         assert put.headers["location"] == "/robots/placecell/maps/yard"
@@ -143,7 +143,7 @@ def test_B11_cors_is_off_unless_allowed(start: Any) -> None:
         assert allowed not in service.get("/livez", headers=other).headers
 
 
-def test_B11_options_of_the_command_reach_the_settings(models_dir: Path, data_dir: Path) -> None:
+def test_B11_command_options_change_the_settings(models_dir: Path, data_dir: Path) -> None:
     options = ("--root-path", "/p", "--keep-alive-seconds", "30", "--cors-origin", "http://a.b")
     with running(models_dir, data_dir, *options) as (_, address):
         answer = httpx.get(f"{address}/p/livez", headers={"Origin": "http://a.b"})

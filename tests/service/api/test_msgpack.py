@@ -1,4 +1,4 @@
-"""msgpack means what JSON means."""
+"""Requests and answers in msgpack are equal to those in JSON."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ def stocked(service: Any, manifest: Manifest) -> Any:
 
 
 def content_of(response: Any) -> Any:
-    """An answer's body with lists in place of blobs."""
+    """Return an answer's body with lists in place of blobs."""
     assert response.status_code == 200, response.text
     if response.headers["content-type"] == JSON:
         return response.json()
@@ -46,7 +46,7 @@ def content_of(response: Any) -> Any:
 
 
 def answers(service: Any, path: str, body: dict[str, Any]) -> list[Any]:
-    """To a request in both encodings, answered in both."""
+    """Return the answers to a request for each pair of request and answer encodings."""
     told = []
     for accept in (JSON, MSGPACK):
         told.append(service.post(path, json=body, headers={"Accept": accept}))
@@ -55,7 +55,9 @@ def answers(service: Any, path: str, body: dict[str, Any]) -> list[Any]:
 
 
 @pytest.mark.parametrize("origin", [None, FAR])
-def test_descriptors_are_equal_and_so_are_errors(service: Any, origin: Any) -> None:
+def test_describe_gives_equal_descriptors_and_errors_in_both_encodings(
+    service: Any, origin: Any
+) -> None:
     body = request_of([*CLOUDS[:3], CLOUDS[3][:2], CLOUDS[4]]) | {"origin": origin}
     first, *others = answers(service, "/describe", body)
     assert "error" in first["descriptors"][3]
@@ -63,14 +65,16 @@ def test_descriptors_are_equal_and_so_are_errors(service: Any, origin: Any) -> N
 
 
 @pytest.mark.parametrize("origin", [None, FAR])
-def test_matches_of_segments_are_equal_and_so_are_errors(stocked: Any, origin: Any) -> None:
+def test_match_of_segments_gives_equal_results_in_both_encodings(stocked: Any, origin: Any) -> None:
     body = request_of([*CLOUDS, CLOUDS[0][:2]]) | {"k": 4, "maps": ["yard"], "origin": origin}
     first, *others = answers(stocked, "/match", body)
     assert [len(item.get("candidates", ())) for item in first["queries"]] == [4] * 6 + [0]
     assert all(other == first for other in others)
 
 
-def test_matches_of_codes_are_equal(stocked: Any, manifest: Manifest) -> None:
+def test_match_of_codes_gives_equal_results_in_both_encodings(
+    stocked: Any, manifest: Manifest
+) -> None:
     codes = random_codes(9, seed=5)
     body = {"model_id": manifest.model_id, "codes": codes.tolist(), "maps": None}
     first, *others = answers(stocked, "/match", body)
@@ -79,7 +83,7 @@ def test_matches_of_codes_are_equal(stocked: Any, manifest: Manifest) -> None:
 
 
 @pytest.mark.parametrize("kind", ["json", "msgpack"])
-def test_an_origin_at_map_coordinates_costs_no_accuracy(stocked: Any, kind: str) -> None:
+def test_origin_at_map_coordinates_keeps_accuracy(stocked: Any, kind: str) -> None:
     def ask(path: str, body: dict[str, Any]) -> Any:
         if kind == "json":
             return content_of(stocked.post(path, json=body))
@@ -100,7 +104,7 @@ def test_an_origin_at_map_coordinates_costs_no_accuracy(stocked: Any, kind: str)
     ]
 
 
-def test_an_origin_belongs_to_segments(service: Any, manifest: Manifest) -> None:
+def test_origin_without_segments_answers_422(service: Any, manifest: Manifest) -> None:
     body = {"model_id": manifest.model_id, "codes": [[1] * 7], "origin": [0, 0, 0]}
     assert_problem(service.post("/match", json=body), 422, "invalid-request", "either")
     response = post_packed(service, "/match", packed(body))
@@ -128,7 +132,9 @@ def test_an_origin_belongs_to_segments(service: Any, manifest: Manifest) -> None
         ("application/json;q=nan, application/msgpack;q=0.01", MSGPACK),
     ],
 )
-def test_accept_decides_on_the_answer(service: Any, accept: str, expected: str | None) -> None:
+def test_accept_header_selects_the_encoding(
+    service: Any, accept: str, expected: str | None
+) -> None:
     body = request_of(CLOUDS[:1])
     for response in (
         service.post("/describe", json=body, headers={"Accept": accept}),
@@ -141,7 +147,7 @@ def test_accept_decides_on_the_answer(service: Any, accept: str, expected: str |
             assert response.headers["content-type"] == expected
 
 
-def test_the_description_shows_both_encodings(service: Any) -> None:
+def test_openapi_describes_both_encodings(service: Any) -> None:
     document = service.get("/openapi.json").json()
     for path in ("/describe", "/match"):
         operation = document["paths"][path]["post"]

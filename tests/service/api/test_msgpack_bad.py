@@ -1,4 +1,4 @@
-"""What is wrong with a msgpack body is told, with its place, and nothing breaks."""
+"""Invalid msgpack bodies give problems that name the position of the error."""
 
 import json
 import struct
@@ -33,7 +33,7 @@ TWICE = b"\x81\xa8segments\x92" + PAIRS + b"\x83" + PAIRS[1:] + PAIRS[1:10]
 
 
 def with_value(value: float, place: int = 61) -> dict[str, Any]:
-    """A good request but for one value of its second segment."""
+    """Return a request that is valid except for one value of its second segment."""
     points = cloud(1).astype("<f4")
     points.flat[place] = value
     return {"segments": [GOOD["segments"][0], GOOD["segments"][1] | {"points": points.tobytes()}]}
@@ -91,7 +91,7 @@ BAD: dict[str, tuple[Any, int, str, str]] = {
 
 @pytest.mark.parametrize("case", BAD)
 @pytest.mark.parametrize("path", ["/describe", "/match"])
-def test_bad_bodies_are_refused_with_the_place(service: Any, case: str, path: str) -> None:
+def test_invalid_msgpack_error_names_its_position(service: Any, case: str, path: str) -> None:
     body, status, kind, detail = BAD[case]
     response = post_packed(service, path, body)
     assert_problem(response, status, kind, detail)
@@ -100,7 +100,7 @@ def test_bad_bodies_are_refused_with_the_place(service: Any, case: str, path: st
 
 
 @pytest.mark.parametrize("path", ["/describe", "/match"])
-def test_a_value_out_of_range_is_told_as_for_json(service: Any, path: str) -> None:
+def test_value_out_of_range_gives_the_error_of_json(service: Any, path: str) -> None:
     for value in (2.0**30, -(2.0**30)):
         body = with_value(value)
         lists = [
@@ -132,7 +132,7 @@ def test_a_value_out_of_range_is_told_as_for_json(service: Any, path: str) -> No
         (GOOD, 422, INVALID, "either"),
     ],
 )
-def test_bad_queries_are_refused_with_the_reason(
+def test_invalid_queries_are_refused_with_the_reason(
     service: Any, manifest: Manifest, changes: dict[str, Any], status: int, kind: str, detail: str
 ) -> None:
     codes = random_codes(2).tobytes()
@@ -140,7 +140,7 @@ def test_bad_queries_are_refused_with_the_reason(
     assert_problem(post_packed(service, "/match", body), status, kind, detail)
 
 
-def test_a_request_is_limited(start: Any) -> None:
+def test_limits_apply_to_msgpack_requests(start: Any) -> None:
     with start(limits={"segments": 3, "points": 500, "body_bytes": 20_000}) as service:
         clouds = [cloud(seed, 125) for seed in range(4)]
 
@@ -154,7 +154,7 @@ def test_a_request_is_limited(start: Any) -> None:
 
 
 def read(body: bytes) -> None:
-    """Both requests' decoders: a schema, or a Problem of the client's, and nothing else."""
+    """Decode both kinds of requests; let only schemas and problems of the client pass."""
     for schema, twin in (
         (DescribeRequest, PackedDescribeRequest),
         (MatchRequest, PackedMatchRequest),
@@ -194,21 +194,21 @@ REQUESTS = st.dictionaries(KEYS, VALUES) | st.fixed_dictionaries(
 
 @given(st.binary(max_size=200))
 @settings(max_examples=300, deadline=None)
-def test_no_bytes_break_the_decoder(body: bytes) -> None:
+def test_random_bytes_give_a_value_or_a_problem(body: bytes) -> None:
     read(body)
 
 
 @pytest.mark.slow
 @given(REQUESTS.map(msgpack.packb))
 @settings(max_examples=300, deadline=None)
-def test_no_values_break_the_decoder(body: bytes) -> None:
+def test_random_values_give_a_value_or_a_problem(body: bytes) -> None:
     read(body)
 
 
 @pytest.mark.slow
 @given(st.data())
 @settings(max_examples=300, deadline=None)
-def test_no_damage_breaks_the_decoder(data: st.DataObject) -> None:
+def test_damaged_bodies_give_a_value_or_a_problem(data: st.DataObject) -> None:
     small = packed(request_of([cloud(0, 10)]) | {"maps": ["yard"], "k": 3})
     body = bytearray(msgpack.packb(small))
     for _ in range(data.draw(st.integers(1, 4))):

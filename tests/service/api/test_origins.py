@@ -1,4 +1,4 @@
-"""Web pages that a user opens can do nothing to a service without keys."""
+"""Web pages that a user opens cannot access a service without keys."""
 
 import asyncio
 from pathlib import Path
@@ -118,12 +118,12 @@ def test_A9_foreign_hosts_and_origins_are_refused(
 
 
 @pytest.mark.parametrize("headers", OWN, ids=str)
-def test_A9_own_names_are_answered(service: Any, headers: dict[str, str]) -> None:
+def test_A9_own_names_are_accepted(service: Any, headers: dict[str, str]) -> None:
     assert service.get("/maps", headers=headers).status_code == 200
     assert service.post("/models/reload", headers=headers).status_code == 200
 
 
-def test_A9_with_keys_any_host_is_answered(start: Any, tmp_path: Path) -> None:
+def test_A9_service_with_keys_accepts_any_host(start: Any, tmp_path: Path) -> None:
     file = tmp_path / "keys.toml"
     file.write_text("[a]\nsha256 = '" + "0" * 64 + "'\n")
     with start(keys_file=file) as service:
@@ -132,7 +132,7 @@ def test_A9_with_keys_any_host_is_answered(start: Any, tmp_path: Path) -> None:
             assert service.get("/maps", headers=headers).status_code == 401
 
 
-def test_A9_the_settings_name_further_hosts(start: Any) -> None:
+def test_A9_setting_allows_further_hosts(start: Any) -> None:
     with start(allowed_hosts=["robots.example", "*.fleet.example"]) as service:
         for host, status in {
             "robots.example:8000": 200,
@@ -147,7 +147,7 @@ def test_A9_the_settings_name_further_hosts(start: Any) -> None:
         assert service.get("/maps", headers=own).status_code == 200
 
 
-def test_A9_pages_of_allowed_origins_may_ask(start: Any) -> None:
+def test_A9_pages_of_allowed_origins_are_answered(start: Any) -> None:
     page, cross = "https://page.example", {"Sec-Fetch-Site": "cross-site"}
     with start(cors_origins=[page]) as service:
         answer = service.get("/maps", headers={"Origin": page} | cross)
@@ -172,7 +172,7 @@ def test_A9_pages_of_allowed_origins_may_ask(start: Any) -> None:
         (("::1", 8000), "[::1]", 200),
         (("::ffff:127.0.0.1", 8000), "127.0.0.1", 200),
         (("::ffff:127.0.0.1", 8000), "10.0.0.5", 403),
-        # --allow-remote: the operator let others in, by address or by the name that was given.
+        # --allow-remote: the operator allowed other machines, by address or by configured name.
         (("10.0.0.5", 8000), "10.0.0.5:8000", 200),
         (("10.0.0.5", 8000), "robots-pc", 200),
         (("10.0.0.5", 8000), "evil.example", 403),
@@ -189,14 +189,14 @@ def test_A9_pages_of_allowed_origins_may_ask(start: Any) -> None:
         (("evil.example", 80), "evil.example", 403),
     ],
 )
-def test_A9_the_address_that_was_reached_decides(
+def test_A9_allowed_hosts_depend_on_the_address_reached(
     server: tuple[str, int | None] | None, host: str, status: int
 ) -> None:
     settings = Settings(host="robots-pc")
     assert status_at(settings, server, [("host", host)]) == status
 
 
-def test_A9_two_hosts_or_none() -> None:
+def test_A9_repeated_host_is_refused_and_missing_host_accepted() -> None:
     server = ("127.0.0.1", 8000)
     twice = [("host", "localhost"), ("host", "evil.example")]
     assert status_at(Settings(), server, twice) == 403

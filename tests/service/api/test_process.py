@@ -22,7 +22,7 @@ from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import PROBLEM, cloud, map_of, random_codes, write_onnx_model
 
 PROGRAM = "import service.server; service.server.HEAD_SECONDS = 2; from cli import app; app()"
-"""`placecell`, but less patient."""
+"""`placecell` with a shorter time limit for the head of a request."""
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -38,7 +38,7 @@ def command(models_dir: Path, data_dir: Path, *more: str) -> list[str]:
 def running(
     models_dir: Path, data_dir: Path, *options: str
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """The process and its address."""
+    """Run the service as a process; yield the process and its address."""
     process = subprocess.Popen(
         command(models_dir, data_dir, *options),
         stdout=subprocess.PIPE,
@@ -58,7 +58,7 @@ def running(
 
 
 def refused(*arguments: str, models_dir: Path, data_dir: Path) -> str:
-    """What the service says as it exits with 1."""
+    """Return the output of a service that exits with status 1."""
     done = subprocess.run(
         command(models_dir, data_dir, *arguments),
         capture_output=True, text=True, timeout=60, cwd=ROOT, check=False,
@@ -71,7 +71,7 @@ def refused(*arguments: str, models_dir: Path, data_dir: Path) -> str:
 
 
 def raw_request(address: str, head: str, *body: bytes) -> tuple[int, str]:
-    """Send bytes as they are; the status and the rest of the answer."""
+    """Send raw bytes; return the status and the rest of the answer."""
     host, port = address.removeprefix("http://").split(":")
     with socket.create_connection((host, int(port)), timeout=60) as connection:
         connection.sendall(head.replace("\n", "\r\n").encode())
@@ -79,7 +79,7 @@ def raw_request(address: str, head: str, *body: bytes) -> tuple[int, str]:
             for part in body:
                 connection.sendall(part)
         except (BrokenPipeError, ConnectionResetError):
-            pass  # answered already
+            pass  # the answer was sent already
         answer = b""
         try:
             while part := connection.recv(65536):
@@ -90,12 +90,12 @@ def raw_request(address: str, head: str, *body: bytes) -> tuple[int, str]:
 
 
 def peak_memory(process: subprocess.Popen[str]) -> int:
-    """Bytes, the most that the process ever held."""
+    """Return the peak memory of a process, bytes."""
     status = Path(f"/proc/{process.pid}/status").read_text()
     return int(status.split("VmHWM:")[1].split()[0]) * 1024
 
 
-def test_an_answered_upload_survives_sigkill(
+def test_answered_upload_survives_sigkill(
     models_dir: Path, data_dir: Path, manifest: Manifest
 ) -> None:
     stored = map_of(random_codes(50), manifest.model_id)
@@ -116,7 +116,7 @@ def test_an_answered_upload_survives_sigkill(
         assert by_segments.queries == before.queries
 
 
-def test_the_client_speaks_to_the_service(
+def test_client_works_over_a_real_socket(
     models_dir: Path, data_dir: Path, manifest: Manifest
 ) -> None:
     with running(models_dir, data_dir) as (_, address), Client(address) as client:
@@ -147,7 +147,9 @@ def test_the_client_speaks_to_the_service(
             client.put_map("yard", map_of(random_codes(2), ""))
 
 
-def test_bad_input_over_a_real_socket(models_dir: Path, data_dir: Path, manifest: Manifest) -> None:
+def test_invalid_input_over_a_real_socket_is_refused(
+    models_dir: Path, data_dir: Path, manifest: Manifest
+) -> None:
     yard = encode(map_of(random_codes(50), manifest.model_id))
     million = b",".join([b"[1.25,2.25,3.25]"] * 1_000_000)
     with (
@@ -168,7 +170,7 @@ def test_bad_input_over_a_real_socket(models_dir: Path, data_dir: Path, manifest
             assert response.status_code == 413
             assert response.headers["content-type"] == PROBLEM
             assert f"{40 << 20} bytes" in response.json()["detail"]
-        # The bodies have 170 MB each; the limit is 40 MiB, held in parts until it is passed.
+        # Each body has 170 MB. At most 40 MiB of it, the limit, are held in memory.
         assert peak_memory(process) - before < 60_000_000
 
         for path in ("/maps/..", "/maps/../../etc/passwd", "/maps/..%2f..%2fetc%2fpasswd"):
@@ -186,7 +188,9 @@ def test_bad_input_over_a_real_socket(models_dir: Path, data_dir: Path, manifest
         assert client.get("/maps/yard").content == yard
 
 
-def test_a_second_service_on_a_data_directory_says_so(models_dir: Path, data_dir: Path) -> None:
+def test_second_service_on_a_data_directory_exits_with_an_error(
+    models_dir: Path, data_dir: Path
+) -> None:
     with running(models_dir, data_dir) as (_, address):
         message = refused(models_dir=models_dir, data_dir=data_dir)
         assert str(data_dir) in message
@@ -194,7 +198,7 @@ def test_a_second_service_on_a_data_directory_says_so(models_dir: Path, data_dir
         assert httpx.get(f"{address}/livez").status_code == 200
 
 
-def test_a_service_that_cannot_start_says_why(
+def test_failed_start_exits_with_the_reason(
     models_dir: Path, tmp_path: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
@@ -202,7 +206,7 @@ def test_a_service_that_cannot_start_says_why(
         said = refused("--port", port, models_dir=models_dir, data_dir=data_dir)
         assert f"Cannot listen on 127.0.0.1 port {port}" in said
 
-    # How a process ends is seen; what else it says is seen without one.
+    # The cases above start processes. The messages below are checked without one.
     monkeypatch.setattr("service.core.logging.install", lambda *_: None)
 
     def why(*arguments: str, models: Path = models_dir, data: Path = data_dir) -> str:
@@ -226,7 +230,7 @@ def test_a_service_that_cannot_start_says_why(
     assert not data_dir.exists()
 
 
-def test_settings_come_from_the_environment(
+def test_environment_variables_change_the_settings(
     models_dir: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PLACECELL_LIMITS__K", "7")
@@ -243,7 +247,7 @@ def test_settings_come_from_the_environment(
     assert "Traceback" not in done.stderr
 
 
-def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) -> None:
+def test_invalid_http_answers_with_a_problem(models_dir: Path, data_dir: Path) -> None:
     with running(models_dir, data_dir) as (_, address):
         for head in ("what is this\n\n", "GET /livez HTTP/1.1\nbad header\n\n", "\x00\x01\n\n"):
             status, answer = raw_request(address, head)
@@ -257,8 +261,8 @@ def test_what_is_no_http_is_told_as_a_problem(models_dir: Path, data_dir: Path) 
         assert httpx.get(f"{address}/livez").status_code == 200
 
 
-def test_sigterm_drains(models_dir: Path, data_dir: Path) -> None:
-    """First it is not ready, but answers; what is in flight is answered; then it ends."""
+def test_sigterm_finishes_running_requests(models_dir: Path, data_dir: Path) -> None:
+    """After SIGTERM the service is not ready, finishes its requests, then exits."""
     body = b'{"model_id": "m", "codes": [[1]]}'
     head = (
         f"POST /match HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n\r\n".encode()
@@ -282,14 +286,14 @@ def test_sigterm_drains(models_dir: Path, data_dir: Path) -> None:
                 assert time.monotonic() < deadline
             connection.sendall(body[5:])
             answer = connection.recv(65536)
-            # The codes are of no model that is loaded: an answer all the same.
+            # The codes belong to an unknown model, but the request is answered.
             assert answer.startswith(b"HTTP/1.1 409")
         assert process.wait(30) == 0
-    # What the log held is in the database, which was closed.
+    # The database was closed, so the content of its log is in the main file.
     assert not (data_dir / "maps.sqlite-wal").exists()
 
 
-def test_a_service_with_keys_may_listen_to_all(
+def test_service_with_keys_may_listen_on_all_addresses(
     models_dir: Path, data_dir: Path, tmp_path: Path
 ) -> None:
     file = tmp_path / "keys.toml"
@@ -300,7 +304,7 @@ def test_a_service_with_keys_may_listen_to_all(
         assert httpx.get(f"http://127.0.0.1:{port}/maps").status_code == 401
 
 
-def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -> None:
+def test_silent_clients_are_disconnected(models_dir: Path, data_dir: Path) -> None:
     with running(models_dir, data_dir) as (_, address):
         host, port = address.removeprefix("http://").split(":")
         heads = (b"", b"GET /livez HT", b"POST /describe HTTP/1.1\r\nHost: localhost\r\n")
@@ -310,7 +314,7 @@ def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -
         for connection in connections:
             with connection, suppress(ConnectionResetError):
                 assert connection.recv(1000) == b""
-        # Refused before its body has come, a client may not go on for ever.
+        # A client that is refused before its body arrives may not send for ever.
         with socket.create_connection((host, int(port)), timeout=30) as connection:
             head = b"POST /describe HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/plain\r\n"
             connection.sendall(head + b"Content-Length: 99\r\n\r\n")
@@ -324,7 +328,9 @@ def test_clients_that_say_nothing_are_let_go(models_dir: Path, data_dir: Path) -
                 assert client.get("/livez").status_code == 200
 
 
-def test_a_bad_chunk_after_the_answer_ends_the_connection(models_dir: Path, data_dir: Path) -> None:
+def test_invalid_chunk_after_the_answer_ends_the_connection(
+    models_dir: Path, data_dir: Path
+) -> None:
     with running(models_dir, data_dir) as (_, address):
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=30) as connection:
@@ -338,7 +344,7 @@ def test_a_bad_chunk_after_the_answer_ends_the_connection(models_dir: Path, data
         assert httpx.get(f"{address}/livez").status_code == 200
 
 
-def test_a_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None:
+def test_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None:
     with running(models_dir, data_dir) as (process, address):
         host, port = address.removeprefix("http://").split(":")
         with socket.create_connection((host, int(port)), timeout=60) as connection:
@@ -350,5 +356,5 @@ def test_a_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None
             time.sleep(0.2)
             assert process.poll() is None
             process.send_signal(signal.SIGTERM)
-            # Not after the ten seconds that the upload might still take.
+            # Without the second signal, the upload could take ten more seconds.
             process.wait(5)

@@ -1,4 +1,4 @@
-"""The server's protocol under clients that send requests ahead of answers, over real sockets."""
+"""Pipelined requests: the server's protocol over real sockets."""
 
 import asyncio
 from collections.abc import AsyncIterator
@@ -13,14 +13,14 @@ from service.server import AHEAD_BYTES, Protocol
 
 REQUEST = b"GET /%d HTTP/1.1\r\nHost: x\r\n\r\n"
 PIECE_BYTES = 256 << 10
-"""That asyncio reads at once, at most."""
+"""Largest number of bytes that asyncio reads at once."""
 
 SECONDS = 30
-"""After which a test gives up."""
+"""Time after which a test fails, seconds."""
 
 
 class App:
-    """Answers at once, but for one path: there it waits until it is let go, or the client goes."""
+    """Application that answers at once, except for one path, where it waits for its release."""
 
     def __init__(self, held: str) -> None:
         self._held = held
@@ -40,7 +40,7 @@ class App:
         await send({"type": "http.response.body", "body": b"ok"})
 
     async def _listen(self, receive: Any) -> None:
-        # As admission control does, from before the next request comes.
+        # Admission control listens in the same way, from before the next request arrives.
         while (await receive())["type"] != "http.disconnect":
             pass
         self.gone.set()
@@ -51,7 +51,7 @@ class App:
 async def served(
     app: App,
 ) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter, Protocol]]:
-    """A connection to it, and its protocol at the server's side."""
+    """Serve the application; yield a connection and the server's protocol object."""
     config = uvicorn.Config(app, lifespan="off", log_config=None, access_log=False)
     config.load()
     made: list[Protocol] = []
@@ -86,7 +86,7 @@ async def answers(reader: asyncio.StreamReader, count: int) -> None:
 
 
 @pytest.mark.parametrize("reset", [False, True])
-def test_a_client_that_sent_ahead_is_seen_to_go(reset: bool) -> None:
+def test_disconnect_after_pipelined_requests_is_noticed(reset: bool) -> None:
     async def run() -> None:
         app = App("/0")
         async with served(app) as (_, writer, _):
@@ -98,7 +98,7 @@ def test_a_client_that_sent_ahead_is_seen_to_go(reset: bool) -> None:
     asyncio.run(run())
 
 
-def test_so_is_one_whose_request_at_work_had_been_sent_ahead() -> None:
+def test_disconnect_during_a_pipelined_request_is_noticed() -> None:
     async def run() -> None:
         app = App("/2")
         async with served(app) as (reader, writer, _):
@@ -113,7 +113,7 @@ def test_so_is_one_whose_request_at_work_had_been_sent_ahead() -> None:
 
 
 @pytest.mark.slow
-def test_all_that_was_sent_ahead_is_answered() -> None:
+def test_all_pipelined_requests_are_answered() -> None:
     count = 4 * AHEAD_BYTES // len(REQUEST)
 
     async def run() -> None:
@@ -126,7 +126,7 @@ def test_all_that_was_sent_ahead_is_answered() -> None:
     asyncio.run(run())
 
 
-def test_of_what_is_sent_ahead_no_more_than_a_little_is_kept() -> None:
+def test_buffer_of_pipelined_requests_is_bounded() -> None:
     async def run() -> None:
         app = App("/0")
         async with served(app) as (_, writer, protocol):

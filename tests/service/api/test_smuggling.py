@@ -1,4 +1,4 @@
-"""Requests whose length or lines servers read differently are refused, and end the connection."""
+"""Request smuggling: requests with an ambiguous length are refused and end the connection."""
 
 import asyncio
 from contextlib import suppress
@@ -14,7 +14,7 @@ SMUGGLED = b"GET /smuggled HTTP/1.1\r\nHost: x\r\n\r\n"
 
 
 class Noting(App):
-    """Application that records the paths it is asked for and reads bodies."""
+    """Application that reads bodies and records the requested paths."""
 
     def __init__(self) -> None:
         super().__init__("/none")
@@ -26,7 +26,7 @@ class Noting(App):
 
 
 def ask(request: bytes) -> tuple[bytes, list[str], bool]:
-    """Send bytes on an open connection; the answer, the paths asked, whether it was closed."""
+    """Send bytes; return the answer, the requested paths, and whether the connection closed."""
     app = Noting()
 
     async def run() -> tuple[bytes, bool]:
@@ -120,7 +120,7 @@ def test_A27_bad_chunks_end_the_connection(body: bytes) -> None:
         post(CHUNKED, b"5;name=value\r\nhello\r\n0\r\nX-Trailer: a\r\n\r\n"),
         post(b"transfer-encoding: Chunked\r\n", HELLO),
         post(FIVE, b"hello"),
-        post(FIVE + FIVE, b"hello"),  # as RFC 9110 allows: nobody reads it differently
+        post(FIVE + FIVE, b"hello"),  # RFC 9110 allows equal lengths
         post(b"Content-Length:5\r\n", b"hello"),
         post(FIVE, b"hello", version=b"1.0"),
         b"GET /a HTTP/1.1\r\nHost: x\r\nX-Empty:\r\n\r\n",

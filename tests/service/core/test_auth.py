@@ -1,4 +1,4 @@
-"""Keys: who may do what; and that nothing leaks."""
+"""API keys: scopes, changes of the key file, and no secrets in logs and answers."""
 
 import hashlib
 import hmac
@@ -29,13 +29,13 @@ def file(tmp_path: Path) -> Path:
 
 
 def made(file: Path, name: str, *options: str) -> dict[str, str]:
-    """Make a key as a user does; the headers that carry it."""
+    """Create a key with the command; return the headers with the key."""
     done = CliRunner().invoke(app, ["keys", name, "--file", str(file), *options])
     assert done.exit_code == 0, done.output
     return {"Authorization": "Bearer " + done.output.splitlines()[0]}
 
 
-def test_without_a_known_key_nothing_opens(start: Any, file: Path) -> None:
+def test_request_without_known_key_answers_401(start: Any, file: Path) -> None:
     key = made(file, "ann")
     with start(keys_file=file) as service:
         for path in ("/info", "/maps", "/maps/yard"):
@@ -54,7 +54,7 @@ def test_without_a_known_key_nothing_opens(start: Any, file: Path) -> None:
         assert good.status_code == 200
 
 
-def test_a_reading_key_does_not_write(start: Any, file: Path, manifest: Manifest) -> None:
+def test_read_only_key_cannot_write(start: Any, file: Path, manifest: Manifest) -> None:
     reads, writes = made(file, "reader"), made(file, "writer", "--write")
     data = encode(map_of(random_codes(3), manifest.model_id))
     with start(keys_file=file) as service:
@@ -68,7 +68,7 @@ def test_a_reading_key_does_not_write(start: Any, file: Path, manifest: Manifest
             assert_problem(service.post("/models/reload", headers=headers), 403, "forbidden")
 
 
-def test_a_key_of_some_maps_opens_no_other(start: Any, file: Path, manifest: Manifest) -> None:
+def test_key_has_no_access_to_other_maps(start: Any, file: Path, manifest: Manifest) -> None:
     everything = made(file, "all", "--write")
     halls = made(file, "halls", "--write", "--map", "hall-*", "--map", "yard")
     data = encode(map_of(random_codes(3), manifest.model_id))
@@ -83,7 +83,7 @@ def test_a_key_of_some_maps_opens_no_other(start: Any, file: Path, manifest: Man
             service.put("/maps/secret", content=data, headers=halls),
             service.delete("/maps/secret", headers=halls),
             service.post("/match", json=query | {"maps": ["secret"]}, headers=halls),
-            # Nor does it tell which names there are.
+            # The answer does not reveal which maps exist.
             service.get("/maps/unknown", headers=halls),
         ):
             assert_problem(response, 403, "forbidden")
@@ -92,7 +92,7 @@ def test_a_key_of_some_maps_opens_no_other(start: Any, file: Path, manifest: Man
         assert found["skipped"] == []
 
 
-def test_a_robot_s_key_uploads_its_own_segments_alone(
+def test_key_of_a_robot_uploads_only_its_segments(
     start: Any, file: Path, manifest: Manifest
 ) -> None:
     key = made(file, "ann", "--write", "--robot", "ann")
@@ -103,7 +103,7 @@ def test_a_robot_s_key_uploads_its_own_segments_alone(
         refused = service.put("/maps/b", content=other, headers=key)
         assert_problem(refused, 403, "forbidden", "only segments of the robot 'ann'")
         assert service.get("/maps/b", headers=key).status_code == 404
-        # Nor does it replace or remove what another robot has stored.
+        # The key cannot replace or remove segments of another robot.
         anyone = made(file, "all", "--write")
         assert service.put("/maps/bobs", content=other, headers=anyone).status_code == 201
         empty = encode(map_of(random_codes(0), manifest.model_id, robot="ann"))
@@ -115,7 +115,7 @@ def test_a_robot_s_key_uploads_its_own_segments_alone(
         assert service.delete("/maps/a", headers=key).status_code == 204
 
 
-def test_keys_are_taken_up_and_withdrawn_without_a_restart(start: Any, file: Path) -> None:
+def test_keys_are_added_and_revoked_without_a_restart(start: Any, file: Path) -> None:
     first = made(file, "first")
     with start(keys_file=file) as service:
         second = made(file, "second")
@@ -129,7 +129,7 @@ def test_keys_are_taken_up_and_withdrawn_without_a_restart(start: Any, file: Pat
         assert service.get("/info", headers=second).status_code == 200
 
 
-def test_keys_are_hashed_at_rest_and_only_its_owner_reads_the_file(file: Path) -> None:
+def test_key_file_holds_hashes_and_is_private(file: Path) -> None:
     secret = made(file, "ann")["Authorization"].split()[1]
     assert secret not in file.read_text()
     assert hashlib.sha256(secret.encode()).hexdigest() in file.read_text()
@@ -161,7 +161,7 @@ def test_every_hash_is_compared_in_constant_time(
             assert len(compared) == 5
 
 
-def test_no_secret_gets_into_log_or_answer(
+def test_log_and_answers_contain_no_secret(
     start: Any, file: Path, manifest: Manifest, caplog: pytest.LogCaptureFixture
 ) -> None:
     key = made(file, "ann", "--write")
@@ -177,7 +177,7 @@ def test_no_secret_gets_into_log_or_answer(
         ]
     assert all(secret not in answer.text for answer in answers)
     assert secret not in caplog.text
-    # Each write leaves a line: who, what map, how many segments.
+    # Each write is logged with its key, its map and the number of segments.
     (line,) = [one for one in caplog.records if one.name == "placecell.audit"]
     assert line.getMessage() == "ann put map yard, 3 segments changed, 0 removed"
     assert vars(line)["request_id"] == answers[0].headers["x-request-id"]
@@ -192,7 +192,7 @@ def test_no_secret_gets_into_log_or_answer(
         (None, "cannot be read"),
     ],
 )
-def test_a_bad_file_of_keys_stops_the_start(
+def test_invalid_key_file_prevents_the_start(
     models_dir: Path, data_dir: Path, file: Path, content: str | None, words: str
 ) -> None:
     if content is not None:
@@ -202,14 +202,14 @@ def test_a_bad_file_of_keys_stops_the_start(
         pass
 
 
-def test_keys_are_long_and_never_the_same() -> None:
+def test_new_keys_are_long_and_distinct() -> None:
     made_keys = {new_key()[0] for _ in range(100)}
     assert len(made_keys) == 100
     assert min(map(len, made_keys)) > 40
 
 
 @pytest.mark.parametrize("name", ["robot 😀", 'a "quoted" one', "with.dots", "back\\slash"])
-def test_any_name_leaves_a_file_that_can_be_read(file: Path, name: str) -> None:
+def test_any_key_name_gives_a_readable_file(file: Path, name: str) -> None:
     file.write_text("# ours\n")
     file.chmod(0o640)
     made(file, name)
@@ -220,7 +220,7 @@ def test_any_name_leaves_a_file_that_can_be_read(file: Path, name: str) -> None:
     assert [path.name for path in file.parent.iterdir()] == ["keys.toml"]
 
 
-def test_a_name_that_cannot_stand_in_the_file_changes_nothing(file: Path) -> None:
+def test_invalid_key_name_changes_nothing(file: Path) -> None:
     made(file, "ann")
     before = file.read_text()
     done = CliRunner().invoke(app, ["keys", "a\x7fb", "--file", str(file)])
@@ -228,7 +228,7 @@ def test_a_name_that_cannot_stand_in_the_file_changes_nothing(file: Path) -> Non
     assert file.read_text() == before
 
 
-def test_a_key_s_rights_changed_in_place_are_noticed(start: Any, file: Path) -> None:
+def test_changed_scope_of_a_key_is_noticed(start: Any, file: Path) -> None:
     key = made(file, "owner", "--admin")
     with start(keys_file=file) as service:
         assert service.post("/models/reload", headers=key).status_code == 200
@@ -249,7 +249,7 @@ def good(service: Any) -> float:
 
 @pytest.fixture
 def seconds(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Clock of the keys, which stands still until it is set."""
+    """Replace the clock of the keys by one that changes only when it is set."""
     now = [100.0]
     made = keys_module.Keys.__init__
     monkeypatch.setattr(
@@ -259,7 +259,7 @@ def seconds(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 def changed(file: Path, content: str | bytes | None) -> None:
-    """Write the file, or remove it; its times differ from before, however soon it is."""
+    """Write or remove the file; its modification time always changes."""
     if content is None:
         file.unlink()
         return
@@ -271,8 +271,8 @@ def changed(file: Path, content: str | bytes | None) -> None:
 @pytest.mark.parametrize(
     ("withdraw", "rest_works"),
     [
-        (lambda text: text.split("\n\n")[1] + "\n[third\n", True),  # a typo elsewhere
-        (lambda text: text.split("\n\n")[1] + "\nrights = 'all'\n", True),  # not a key's
+        (lambda text: text.split("\n\n")[1] + "\n[third\n", True),  # a syntax error elsewhere
+        (lambda text: text.split("\n\n")[1] + "\nrights = 'all'\n", True),  # an unknown field
         (lambda text: text.split("\n\n")[1].encode() + b"# \xff\n", True),
         (lambda text: "# " + text.replace("\nsha256", "\n#sha256", 1) + "[x\n", True),
         (lambda text: "[half", False),
@@ -280,7 +280,7 @@ def changed(file: Path, content: str | bytes | None) -> None:
         (lambda _: None, False),  # deleted
     ],
 )
-def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
+def test_A12_revoked_key_stops_working_despite_an_invalid_file(
     start: Any, file: Path, seconds: list[float], withdraw: Any, rest_works: bool,
     caplog: pytest.LogCaptureFixture,
 ) -> None:  # fmt: skip
@@ -290,7 +290,7 @@ def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
         assert service.get("/readyz").json() == {"status": "ready"}
         assert good(service) == 1
         changed(file, withdraw(before))
-        # It is told by whoever asks, before any key is used; and robots go on.
+        # /readyz reports the error before any key is used, and robots continue to work.
         told = service.get("/readyz")
         assert told.status_code == 200
         assert "key file" in told.json()["warnings"][0]
@@ -319,7 +319,7 @@ def test_A12_a_withdrawn_key_does_not_work_on_for_want_of_a_good_file(
     ("method", "path", "status"),
     [("GET", "/maps", 401), ("GET", "/maps/hall", 403), ("DELETE", "/maps/yard", 403)],
 )
-def test_A21_a_refusal_leaves_a_warning_with_the_address(
+def test_A21_refused_request_logs_a_warning_with_the_address(
     start: Any, file: Path, method: str, path: str, status: int, caplog: pytest.LogCaptureFixture
 ) -> None:
     reads = made(file, "reader", "--map", "yard")
@@ -338,7 +338,7 @@ def test_A21_a_refusal_leaves_a_warning_with_the_address(
         assert len([one for one in caplog.records if one.name == "placecell.refusals"]) == 1
 
 
-def test_A21_the_request_log_has_the_client_s_address(
+def test_A21_request_log_has_the_client_address(
     service: Any, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level(logging.INFO, "placecell.requests")
@@ -356,12 +356,12 @@ def test_A21_refusals_cannot_flood_the_log(caplog: pytest.LogCaptureFixture) -> 
     now = [0.0]
     log = RefusalLog(lambda: now[0])
     for number in range(5_000):
-        log.tell(401, "GET", "/maps", "10.0.0.5", None, "id")
-        log.tell(429, "GET", "/maps", f"10.1.{number // 250}.{number % 250}", "ann", "id")
+        log.add(401, "GET", "/maps", "10.0.0.5", None, "id")
+        log.add(429, "GET", "/maps", f"10.1.{number // 250}.{number % 250}", "ann", "id")
     assert len(caplog.records) == 100
     assert sum("10.0.0.5" in one.message for one in caplog.records) == 10
     now[0] += 61
-    log.tell(403, "GET", "/maps", "10.0.0.5", "ann", "id")
+    log.add(403, "GET", "/maps", "10.0.0.5", "ann", "id")
     assert "9900 further requests" in caplog.records[-2].message
     assert "403 Forbidden: GET /maps from 10.0.0.5, key ann" in caplog.records[-1].message
     assert len(log._lines) == 1

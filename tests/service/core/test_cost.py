@@ -1,4 +1,4 @@
-"""Limits on work: what a request costs is told before, and too much is refused with a 413."""
+"""Cost limits: the cost of a request is estimated first, and too much work answers 413."""
 
 import json
 from pathlib import Path
@@ -41,7 +41,7 @@ def manifest(models_dir: Path) -> Manifest:
 
 
 def scan(segments: int, points: int, extent: float, size: float, seed: int = 0) -> Segments:
-    """Segments of a scan, spread over a square."""
+    """Return the segments of a scan, spread over a square."""
     random = np.random.default_rng(seed)
     middles = np.column_stack([random.uniform(-extent, extent, (segments, 2)), np.zeros(segments)])
     clouds = random.normal(0, size, (segments, points, 3)) + middles[:, None]
@@ -60,7 +60,7 @@ def test_ordinary_and_largest_requests_are_not_refused() -> None:
 
 
 @pytest.mark.parametrize(("extent", "size"), [(40.0, 0.8), (500.0, 0.8), (60.0, 15.0)])
-def test_near_voxels_are_told_within_a_factor(extent: float, size: float) -> None:
+def test_near_voxels_estimate_is_within_a_factor(extent: float, size: float) -> None:
     segments = scan(80, 60, extent, size)
     voxels, owners = voxels_by_owner(segments, NEIGHBORHOOD_V1.voxel)
     away = np.linalg.norm(voxels[:, None, :2] - segments.centroids()[None, :, :2], axis=2)
@@ -82,7 +82,7 @@ def test_costs_grow_with_the_work() -> None:
     assert cost_of_search(10, 1_000, 5, 1).search == pytest.approx(
         10 * 1_000 * (RATES.compared + 5 * RATES.compared_k)
     )
-    # No more candidates than there are segments, and none of no map.
+    # At most as many candidates as segments, and none without a map.
     assert cost_of_search(10, 3, 5, 1).candidates == pytest.approx(30 * RATES.candidate)
     assert cost_of_search(10, 0, 5, 0).seconds == 0.0
     two, three = (cost_of_aligning([5_000] * maps, 25, AlignmentParameters()) for maps in (2, 3))
@@ -94,7 +94,7 @@ def test_no_segments_cost_nothing() -> None:
     assert cost_of_describing(nothing.points, nothing.counts, NEIGHBORHOOD_V1) == Cost()
 
 
-def test_refusal_tells_the_cost_the_limit_and_what_to_do() -> None:
+def test_refusal_states_cost_limit_and_remedy() -> None:
     with pytest.raises(Problem) as caught:
         check_cost(Cost(search=9.0, network=0.5), 8.0)
     assert (caught.value.status, caught.value.kind) == (413, "too-much-work")
@@ -104,7 +104,7 @@ def test_refusal_tells_the_cost_the_limit_and_what_to_do() -> None:
     )
 
 
-def test_segments_that_are_too_much_work_are_refused(start: Any) -> None:
+def test_describe_with_too_much_work_answers_413(start: Any) -> None:
     segments = request_of([cloud(seed) for seed in range(8)])
     for path in ("/describe", "/match", "/localize"):
         with start(limits={"cost_seconds": 9 * RATES.segment}) as service:
@@ -114,7 +114,7 @@ def test_segments_that_are_too_much_work_are_refused(start: Any) -> None:
             assert_problem(response, 413, "too-much-work", "Send fewer segments.")
 
 
-def test_search_that_is_too_much_work_is_refused(start: Any, manifest: Manifest) -> None:
+def test_search_with_too_much_work_answers_413(start: Any, manifest: Manifest) -> None:
     content = driven(manifest.model_id, "east", 0, 150)
     asked = {"model_id": manifest.model_id, "codes": [[1] * content.code_bytes] * 50, "k": 10}
     cost = cost_of_search(50, len(content), 10, 1).seconds
@@ -126,7 +126,7 @@ def test_search_that_is_too_much_work_is_refused(start: Any, manifest: Manifest)
         assert_problem(service.post("/match", json=asked), 413, "too-much-work", "the limit is")
 
 
-def test_alignment_that_is_too_much_work_is_refused(start: Any, manifest: Manifest) -> None:
+def test_alignment_with_too_much_work_answers_413(start: Any, manifest: Manifest) -> None:
     maps = {
         "east": driven(manifest.model_id, "east", 0, 150),
         "west": driven(manifest.model_id, "west", 60, 200),
@@ -142,7 +142,7 @@ def test_alignment_that_is_too_much_work_is_refused(start: Any, manifest: Manife
         assert_problem(response, 413, "too-much-work", "Merge fewer or smaller maps")
 
 
-def test_info_tells_the_rates_and_the_limits(service: Any) -> None:
+def test_info_shows_rates_and_limits(service: Any) -> None:
     told = service.get("/info").json()
     assert told["limits"]["cost_seconds"] == Limits().cost_seconds
     assert told["costs"]["segment"] == RATES.segment
@@ -150,7 +150,7 @@ def test_info_tells_the_rates_and_the_limits(service: Any) -> None:
 
 
 @pytest.mark.parametrize("costs", [{"segment": 2.3e-4, "machine": "a core"}, None])
-def test_client_tells_the_rates(costs: dict[str, Any] | None) -> None:
+def test_client_parses_the_rates(costs: dict[str, Any] | None) -> None:
     content: dict[str, Any] = {
         "version": "1",
         "model": {"model_id": "m"},

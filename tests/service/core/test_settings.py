@@ -1,4 +1,4 @@
-"""Settings that are none: refused, with what was likely meant."""
+"""Unknown settings: refused with the nearest setting."""
 
 import os
 from pathlib import Path
@@ -31,7 +31,7 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         ("PLACECELLDATA_DIR", "PLACECELL_DATA_DIR"),
     ],
 )
-def test_B5_an_unknown_name_is_refused_with_the_nearest(
+def test_B5_unknown_name_is_refused_with_the_nearest(
     name: str, meant: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(name, "/mnt")
@@ -43,20 +43,20 @@ def test_B5_an_unknown_name_is_refused_with_the_nearest(
     assert meant in refused.output
 
 
-def test_B5_a_name_like_none_is_refused_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_B5_name_similar_to_none_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PLACECELL_QQQQQQ", "1")
     with pytest.raises(ValueError, match=r"PLACECELL_QQQQQQ\. Unset them"):
         Settings()
 
 
-def test_B5_names_that_others_read_are_let_be(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_B5_names_of_other_programs_are_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("URL", "KEY", "DRIVES", "DEBUG"):
         monkeypatch.setenv(f"PLACECELL_{name}", "x")
     monkeypatch.setenv("placecell_data_dir", "mine")
     assert Settings().data_dir == Path("mine")
 
 
-def test_B5_kubernetes_links_do_not_stop_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_B5_kubernetes_links_are_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
     links = {
         "PLACECELL_SERVICE_HOST": "10.0.0.7",
         "PLACECELL_SERVICE_PORT": "8000",
@@ -88,19 +88,19 @@ def test_B5_kubernetes_links_do_not_stop_the_start(monkeypatch: pytest.MonkeyPat
         ("port = ", "is not valid TOML"),
     ],
 )
-def test_B5_an_unknown_key_of_the_file_is_refused(text: str, said: str, elsewhere: Path) -> None:
+def test_B5_unknown_key_of_the_file_is_refused(text: str, said: str, elsewhere: Path) -> None:
     (elsewhere / "placecell.toml").write_text(text)
     with pytest.raises(ValueError, match=r"placecell\.toml") as caught:
         Settings()
     assert said in str(caught.value)
 
 
-def test_B16_a_file_with_a_byte_order_mark_is_read(elsewhere: Path) -> None:
+def test_B16_file_with_a_byte_order_mark_is_read(elsewhere: Path) -> None:
     (elsewhere / "placecell.toml").write_bytes(b"\xef\xbb\xbfport = 9000\r\n[limits]\r\nk = 7\r\n")
     assert (Settings().port, Settings().limits.k) == (9000, 7)
 
 
-def test_body_bytes_alone_bounds_json_too() -> None:
+def test_body_bytes_alone_limits_json_too() -> None:
     assert Limits(body_bytes=1_000).json_bytes == 1_000
     assert Limits(body_bytes=1_000, json_bytes=2_000).json_bytes == 2_000
     assert Limits().json_bytes > Limits().body_bytes
