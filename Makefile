@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 # Every file that is installed must have a hash that stands in requirements/.
 HASHED := $(PIP) --require-hashes --requirement
-# For pip 26.2 and later, should anything be built from source: PIP_CONSTRAINT binds it no more.
+# pip 26.2 and later do not apply PIP_CONSTRAINT to builds from source; this variable does.
 export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 
 # Test workers; each needs a core and some 2 GB of memory. JOBS=0 runs all in one process.
@@ -49,8 +49,7 @@ reference: install  ## Write the generated parts of docs/reference
 
 install: .venv/development.stamp  ## Install all that the tests need, torch included
 
-# The demo installs no torch. The two packages are built by what is installed already, and bring
-# nothing along.
+# The demo installs no torch. The installed build tools build the two packages without dependencies.
 .venv/demo.stamp: pyproject.toml client/pyproject.toml requirements/build.txt requirements/demo.txt
 	$(PYTHON) -m venv .venv
 	$(HASHED) requirements/build.txt
@@ -58,7 +57,7 @@ install: .venv/development.stamp  ## Install all that the tests need, torch incl
 	$(PIP) --no-build-isolation --no-deps --editable ./client --editable .
 	touch $@
 
-# torch has a build for each kind of machine, so it is pinned by version alone.
+# torch has a build for each kind of machine, so it is pinned by version only.
 .venv/development.stamp: .venv/demo.stamp requirements/development.txt constraints.txt
 	$(HASHED) requirements/development.txt
 	$(PIP) --constraint constraints.txt torch pytorch-metric-learning
