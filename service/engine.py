@@ -279,9 +279,9 @@ class Engine:
         The second step is `Query.describe`, the third `matches` or `poses`.
 
         Raises:
-            Problem: 403 if the key does not open a named map, 404 if there is none of the name, 409
-                if its model is not loaded or not that of the descriptors, 413 if the request is too
-                much work, 422 if no segment can be described.
+            Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist,
+                409 if its model is not loaded or not that of the descriptors, 413 if the request is
+                too much work, 422 if no segment can be described.
         """
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)

@@ -18,8 +18,8 @@ class OverQuotaError(Problem):
     """The write would exceed a quota.
 
     Attributes:
-        whole: the detail for a key that opens all maps; the detail of the problem itself reveals
-            nothing about maps that the key does not open.
+        whole: the detail for a key of all maps; the detail of the problem itself reveals
+            nothing about maps outside the scope of the key.
     """
 
     def __init__(self, detail: str, whole: str | None = None) -> None:

@@ -1,6 +1,6 @@
 """Visibility: hides names of maps and keys that a key may not know.
 
-A merged map keeps the name of the map that each segment came from. A key that does not open that
+A merged map keeps the name of the map that each segment came from. A key without access to that
 map sees a pseudonym instead of the name. Within a map the pseudonym is always the same, so that
 copies and changes match. When the key writes what it read, the service restores the name.
 """
@@ -69,7 +69,7 @@ def restore_names(
         content: the segments.
 
     Raises:
-        Problem: 403 if segments name a source that the key does not open. Otherwise a key could
+        Problem: 403 if segments name a source outside the scope of the key. Otherwise a key could
             write a guessed name and learn from the pseudonym whether the map has it.
     """
     if principal.covers_all or not content.sources:
@@ -79,8 +79,8 @@ def restore_names(
             raise Problem(
                 403,
                 "forbidden",
-                f"Segments name the source map {name!r:.80}, which this key does not open. Remove "
-                "the name, or write with a key that opens that map.",
+                f"Segments name the source map {name!r:.80}, which this key has no access to. "
+                "Remove the name, or write with a key that has access.",
             )
     if snapshot is None:
         return content

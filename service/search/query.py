@@ -89,13 +89,13 @@ def select_maps(
     Args:
         maps: all maps.
         models: loaded models.
-        names: names of the maps; None: all maps that the key opens.
+        names: names of the maps; None: all maps in the scope of the key.
         only: model that made the codes; None: each model describes the segments itself.
         principal: principal.
 
     Raises:
-        Problem: 403 if the key does not open a named map, 404 if there is none of the name, 409 if
-            the map's model is not loaded or is not the model of the codes.
+        Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist, 409
+            if its model is not loaded or is not the model of the codes.
     """
     if names is None:
         chosen = [stored for stored in maps.all() if principal.covers(stored.name)]

@@ -44,7 +44,7 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
     responses=documented(400, 401, 429, 503, 504),
 )
 async def list_maps(request: Request, state: StateOf, principal: PrincipalOf) -> Response:
-    """Return the maps that the key opens, by name.
+    """Return the maps in the scope of the key, by name.
 
     Maps of models that are not loaded are listed, but not searched.
     """
@@ -92,7 +92,7 @@ async def get_map(
 ) -> Response:
     """Return the map in canonical form: equal maps are equal files, byte by byte.
 
-    If the key does not open a source map of the segments, a pseudonym replaces that map's name.
+    If a source map of the segments is outside the scope of the key, a pseudonym replaces its name.
     Writing the file to this map restores the name.
     """
     principal.check_map(name)

@@ -25,7 +25,7 @@ class DataLock:
     """Lock on the file `DATA_DIR/lock` and on the directory itself.
 
     If the locked file is removed, another process can create and lock a new one. The lock on the
-    directory prevents that this process shares the directory with another service.
+    directory itself still excludes other services.
 
     Attributes:
         file: path of the lock file.

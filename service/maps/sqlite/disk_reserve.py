@@ -17,7 +17,7 @@ FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
 class DiskReserve:
-    """Reserve file `DATA_DIR/reserve`, which is cut while a full disk is being freed.
+    """Reserve file `DATA_DIR/reserve`, which shrinks while a full disk is being freed.
 
     Attributes:
         size: bytes that are kept for deletions.

@@ -347,7 +347,7 @@ class MapWriter:
 
     @contextmanager
     def _quota_detail(self) -> Iterator[None]:
-        """Add the totals of all maps to a quota error for a key that opens all maps."""
+        """Add the totals of all maps to a quota error for a key of all maps."""
         try:
             yield
         except OverQuotaError as error:

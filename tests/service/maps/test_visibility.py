@@ -21,7 +21,7 @@ FOREIGN = ("secret", "boss")
 
 
 def merged(manifest: Manifest, count: int, first_id: int, robot: str = "ann") -> CompactMap:
-    """Return segments from three maps: two that the key does not open, and one that it opens."""
+    """Return segments from three maps: two outside the scope of the key, and one inside."""
     content = map_of(random_codes(count, first_id), manifest.model_id, first_id, robot)
     return canonical(
         replace(

@@ -802,7 +802,7 @@ def test_merge_into_a_map_replaced_meanwhile_fails(
         edited(stocked, "site", take(content(stocked), NONE), [7])
         meanwhile(monkeypatch, act)
         answer = merge(stocked, "site", ["west"])
-        assert_problem(answer, 409, "map-changed", "try again")
+        assert_problem(answer, 409, "map-changed", "Try again")
         now = stocked.get("/maps/site")
         assert now.status_code == 404 or "west" not in decode(now.content).sources
 
