@@ -1,18 +1,18 @@
-# The service alone: no torch, no compiler, no recorded data. deploy/README.md says how to run it.
+# The service only: no torch, no compiler, no recorded data. docs/tutorials/deploy.md runs it.
 #
 #     docker build -t placecell:0.1.0 .
 #
 # Every package is checked against the hashes in requirements/. The base images are named by tag;
-# deploy/pin-images.sh writes their digests here and into deploy/, where a registry can be asked.
+# deploy/pin-images.sh writes their digests here and into deploy/ if a registry can be reached.
 FROM python:3.11-slim-bookworm AS builder
 WORKDIR /build
 COPY . .
-# A checkout made under a strict umask would leave the models unreadable to the service's user.
+# With a strict umask, the service's user could not read the models of the checkout.
 RUN chmod -R a+rX models
-# Should anything be built from source after all: pip 26.2 and later pins its tools by this alone.
+# pip 26.2 and later pins the tools of a build from source by this variable only.
 ENV PIP_BUILD_CONSTRAINT=/build/constraints.txt \
     PIP_NO_CACHE_DIR=1
-# What builds our two packages stays behind; they bring nothing along.
+# The build tools of the two packages stay in this stage. Wheels are built without dependencies.
 RUN python -m venv /opt/build && \
     /opt/build/bin/pip install --require-hashes --only-binary :all: --requirement requirements/build.txt && \
     /opt/build/bin/pip wheel --no-deps --no-build-isolation --no-index --wheel-dir /wheels ./client . && \
@@ -27,9 +27,9 @@ RUN useradd --uid 10001 --user-group --no-log-init --no-create-home --home-dir /
 COPY --from=builder /opt/venv /opt/venv
 COPY --from=builder /build/models /opt/models
 
-# It writes to /data and /tmp only, so the rest may be read-only: --read-only --tmpfs /tmp.
-# It listens on every address of the container, and so will not start without PLACECELL_KEYS_FILE.
-# Unless told not to, ONNX Runtime reports its use to its makers.
+# The service writes to /data and /tmp only, so the rest may be read-only: --read-only --tmpfs /tmp.
+# It listens on every address of the container, so it does not start without PLACECELL_KEYS_FILE.
+# ONNX Runtime sends usage data to its vendor unless this is set.
 ENV PATH=/opt/venv/bin:$PATH \
     PYTHONUNBUFFERED=1 \
     NUMBA_CACHE_DIR=/tmp/numba \
@@ -38,7 +38,7 @@ ENV PATH=/opt/venv/bin:$PATH \
     PLACECELL_PORT=8000 \
     PLACECELL_DATA_DIR=/data \
     PLACECELL_MODELS_DIR=/opt/models
-# By number: Kubernetes' runAsNonRoot can't tell who a name is.
+# A number, because Kubernetes' runAsNonRoot cannot resolve a name.
 USER 10001:10001
 VOLUME /data
 EXPOSE 8000
