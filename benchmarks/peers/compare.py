@@ -1,4 +1,4 @@
-"""Peers in turn on the same queries."""
+"""Comparison of peers on the same queries."""
 
 import os
 import subprocess
@@ -33,22 +33,28 @@ def compare_peers(
     resume: bool = False,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """Ask all peers, score them; the report as `placecell bench peers` writes it.
+    """Run and score all peers; return the report that `placecell bench peers` writes.
 
     Args:
-        python: interpreter of the peers' environment.
-        folder: for the local maps and the answers.
-        refine: also report each peer with its poses refined.
-        most: queries, spread evenly; all unless given.
-        seed: of the queries' headings.
-        resume: take the local maps that a stopped run of this comparison left in the folder, and
-            ask only those peers that it has no answers of.
+        mapped: stretches that make the map.
+        asking: stretches that make the queries.
+        peers: names of the peers.
+        python: Python interpreter of the peers' environment.
+        folder: folder for the local maps and the answers.
+        refine: whether to report each peer also with refined poses.
+        most: largest number of queries, spread evenly; None: all.
+        seed: random seed of the queries' headings.
+        resume: whether to continue a stopped run of this comparison: keep its local maps, and run
+            only peers that have no answers.
+        progress: wraps the loops.
 
     Raises:
-        ValueError: there is no such environment, a peer failed, or there is nothing to resume.
+        ValueError: the environment does not exist, a peer failed, or there is nothing to resume.
     """
     if not python.is_file():
-        raise ValueError(f"{python}: no environment of the peers; 'make peers' builds it")
+        raise ValueError(
+            f"{python} does not exist. Run 'make peers' to build the peers' environment."
+        )
     prepare_folder(folder, mapped, asking, most=most, seed=seed, resume=resume, progress=progress)
     poses, truth = map_poses(mapped), query_poses(asking, most, seed)
     blocks = mapped[0].drive is asking[0].drive
@@ -79,15 +85,23 @@ def compare_peers(
 
 
 def run_peer(name: str, folder: Path, python: Path, *, refine: bool) -> None:
-    """Run a peer in its environment.
+    """Run a peer in the peers' environment.
+
+    Args:
+        name: name of the peer.
+        folder: folder of the local maps and the answers.
+        python: Python interpreter of the peers' environment.
+        refine: whether to refine the poses too.
 
     Raises:
-        ValueError: it failed.
+        ValueError: the peer failed.
     """
     words = [name, folder, folder / ANSWERS, "--refine" if refine else "--no-refine"]
     command = [str(word) for word in (python, "-m", "benchmarks.peers.runner", *words)]
-    # Of ours it sees the code alone, none of the packages.
+    # The peer can import our code, but not our installed packages.
     environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
     done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=False)
     if done.returncode:
-        raise ValueError(f"{name}: ended with status {done.returncode}; what it said stands above")
+        raise ValueError(
+            f"Peer {name!r} failed with exit status {done.returncode}. Its output is above."
+        )

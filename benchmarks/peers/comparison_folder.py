@@ -1,4 +1,4 @@
-"""A comparison's folder: local maps and answers, kept so that a run that was stopped can go on."""
+"""Folder of a comparison: local maps and answers, from which a stopped run continues."""
 
 import hashlib
 import shutil
@@ -11,7 +11,7 @@ from benchmarks.peers.runner import PEERS
 from placecell.segmentation.pipeline import Progress, silent
 
 STAMP = "comparison.sha256"
-"""Written when all local maps are: of which comparison they are."""
+"""File with the hash of the comparison, written after all local maps."""
 
 ANSWERS = "answers"
 
@@ -26,19 +26,25 @@ def prepare_folder(
     resume: bool = False,
     progress: Progress = silent,
 ) -> None:
-    """Write the local maps that peers read; answers to others go.
+    """Write the local maps of a comparison and delete answers of other comparisons.
 
     Args:
-        resume: take what lies there.
+        folder: folder of the comparison.
+        mapped: stretches that make the map.
+        asking: stretches that make the queries.
+        most: largest number of queries, spread evenly; None: all.
+        seed: random seed of the queries' headings.
+        resume: whether to keep the local maps and answers in the folder.
+        progress: wraps the loops.
 
     Raises:
-        ValueError: it is to be resumed, and what lies there is of another comparison, or in part.
+        ValueError: `resume` is set, and the folder has no complete local maps of this comparison.
     """
     stamp, expected = folder / STAMP, digest(mapped, asking, most, seed)
     if resume:
         if not stamp.is_file() or stamp.read_text() != expected:
             raise ValueError(
-                f"{folder}: holds no finished local maps of this comparison; leave out --resume"
+                f"{folder} has no complete local maps of this comparison. Run without --resume."
             )
         return
     stamp.unlink(missing_ok=True)
@@ -51,7 +57,7 @@ def prepare_folder(
 def digest(
     mapped: Sequence[Stretch], asking: Sequence[Stretch], most: int | None, seed: int
 ) -> str:
-    """SHA-256 of which frames of which drives are the map and the queries, and how made."""
+    """Return the SHA-256 of a comparison: its drives, parameters and poses."""
     whole = hashlib.sha256()
     for stretch in (*mapped, *asking):
         whole.update(f"{stretch.drive.folder.resolve()} {stretch.parameters}".encode())
@@ -61,7 +67,14 @@ def digest(
 
 
 def has_answered(folder: Path, name: str, rows: Sequence[str], queries: int) -> bool:
-    """Whether a peer has answered all, as it is set now."""
+    """Return whether the folder has all answers of a peer with its present settings.
+
+    Args:
+        folder: folder of the comparison.
+        name: name of the peer.
+        rows: names of the peer's rows in the report.
+        queries: number of queries.
+    """
     for row in rows:
         try:
             peer, _ = read_answers(folder / ANSWERS / f"{row}.jsonl", queries)

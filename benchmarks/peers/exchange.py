@@ -1,8 +1,8 @@
-"""What goes to a peer and what comes back, as files; NumPy alone, for both environments read it.
+"""Files that go to a peer and come back. Both environments load this module; it needs only NumPy.
 
-A folder `map` and a folder `queries`, each with `NNNNNN.npy`, a local map each: float32 (n, 3),
-metres, about the sensor, level; the map's has `poses.npy` besides. The truth is in neither.
-Answers are JSON lines: first the peer, then one a query.
+The folders `map` and `queries` hold one file `NNNNNN.npy` per local map: float32 (n, 3), meters, in
+a level frame with its origin at the sensor. The folder `map` also holds `poses.npy`. No file holds
+the true poses of the queries. Answers are JSON lines: first the peer, then one line per query.
 """
 
 import json
@@ -22,11 +22,11 @@ MAP, QUERIES, POSES = "map", "queries", "poses.npy"
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What a peer says of a query.
+    """Pose of a query by a peer.
 
     Attributes:
-        pose: from the query's frame to the map's, float64 (4, 4), or none.
-        score: the peer's own, the higher, the surer.
+        pose: transform (4, 4) from the query's frame to the map's, float64; None: no pose.
+        score: the peer's own score; a higher score is more certain.
         sure: whether the peer's own rule accepts the pose.
     """
 
@@ -40,7 +40,7 @@ NOTHING = Estimate(None, float("-inf"), sure=False)
 
 @dataclass(frozen=True, slots=True)
 class PeerAnswer:
-    """An estimate, with the time that it took from the local map's points on."""
+    """Estimate of a peer, and the time from the points of the local map to the pose."""
 
     estimate: Estimate
     milliseconds: float
@@ -48,13 +48,13 @@ class PeerAnswer:
 
 @dataclass(frozen=True, slots=True)
 class Peer:
-    """Who answers.
+    """Name and settings of a peer.
 
     Attributes:
-        name: of the peer.
-        settings: its parameters.
-        versions: of the packages that do the work.
-        learning_seconds: what it spent on the map before the first query.
+        name: name of the peer.
+        settings: parameters of the peer.
+        versions: versions of the installed packages.
+        learning_seconds: time to take in the map before the first query, seconds.
     """
 
     name: str
@@ -65,11 +65,11 @@ class Peer:
 
 @dataclass(frozen=True, slots=True)
 class MapFrame:
-    """A local map of the map.
+    """One local map of the map.
 
     Attributes:
-        pose: from its frame to the map's, float64 (4, 4).
-        cloud: float32 (n, 3), metres, its own frame.
+        pose: transform (4, 4) from its frame to the map's, float64.
+        cloud: float32 (n, 3), points in its own frame, meters.
     """
 
     pose: Pose
@@ -77,12 +77,12 @@ class MapFrame:
 
 
 def cloud_file(folder: Path, index: int) -> Path:
-    """Where a local map lies."""
+    """Return the file of a local map."""
     return folder / f"{index:06d}.npy"
 
 
 def read_map(folder: Path) -> list[MapFrame]:
-    """The map's frames; their clouds stay on the disk until they are looked at."""
+    """Read the local maps of the map; their points are loaded on first use."""
     return [
         MapFrame(pose, np.load(cloud_file(folder / MAP, index), mmap_mode="r"))
         for index, pose in enumerate(np.load(folder / MAP / POSES))
@@ -90,12 +90,12 @@ def read_map(folder: Path) -> list[MapFrame]:
 
 
 def query_files(folder: Path) -> list[Path]:
-    """The queries' local maps, in order."""
+    """Return the files of the queries' local maps, in order."""
     return sorted((folder / QUERIES).glob("*.npy"))
 
 
 def write_answers(file: Path, peer: Peer, answers: Iterable[PeerAnswer]) -> None:
-    """A line for the peer, then one a query."""
+    """Write the peer and its answers as JSON lines."""
     with file.open("w") as lines:
         lines.write(json.dumps(asdict(peer)) + "\n")
         for answer in answers:
@@ -111,37 +111,41 @@ def write_answers(file: Path, peer: Peer, answers: Iterable[PeerAnswer]) -> None
 
 
 def read_answers(file: Path, queries: int) -> tuple[Peer, list[PeerAnswer]]:
-    """What a peer wrote.
+    """Read the peer and its answers.
+
+    Args:
+        file: file of the answers.
+        queries: expected number of answers.
 
     Raises:
-        ValueError: it is cut short, or is not such a file.
+        ValueError: the file is incomplete or is no file of answers.
     """
     try:
         head, *rows = [json.loads(line) for line in file.read_text().splitlines()]
         peer, answers = Peer(**head), [answer_of(row) for row in rows]
     except (KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"{file}: no answers of a peer ({error})") from error
+        raise ValueError(f"{file} is not a file of a peer's answers ({error}).") from error
     if len(answers) != queries:
-        raise ValueError(f"{file}: {len(answers)} answers to {queries} queries")
+        raise ValueError(f"{file} has {len(answers)} answers; {queries} were expected.")
     return peer, answers
 
 
 def answer_of(row: dict[str, Any]) -> PeerAnswer:
-    """A line's answer.
+    """Parse the answer of one line.
 
     Raises:
-        KeyError, TypeError, ValueError: it lacks something, or its pose is no transform.
+        KeyError, TypeError, ValueError: a field is missing, or the pose is not a transform.
     """
     milliseconds = float(row["milliseconds"])
     if row["pose"] is None:
         return PeerAnswer(NOTHING, milliseconds)
     pose = np.array(row["pose"], dtype=np.float64)
     if pose.shape != (4, 4) or not np.isfinite(pose).all():
-        raise ValueError("a pose is four rows of four finite numbers")
+        raise ValueError("The pose must have four rows of four finite numbers.")
     return PeerAnswer(Estimate(pose, float(row["score"]), bool(row["sure"])), milliseconds)
 
 
 def nearest_frame(frames: Sequence[MapFrame], pose: Pose) -> MapFrame:
-    """The map's frame whose origin lies nearest to a pose's."""
+    """Return the local map of the map whose origin is nearest to a pose."""
     origins = np.stack([frame.pose[:3, 3] for frame in frames])
     return frames[int(np.linalg.norm(origins - pose[:3, 3], axis=1).argmin())]

@@ -1,4 +1,4 @@
-"""The map and the queries of a comparison: the local maps that our segments are cut from."""
+"""Map and queries of a comparison: the same local maps that our segmentation gets."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -19,13 +19,13 @@ from placecell.segmentation.pipeline import Progress, silent
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Scans of a drive that make local maps; none outside feeds them.
+    """Scans of a drive from which local maps are made; no other scan contributes to them.
 
     Attributes:
-        drive: whose scans.
-        scans: which of them.
-        parameters: how local maps are made, and which scans are frames.
-        to_map: transform (4, 4) from the drive's world to the map's.
+        drive: the drive.
+        scans: scans of the stretch.
+        parameters: parameters of the local maps.
+        to_map: transform (4, 4) from the drive's frame to the map's.
     """
 
     drive: Drive
@@ -35,28 +35,31 @@ class Stretch:
 
     @property
     def frames(self) -> range:
-        """Scans that have a local map."""
+        """Return the scans that have a local map."""
         return self.scans[:: self.parameters.frame_step]
 
 
 Frame = tuple[Stretch, int, Float64]
-"""A stretch, the scan of its local map, and that one's pose (4, 4) in the drive's world."""
+"""Stretch, scan of the local map, and pose (4, 4) of the local map in the drive's frame."""
 
 
 def stretches_of_one(
     drive: Drive, radius: float | None = None
 ) -> tuple[list[Stretch], list[Stretch]]:
-    """A drive as map and query: its odd blocks and its even ones.
+    """Split a drive into a map, its odd blocks, and queries, its even blocks.
 
     Args:
-        radius: of the local maps, metres; the protocol's unless given.
+        drive: the drive.
+        radius: radius of the local maps, meters; None: that of the protocol.
 
     Raises:
-        ValueError: the drive stands still, so that it has no second block.
+        ValueError: the drive is too short for a second block.
     """
     odd, even = alternate_blocks(drive)
     if not even:
-        raise ValueError(f"{drive.folder}: stands still; there is no second block to ask from")
+        raise ValueError(
+            f"{drive.folder}: the drive is too short for a second block. Use a longer drive."
+        )
     parameters = parameters_of(odd + even, protocol_with_radius(radius).for_drive(len(drive)))
 
     def stretches(blocks: Iterable[range]) -> list[Stretch]:
@@ -68,11 +71,13 @@ def stretches_of_one(
 def stretches_of_two(
     mapped: Drive, asking: Drive, to_map: Float64, radius: float | None = None
 ) -> tuple[list[Stretch], list[Stretch]]:
-    """One drive as the map, another one as the queries.
+    """Return one drive as the map and another drive as the queries.
 
     Args:
-        to_map: true transform (4, 4) from the asking drive's world to the mapped one's.
-        radius: of the local maps, metres; the protocol's unless given.
+        mapped: drive of the map.
+        asking: drive of the queries.
+        to_map: true transform (4, 4) from the frame of the queries' drive to that of the map.
+        radius: radius of the local maps, meters; None: that of the protocol.
     """
 
     def whole(drive: Drive, to_map: Float64) -> list[Stretch]:
@@ -86,7 +91,7 @@ def stretches_of_two(
 
 
 def protocol_with_radius(radius: float | None) -> Parameters:
-    """Protocol v1, but for the radius of the local maps, if one is given."""
+    """Return protocol v1, with another radius of the local maps if one is given."""
     if radius is None:
         return PROTOCOL_V1
     reach = max(radius, PROTOCOL_V1.max_range)
@@ -94,33 +99,34 @@ def protocol_with_radius(radius: float | None) -> Parameters:
 
 
 def near_map(poses: Float64, truth: Float64) -> Bool:
-    """Which queries stand within 10 m of a frame of the map, bool (queries,)."""
+    """Return which queries lie within 10 m of a local map of the map, bool (queries,)."""
     apart, _ = cKDTree(poses[:, :3, 3]).query(truth[:, :3, 3])
     return np.asarray(apart <= MAPPED_METERS)
 
 
 def map_poses(stretches: Sequence[Stretch]) -> Float64:
-    """Poses of the map's frames, float64 (frames, 4, 4)."""
+    """Return the poses of the map's local maps, float64 (frames, 4, 4)."""
     return poses_of(frames_of(stretches))
 
 
 def query_poses(stretches: Sequence[Stretch], most: int | None = None, seed: int = 0) -> Float64:
-    """True poses of the queries in the map's frame, float64 (queries, 4, 4); no peer sees them.
+    """Return the true poses of the queries in the map's frame, float64 (queries, 4, 4).
 
     Args:
-        most: frames that are taken, spread evenly; all unless given.
-        seed: of their headings.
+        stretches: stretches that make the queries.
+        most: largest number of queries, spread evenly; None: all.
+        seed: random seed of the headings.
     """
     return poses_of(frames_of(stretches, most, np.random.default_rng(seed)))
 
 
 def poses_of(frames: Sequence[Frame]) -> Float64:
-    """Of frames, in the map's frame, float64 (n, 4, 4)."""
+    """Return the poses of local maps in the map's frame, float64 (n, 4, 4)."""
     return np.stack([stretch.to_map @ pose for stretch, _, pose in frames])
 
 
 def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> None:
-    """The map as peers read it."""
+    """Write the files of the map."""
     frames = frames_of(stretches)
     write_frames(folder / MAP, frames, progress)
     np.save(folder / MAP / POSES, poses_of(frames))
@@ -133,10 +139,10 @@ def write_queries(
     seed: int = 0,
     progress: Progress = silent,
 ) -> None:
-    """The queries as peers read them.
+    """Write the files of the queries, each rotated by a random angle about the vertical.
 
-    Each is turned about the vertical by a random angle: on a street that is driven one way, a
-    method that finds no turn at all would otherwise look right.
+    On a street that is driven in one direction, a method that finds no rotation would otherwise
+    look right.
     """
     write_frames(
         folder / QUERIES, frames_of(stretches, most, np.random.default_rng(seed)), progress
@@ -148,7 +154,7 @@ def frames_of(
     most: int | None = None,
     turning: np.random.Generator | None = None,
 ) -> list[Frame]:
-    """Frames in order; headings turned by random angles, if there is a generator of them."""
+    """Return the local maps of stretches in order, with random headings if `turning` is given."""
     frames = [(stretch, scan) for stretch in stretches for scan in stretch.frames]
     found = []
     for index in spread(len(frames), most):
@@ -159,7 +165,7 @@ def frames_of(
 
 
 def write_frames(folder: Path, frames: Sequence[Frame], progress: Progress) -> None:
-    """Local maps of frames, each about its sensor and level."""
+    """Write local maps, each in a level frame with its origin at the sensor."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.npy"):
         old.unlink()
@@ -173,7 +179,12 @@ def write_frames(folder: Path, frames: Sequence[Frame], progress: Progress) -> N
 
 
 def leveled(pose: Float64, turn: float = 0.0) -> Float64:
-    """A pose (4, 4) with its place and its heading, turned on by an angle in radians; level."""
+    """Return the level pose (4, 4) with the position and heading of a pose.
+
+    Args:
+        pose: the pose (4, 4).
+        turn: angle to add to the heading, radians.
+    """
     heading = np.arctan2(pose[1, 0], pose[0, 0]) + turn
     level = np.eye(4)
     level[:2, :2] = [[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]]

@@ -1,9 +1,9 @@
-"""KISS-Matcher as a peer, the package `kiss-matcher`.
+"""KISS-Matcher as a peer, with the package `kiss-matcher`.
 
-Lim et al. 2025, *KISS-Matcher: Fast and Robust Point Cloud Registration Revisited*. It registers
-two clouds and retrieves nothing. So it is given the frames of the map that Scan Context finds most
-alike, and the answer with most inliers counts; or it is given the whole map as one cloud. Its
-Python interface computes the features of both clouds anew for each pair.
+Lim et al. 2025, *KISS-Matcher: Fast and Robust Point Cloud Registration Revisited*. KISS-Matcher
+registers two clouds; it does not retrieve. It therefore registers the query with the local maps
+that Scan Context retrieves, and the result with most inliers counts. Or it registers the query with
+the whole map as one cloud. Its Python interface computes the features of both clouds per pair.
 """
 
 from collections.abc import Sequence
@@ -18,20 +18,20 @@ from benchmarks.peers.scan_context import ScanContexts
 
 @dataclass(frozen=True, slots=True)
 class KissMatcherParameters:
-    """Constants; the defaults are those of the package and of its example."""
+    """Parameters of KISS-Matcher; the defaults are those of the package and its example."""
 
     voxel_size: float = 0.3
-    """Metres; features have radii of 3 and 5 voxels."""
+    """Voxel size, meters; features have radii of 3 and 5 voxels."""
     use_quatro: bool = False
-    """Solve for a turn about the vertical alone (Quatro), in place of any rotation."""
+    """Whether to solve for yaw only (Quatro), instead of any rotation."""
     candidates: int = 1
-    """Frames of the map that are tried; 0 for the whole map at once."""
+    """Number of retrieved local maps to try; 0: the whole map at once."""
     least_inliers: int = 5
-    """Its example takes a registration with so many final inliers for a success."""
+    """Least number of final inliers of a success, as in the package's example."""
 
 
 class KissMatcherPeer:
-    """A pose by registration with what Scan Context finds, or with the whole map."""
+    """Pose by registration with the local maps that Scan Context finds, or with the whole map."""
 
     def __init__(self, parameters: KissMatcherParameters) -> None:
         self.parameters = parameters
@@ -47,7 +47,7 @@ class KissMatcherPeer:
         self.contexts = ScanContexts([frame.cloud for frame in self.frames])
 
     def locate(self, cloud: Cloud) -> Estimate:
-        """The pose of a local map in the map."""
+        """Return the pose of a local map in the map."""
         tried = [0]
         if self.parameters.candidates:
             found = self.contexts.find(cloud)
@@ -56,7 +56,7 @@ class KissMatcherPeer:
         return max(registered, key=lambda estimate: estimate.score)
 
     def register(self, cloud: Cloud, frame: MapFrame) -> Estimate:
-        """The pose of a local map by one cloud of the map."""
+        """Return the pose of a local map by registration with one cloud of the map."""
         solution = self.matcher.estimate(cloud, frame.cloud)
         if not solution.valid:
             return NOTHING
@@ -66,7 +66,7 @@ class KissMatcherPeer:
 
 
 def transform_of(solution: kiss_matcher.RegistrationSolution) -> Pose:
-    """A solution as a transform (4, 4)."""
+    """Return a solution as a transform (4, 4)."""
     transform = np.eye(4)
     transform[:3, :3] = solution.rotation
     transform[:3, 3] = np.ravel(solution.translation)
@@ -74,6 +74,6 @@ def transform_of(solution: kiss_matcher.RegistrationSolution) -> Pose:
 
 
 def merged_frames(frames: Sequence[MapFrame]) -> MapFrame:
-    """All frames of the map as one, in the map's frame."""
+    """Return all local maps of the map as one cloud, in the map's frame."""
     clouds = [frame.cloud @ frame.pose[:3, :3].T + frame.pose[:3, 3] for frame in frames]
     return MapFrame(np.eye(4), np.concatenate(clouds).astype(np.float32))

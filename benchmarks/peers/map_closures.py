@@ -1,9 +1,9 @@
-"""MapClosures as a peer, the package `map-closures`.
+"""MapClosures as a peer, with the package `map-closures`.
 
-Gupta et al. 2024, *Effectively Detecting Loop Closures using Point Cloud Density Maps*. It draws a
-local map's density from above, finds ORB features in it, looks them up in a binary search tree over
-all of the map's features, and aligns the images by RANSAC. Gravity is found by fitting a plane to
-the ground. Its RANSAC takes its seed from the machine: answers differ a little from run to run.
+Gupta et al. 2024, *Effectively Detecting Loop Closures using Point Cloud Density Maps*. MapClosures
+draws the density of a local map from above and detects ORB features. It searches them in a binary
+search tree of all features of the map, and aligns the images by RANSAC. It finds gravity by a plane
+fit to the ground. Its RANSAC has a random seed, so answers differ slightly between runs.
 """
 
 from collections.abc import Sequence
@@ -17,28 +17,30 @@ from numpy.typing import NDArray
 from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame
 
 APART = 4
-"""It ignores maps whose numbers differ by three or less, as too recent; ours lie further apart."""
+"""Step between the numbers of local maps. The package ignores maps whose numbers differ by three or
+less as too recent."""
 
 NO_NORMALS = np.zeros((0, 3))
 
 
 @dataclass(frozen=True, slots=True)
 class MapClosuresParameters:
-    """Constants; the defaults are the package's own."""
+    """Parameters of MapClosures; the defaults are those of the package."""
 
     density_map_resolution: float = 0.5
-    """Metres a pixel. ORB needs 31 pixels to each side, and local maps of 40 m have 160 in all."""
+    """Size of a pixel, meters. ORB needs 31 pixels on each side of a feature; a local map of 40 m
+    has 160 pixels in all."""
     density_threshold: float = 0.05
     hamming_distance_threshold: int = 50
     level: bool = False
-    """Take local maps to be level, as ours are, where it would fit a plane to the ground. The fit
-    wants ten points in a voxel as large as a pixel, and turns some maps of few scans over."""
+    """Whether to assume level local maps, as ours are, instead of the plane fit to the ground. The
+    fit needs ten points in a voxel of pixel size, and turns some sparse local maps over."""
     inliers_threshold: int = 5
-    """Its own pipeline takes a closure for one if it has more inliers."""
+    """Number of inliers that an accepted closure must exceed."""
 
 
 class MapClosuresPeer:
-    """A pose by the best closure with a frame of the map."""
+    """Pose by the best closure with a local map of the map."""
 
     def __init__(self, parameters: MapClosuresParameters) -> None:
         self.parameters = parameters
@@ -59,9 +61,9 @@ class MapClosuresPeer:
         self.asked = APART * len(frames)
 
     def locate(self, cloud: Cloud) -> Estimate:
-        """The pose of a local map in the map.
+        """Return the pose of a local map in the map.
 
-        The package keeps each query as a further map: closures with those are left out here.
+        The package adds each query to its maps; closures with queries are left out.
         """
         self.asked += APART
         found = [
@@ -72,13 +74,15 @@ class MapClosuresPeer:
         if not found:
             return NOTHING
         best = max(found, key=lambda closure: closure.number_of_inliers)
-        # A closure's pose goes from the older map, the source, to the newer one.
+        # The pose of a closure is the transform from the older map (source) to the newer one.
         pose = self.poses[best.source_id] @ np.linalg.inv(best.pose)
         inliers = best.number_of_inliers
         return Estimate(pose, float(inliers), inliers > self.parameters.inliers_threshold)
 
     def seen(self, cloud: Cloud) -> tuple[NDArray[np.float64], ...]:
-        """A local map as it takes it: its points, and the normals of the ground if not its own."""
+        """Return the package's arguments for a local map: its points, and normals if it is level.
+
+        The normals are empty, so the package skips the plane fit.
+        """
         points = cloud.astype(np.float64)
-        # Of no normals at all it fits no plane.
         return (points, NO_NORMALS, NO_NORMALS) if self.parameters.level else (points,)

@@ -1,4 +1,4 @@
-"""What the peers' own systems do after them: generalised ICP, the package `small-gicp`."""
+"""Pose refinement by generalized ICP (package `small-gicp`), as peers' own systems do it."""
 
 from collections.abc import Sequence
 
@@ -8,14 +8,14 @@ import small_gicp
 from benchmarks.peers.exchange import Cloud, Estimate, MapFrame, nearest_frame
 
 GATES = (5.0, 1.0)
-"""Greatest distances of corresponding points, metres: first from far off, then close by."""
+"""Largest distances of corresponding points, meters: a coarse and a fine step."""
 
 VOXEL = 0.3
-"""Metres, as the clouds are thinned out for it."""
+"""Voxel size of the downsampled clouds, meters."""
 
 
 def refine(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
-    """The estimate, its pose refined against the frame of the map that lies nearest to it."""
+    """Refine the pose of an estimate against the nearest local map of the map."""
     if estimate.pose is None:
         return estimate
     frame = nearest_frame(frames, estimate.pose)

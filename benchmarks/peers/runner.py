@@ -1,6 +1,6 @@
-"""One peer answers all queries; runs in the peers' environment.
+"""Runner of one peer in the peers' environment: answers all queries.
 
-How to run it by hand:
+Run it by hand with:
 
     python -m benchmarks.peers.runner kiss-matcher FOLDER ANSWERS
 """
@@ -36,16 +36,16 @@ PEERS: dict[str, dict[str, Any]] = {
     "kiss-matcher-3": {"candidates": 3},
     "kiss-matcher-map": {"candidates": 0},
 }
-"""By name, what is set otherwise than by default; chosen on the town of seed 7."""
+"""Settings of each peer that differ from the defaults, chosen on the town of seed 7."""
 
 REFINED = "+gicp"
-"""Added to the name of a peer whose poses were refined."""
+"""Suffix of the name of a peer with refined poses."""
 
 PACKAGES = ("numpy", "scipy", "map-closures", "kiss-matcher", "small-gicp")
 
 
 class Locator(Protocol):
-    """What a peer does; settings are its `parameters`."""
+    """Interface of a peer; `parameters` are its settings."""
 
     parameters: Any
 
@@ -53,11 +53,11 @@ class Locator(Protocol):
         """Take in the map."""
 
     def locate(self, cloud: Cloud) -> Estimate:
-        """The pose of a local map in the map."""
+        """Return the pose of a local map in the map."""
 
 
 def open_peer(name: str) -> Locator:
-    """A peer, by name; its package is imported only now."""
+    """Return a peer by name, and import its package."""
     settings = PEERS[name]
     if name.startswith("map-closures"):
         from benchmarks.peers.map_closures import MapClosuresParameters, MapClosuresPeer
@@ -73,22 +73,22 @@ def open_peer(name: str) -> Locator:
 
 
 def run_locator(
-    name: Annotated[str, typer.Argument(help=f"One of {', '.join(PEERS)}.")],
-    folder: Annotated[Path, typer.Argument(help="With the map and the queries.")],
+    name: Annotated[str, typer.Argument(help=f"Name of the peer: {', '.join(PEERS)}.")],
+    folder: Annotated[Path, typer.Argument(help="Folder with the map and the queries.")],
     answers: Annotated[Path, typer.Argument(help="Folder for PEER.jsonl.")],
     refine: Annotated[
-        bool, typer.Option(help=f"Refine each pose besides, into PEER{REFINED}.jsonl.")
+        bool, typer.Option(help=f"Also write refined poses, to PEER{REFINED}.jsonl.")
     ] = False,
 ) -> None:
-    """Let one peer answer all queries."""
+    """Answer all queries with one peer."""
     if name not in PEERS:
-        raise typer.BadParameter(f"{name!r} is none of {', '.join(PEERS)}")
+        raise typer.BadParameter(f"Unknown peer {name!r}. Known peers: {', '.join(PEERS)}.")
     locator, frames = open_peer(name), read_map(folder)
     started = time.perf_counter()
     locator.learn(frames)
     learning = time.perf_counter() - started
     plain, refined = [], []
-    # Standard output belongs to the packages, which write to it as they like.
+    # The packages write to standard output, so the progress goes to standard error.
     for file in track(query_files(folder), name, console=Console(stderr=True)):
         cloud = np.load(file)
         started = time.perf_counter()
@@ -108,14 +108,14 @@ def run_locator(
 
 
 def refine_estimate(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
-    """The estimate with its pose refined."""
+    """Refine the pose of an estimate; import the package only when needed."""
     from benchmarks.peers.refinement import refine
 
     return refine(estimate, cloud, frames)
 
 
 def versions() -> dict[str, str]:
-    """Of the packages that are installed."""
+    """Return the versions of the installed packages."""
     found = {}
     for package in PACKAGES:
         try:

@@ -1,7 +1,7 @@
-"""Scan Context, the plain baseline, written after the paper.
+"""Scan Context, the baseline, implemented after the paper.
 
 Kim and Kim 2018, *Scan Context: Egocentric Spatial Descriptor for Place Recognition within 3D Point
-Cloud Map*. Constants are the paper's, and those of the authors' program where the paper has none.
+Cloud Map*. Parameters are those of the paper, or of the authors' program if the paper has none.
 """
 
 from collections.abc import Sequence
@@ -18,15 +18,15 @@ Context = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class ScanContextParameters:
-    """Constants. Lengths are metres."""
+    """Parameters of Scan Context. Lengths are in meters."""
 
     rings: int = 20
     sectors: int = 60
     radius: float = 80.0
     sensor_height: float = 2.0
-    """Added to all heights, so that what lies on the ground is told from nothing, which is 0."""
+    """Added to all heights, so that ground points differ from empty cells, which are 0."""
     candidates: int = 10
-    """Frames whose ring keys are nearest; of these the contexts are compared."""
+    """Number of local maps with the nearest ring keys, whose contexts are compared."""
     sure_below: float = 0.13
     """Distance below which the authors' program closes a loop (SC_DIST_THRES)."""
 
@@ -35,10 +35,11 @@ DEFAULT = ScanContextParameters()
 
 
 def scan_context(cloud: Cloud, parameters: ScanContextParameters = DEFAULT) -> Context:
-    """Greatest height in each ring and sector (section III-A): float64 (rings, sectors).
+    """Return the largest height in each ring and sector (section III-A): float64 (rings, sectors).
 
     Args:
-        cloud: float32 (n, 3), metres, about the sensor, z up.
+        cloud: float32 (n, 3), points in a z-up frame with its origin at the sensor, meters.
+        parameters: parameters of Scan Context.
     """
     distance = np.hypot(cloud[:, 0], cloud[:, 1])
     ring = (distance / parameters.radius * parameters.rings).astype(np.int64)
@@ -52,22 +53,22 @@ def scan_context(cloud: Cloud, parameters: ScanContextParameters = DEFAULT) -> C
 
 
 def ring_key(context: Context) -> Context:
-    """Share of each ring's sectors that hold something: (rings,), the same for every heading."""
+    """Return the share of occupied sectors per ring: (rings,); it is independent of heading."""
     return np.asarray((context > 0).mean(axis=1))
 
 
 def distances(query: Context, candidate: Context) -> Context:
-    """Distance at each angle of whole sectors: (sectors,).
+    """Return the distance of two contexts at each angle of whole sectors: (sectors,).
 
-    The angle is the query's heading in the candidate's frame. A distance is one minus the cosine
-    between columns, averaged (equations 5 and 6); columns that are empty in either say nothing and
-    are left out, as in the authors' program.
+    The angle is the query's heading in the candidate's frame. The distance is one minus the mean
+    cosine of the columns (equations 5 and 6). Columns that are empty in either context are left
+    out, as in the authors' program.
     """
     query, candidate = unit_columns(query), unit_columns(candidate)
     cosines = query.T @ candidate
     both = np.outer(query.any(axis=0), candidate.any(axis=0))
     sectors = np.arange(query.shape[1])
-    # What the query sees in a sector, the candidate sees in the sector further on by the angle.
+    # A sector of the query corresponds to the candidate's sector shifted by the angle.
     further = (sectors + sectors[:, None]) % len(sectors)
     compared = both[sectors, further].sum(axis=1)
     similarity = cosines[sectors, further].sum(axis=1)
@@ -75,19 +76,19 @@ def distances(query: Context, candidate: Context) -> Context:
 
 
 def unit_columns(context: Context) -> Context:
-    """Columns at length 1; empty ones stay empty."""
+    """Return the context with columns of length 1; empty columns stay empty."""
     lengths = np.linalg.norm(context, axis=0)
     return np.asarray(context / np.where(lengths > 0, lengths, 1))
 
 
 @dataclass(frozen=True, slots=True)
 class FrameMatch:
-    """A frame of the map that looks like the query.
+    """Local map of the map that is similar to the query.
 
     Attributes:
-        frame: its index.
-        distance: of the contexts, at the best angle.
-        yaw: the query's heading in the frame, radians.
+        frame: index of the local map.
+        distance: distance of the contexts at the best angle.
+        yaw: heading of the query in the local map's frame, radians.
     """
 
     frame: int
@@ -96,7 +97,7 @@ class FrameMatch:
 
 
 class ScanContexts:
-    """The contexts of a map's frames, and a k-d tree over their ring keys."""
+    """Contexts of the local maps of a map, with a k-d tree of their ring keys."""
 
     def __init__(
         self, clouds: Sequence[Cloud], parameters: ScanContextParameters = DEFAULT
@@ -106,7 +107,7 @@ class ScanContexts:
         self.keys = cKDTree(np.stack([ring_key(context) for context in self.contexts]))
 
     def find(self, cloud: Cloud) -> list[FrameMatch]:
-        """Frames that look like a local map, the most alike first (section III-D)."""
+        """Return the local maps most similar to a query, the best first (section III-D)."""
         query = scan_context(cloud, self.parameters)
         count = min(self.parameters.candidates, len(self.contexts))
         _, nearest = self.keys.query(ring_key(query), k=[*range(1, count + 1)])
@@ -114,16 +115,17 @@ class ScanContexts:
         return sorted(found, key=lambda one: one.distance)
 
     def compare(self, query: Context, frame: int) -> FrameMatch:
-        """A frame at its best angle."""
+        """Compare a query with a local map at the best angle."""
         apart = distances(query, self.contexts[frame])
         best = int(apart.argmin())
         return FrameMatch(frame, float(apart[best]), 2 * np.pi * best / self.parameters.sectors)
 
 
 class ScanContextPeer:
-    """A pose by Scan Context: the place of the frame found, and the angle of the best comparison.
+    """Pose by Scan Context: the position of the best local map, and the best angle.
 
-    There is no translation in it: the answer is as far off as the query stands from that frame.
+    Scan Context estimates no translation: the position error is the distance between the query and
+    that local map.
     """
 
     def __init__(self, parameters: ScanContextParameters = DEFAULT) -> None:
@@ -135,7 +137,7 @@ class ScanContextPeer:
         self.contexts = ScanContexts([frame.cloud for frame in frames], self.parameters)
 
     def locate(self, cloud: Cloud) -> Estimate:
-        """The pose of a local map in the map."""
+        """Return the pose of a local map in the map."""
         if not len(cloud):
             return NOTHING
         best = self.contexts.find(cloud)[0]
@@ -144,7 +146,7 @@ class ScanContextPeer:
 
 
 def about_z(yaw: float) -> Pose:
-    """A turn about the vertical by an angle in radians: transform (4, 4)."""
+    """Return the rotation (4, 4) about the vertical by an angle in radians."""
     turn = np.eye(4)
     turn[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
     return turn

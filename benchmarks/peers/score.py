@@ -1,4 +1,4 @@
-"""Poses against the truth, counted as `placecell evaluate-poses` counts ours."""
+"""Score of a peer: its poses against the truth, counted as `placecell evaluate-poses` does."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,19 +12,19 @@ from placecell.core.types import Bool, Float64
 from placecell.localization import Pose
 
 STEPS = 20
-"""Scores at which right and wrong are counted, at most."""
+"""Largest number of score thresholds at which right and wrong poses are counted."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """What became of a query, and the peer's own score of its pose."""
+    """Outcome of a query, and the peer's own score of its pose."""
 
     outcome: Outcome
     score: float
 
     @property
     def wrong(self) -> bool:
-        """Whether the pose, if there is one, would mislead; accepted or not."""
+        """Return whether there is a pose and it is misleading, accepted or not."""
         off = self.outcome.meters > OFF[0] or self.outcome.degrees > OFF[1]
         return off and bool(np.isfinite(self.outcome.meters))
 
@@ -32,11 +32,14 @@ class Scored:
 def score_peer(
     peer: Peer, answers: Sequence[PeerAnswer], truth: Float64, mapped: Bool
 ) -> dict[str, Any]:
-    """A peer's figures; and, so that they do not hang on its rule alone, what other rules give.
+    """Return the figures of a peer, with its own acceptance rule and with other score thresholds.
 
     Args:
-        truth: poses of the queries in the map's frame, float64 (queries, 4, 4).
-        mapped: whether the map was made near by, bool (queries,); others stand apart.
+        peer: the peer.
+        answers: answer to each query.
+        truth: float64 (queries, 4, 4), true poses of the queries in the map's frame.
+        mapped: bool (queries,), whether the query lies in the mapped area; others are counted
+            apart.
     """
     scored = [
         Scored(outcome_of(answer, true, mapped=bool(near)), answer.estimate.score)
@@ -63,9 +66,9 @@ def score_peer(
 
 
 def outcome_of(answer: PeerAnswer, true: Float64, *, mapped: bool) -> Outcome:
-    """An answer as if it were ours.
+    """Return the outcome of an answer.
 
-    What a peer's own rule accepts is as good as certain, all else not localised.
+    A pose that the peer's rule accepts has probability 1; any other pose counts as not localized.
     """
     meters = degrees = float("inf")
     if answer.estimate.pose is not None:
@@ -86,7 +89,7 @@ def outcome_of(answer: PeerAnswer, true: Float64, *, mapped: bool) -> Outcome:
 
 
 def by_score(scored: Sequence[Scored]) -> list[dict[str, float]]:
-    """Shares right and wrong if all poses with a score or more were accepted."""
+    """Return the shares of right and wrong poses if all poses above a score were accepted."""
     given = np.unique([each.score for each in scored if np.isfinite(each.score)])
     rows = []
     for index in np.linspace(0, len(given) - 1, min(STEPS, len(given))).round().astype(int):
@@ -104,7 +107,10 @@ def by_score(scored: Sequence[Scored]) -> list[dict[str, float]]:
 
 
 def right_above_all_wrong(scored: Sequence[Scored]) -> float | None:
-    """Share right with a score above all wrong ones': by a limit that is known only afterwards."""
+    """Return the share of right poses with a score above that of every wrong pose.
+
+    This threshold is known only in hindsight.
+    """
     limit = max((each.score for each in scored if each.wrong), default=float("-inf"))
     above = sum(each.outcome.right and each.score > limit for each in scored)
     return round(above / len(scored), 5) if scored else None

@@ -31,7 +31,7 @@ def test_every_row_has_a_case() -> None:
 
 
 @pytest.mark.slow
-def test_the_short_form_holds(tmp_path: Path) -> None:
+def test_short_form_holds(tmp_path: Path) -> None:
     file = tmp_path / "attack.json"
     # Other work on the machine makes a victim wait longer; a fault makes it wait far longer still.
     command = ["bench", "attack", "--short", "--victim-seconds", "5", "--json", str(file)]
@@ -42,14 +42,14 @@ def test_the_short_form_holds(tmp_path: Path) -> None:
     assert report["held"] == sum(case.in_short for case in CASES)
 
 
-def test_an_unknown_case_is_refused() -> None:
+def test_unknown_case_is_refused() -> None:
     result = CliRunner().invoke(app, ["bench", "attack", "--case", "A99"])
     assert result.exit_code == 1
     assert "A99" in result.output
 
 
 @pytest.mark.usefixtures("tiny")
-def test_a_service_that_is_left_alone_holds() -> None:
+def test_service_that_is_left_alone_holds() -> None:
     def leave_alone(stage: Stage) -> None:
         with stage.service() as target, stage.victim(target, reads=True):
             pass
@@ -63,7 +63,7 @@ def test_a_service_that_is_left_alone_holds() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_a_service_that_dies_is_a_failure() -> None:
+def test_service_that_dies_is_a_failure() -> None:
     def kill(stage: Stage) -> None:
         with stage.service() as target, stage.victim(target):
             target.service.process.kill()
@@ -76,7 +76,7 @@ def test_a_service_that_dies_is_a_failure() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_a_service_above_the_limit_of_memory_is_killed() -> None:
+def test_service_above_the_limit_of_memory_is_killed() -> None:
     def nothing(stage: Stage) -> None:
         with stage.service():
             pass
@@ -87,7 +87,7 @@ def test_a_service_above_the_limit_of_memory_is_killed() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_a_write_that_is_gone_is_counted() -> None:
+def test_write_that_is_gone_is_counted() -> None:
     def undo(stage: Stage) -> None:
         with stage.service() as target:
             with stage.victim(target):
@@ -99,7 +99,7 @@ def test_a_write_that_is_gone_is_counted() -> None:
     assert "are gone" in report["why"]
 
 
-def test_a_victim_that_waits_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_victim_that_waits_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
     stage = Stage(Path(), 1_000, True, 1.0, np.random.default_rng(0))
     waits = {"max": 1.5, "idle_max": 0.1, "statuses": {"200": 3}, "done": 3, "unanswered": False}
     stage._take(None, {"describe": waits}, 1.0)  # type: ignore[arg-type]
@@ -108,7 +108,7 @@ def test_a_victim_that_waits_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> No
     assert "waited 1.50 s" in stage.found.why[0]
 
 
-def test_a_case_that_breaks_is_a_failure() -> None:
+def test_case_that_breaks_is_a_failure() -> None:
     def fail(stage: Stage) -> None:
         raise ValueError("no such thing")
 
@@ -117,7 +117,7 @@ def test_a_case_that_breaks_is_a_failure() -> None:
     assert "ValueError: no such thing" in report["why"]
 
 
-def test_the_command_writes_a_report_and_ends_with_status_1(
+def test_command_writes_a_report_and_ends_with_status_1(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def hold(stage: Stage) -> None:

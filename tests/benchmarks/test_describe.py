@@ -113,7 +113,7 @@ def test_papers_network_once_exported_needs_no_torch(
     assert network.file.stat().st_size > 4 * 10_600_000
 
 
-def test_a_quantized_network_beside_the_served_one(tmp_path: Path) -> None:
+def test_quantized_network_beside_the_served_one(tmp_path: Path) -> None:
     served = (MODELS_FOLDER / "group" / "model.onnx").read_bytes()
     (tmp_path / "model.onnx").write_bytes(served)
     (tmp_path / "model-int8.onnx").write_bytes(b"...QuantizeLinear...")

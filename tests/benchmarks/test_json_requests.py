@@ -4,7 +4,7 @@ from benchmarks.load.json_requests import measure_json_requests
 
 
 @pytest.mark.slow
-def test_the_report_names_its_baseline_and_has_both_readers() -> None:
+def test_report_names_its_baseline_and_has_both_readers() -> None:
     report = measure_json_requests(seconds=0.1)
     assert set(report["rows"]) == {"baseline", "compiled"}
     assert report["saturation_ratio"] > 0

@@ -71,7 +71,7 @@ def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
     assert 0 < errors["float16"] < errors["255 levels"] < errors["15 levels"] < errors["4 levels"]
 
 
-def test_the_report_has_a_row_for_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_report_has_a_row_for_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladders, "PRODUCT_BYTES", (7,))
     report = measure_compression(EIGENVALUE, recorded(300), (150, 299))
     assert report["segments"] == 8 * 150
@@ -88,7 +88,7 @@ def test_too_few_segments_are_refused() -> None:
         measure_compression(EIGENVALUE, recorded(20), (10, 19))
 
 
-def test_the_command_tells_and_writes(tmp_path: Path) -> None:
+def test_command_tells_and_writes(tmp_path: Path) -> None:
     recorded(300).save(tmp_path / "boxes.safetensors")
     words = ["bench", "ladder", tmp_path / "boxes.safetensors", "--scans", "150:299",
              "--model", BASELINE, "--json", tmp_path / "ladder.json"]  # fmt: skip
@@ -111,7 +111,7 @@ def test_views_of_a_thing_differ_as_those_of_one_group_do() -> None:
         DescriptorSampler.from_recording(EIGENVALUE, recorded(), seed=0)
 
 
-def test_a_made_map_is_small_and_valid() -> None:
+def test_made_map_is_small_and_valid() -> None:
     manifest = load_extractor(MODELS_FOLDER / DEFAULT_MODEL).manifest
     codes = np.zeros((10_000, manifest.code_bytes), np.int8)
     file = encode(road_map(codes, manifest, "ann"))

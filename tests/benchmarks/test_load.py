@@ -82,13 +82,13 @@ def test_without_a_rate_clients_wait_for_their_answers() -> None:
     assert outcome.stages["a"] == [1.5] * len(outcome.statuses)
 
 
-def test_a_connection_that_fails_is_told() -> None:
+def test_connection_that_fails_is_told() -> None:
     outcome = asyncio.run(send_load(Load("127.0.0.1", 1, (b"x",), 20, 0.1)))
     assert outcome.statuses == [0, 0]
 
 
 @pytest.mark.integration
-def test_a_short_run_against_the_real_service(
+def test_short_run_against_the_real_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
@@ -110,7 +110,7 @@ def test_a_short_run_against_the_real_service(
 
 
 @pytest.mark.integration
-def test_a_short_soak(tmp_path: Path) -> None:
+def test_short_soak(tmp_path: Path) -> None:
     report = soak.run_soak(scans(4), soak.SoakPlan(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
     assert report["unexpected"] == 0
     told = {status for each in report["bad_clients"].values() for status in each}

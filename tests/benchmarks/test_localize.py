@@ -20,7 +20,7 @@ pytestmark = [pytest.mark.integration, pytest.mark.slow]
 
 
 @pytest.mark.integration
-def test_the_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def small(sizes: tuple[int, ...], seconds: float) -> LocalizePlan:
         return LocalizePlan(sizes, requests=5, rate=5, seconds=seconds)
 

@@ -21,7 +21,7 @@ ROW = {
 
 
 @pytest.mark.integration
-def test_the_command_measures_and_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_measures_and_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tiny = MapsPlan(
         (2000,), asked=100, rate=5, upserts=100, upload=500, upload_seconds=0.5, starts=1
     )

@@ -38,7 +38,7 @@ def folder(tmp_path: Path) -> Path:
     return case
 
 
-def test_a_row_a_system_and_a_column_a_case(folder: Path) -> None:
+def test_row_a_system_and_a_column_a_case(folder: Path) -> None:
     table = list(comparison_table({"town": read_reports(folder), "drive": {"context": REPORT}}))
     assert table == [
         "|  | town | drive |",
@@ -78,7 +78,7 @@ def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localized() -> None:
     assert row.endswith("| 0.07 m, 0.15 deg | - |")
 
 
-def test_the_command_writes_either(folder: Path, tmp_path: Path) -> None:
+def test_command_writes_either(folder: Path, tmp_path: Path) -> None:
     def run(*words: object) -> tuple[int, str]:
         done = CliRunner().invoke(app, ["bench", "pose-tables", *map(str, words)])
         return done.exit_code, done.output

@@ -48,7 +48,7 @@ def test_without_a_mate_far_off_there_is_nothing_to_ask() -> None:
         measure_views(EIGENVALUE, recorded(2), (0, 0), seed=0)
 
 
-def test_the_command_tells_and_writes(tmp_path: Path) -> None:
+def test_command_tells_and_writes(tmp_path: Path) -> None:
     driven_past(40).save(tmp_path / "boxes.safetensors")
     words = ["bench", "views", tmp_path / "boxes.safetensors", "--scans", "0:39",
              "--model", BASELINE, "--json", tmp_path / "views.json"]  # fmt: skip

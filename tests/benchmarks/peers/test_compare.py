@@ -1,4 +1,4 @@
-"""Peers from the drive to the figures; Scan Context needs no environment but ours."""
+"""Comparison of peers, from drives to figures; Scan Context runs in our own environment."""
 
 import json
 import subprocess
@@ -53,7 +53,7 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
     assert row["settings"]["sectors"] == 60
     assert row["versions"]["numpy"] == np.__version__
     assert row["p50_ms"] > 0
-    # The truth is not among what the peer could have read.
+    # No file that the peer could read holds the true poses.
     assert sorted(file.name for file in tmp_path.iterdir()) == [
         "answers", "comparison.sha256", "figures.json", "map", "queries",
     ]  # fmt: skip
@@ -61,30 +61,30 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
     assert not (tmp_path / QUERIES / POSES).exists()
 
 
-def test_a_stopped_run_goes_on(drives: tuple[Path, Path], tmp_path: Path) -> None:
+def test_stopped_run_continues(drives: tuple[Path, Path], tmp_path: Path) -> None:
     words = (
         *(*drives, "--no-refine", "--queries", 4, "--python", HERE, "--output", tmp_path),
         *("--json", tmp_path / "figures.json"),
     )
-    assert "leave out --resume" in run(*words, "--peer", "scan-context", "--resume", status=1)
-    # The second one's packages are not here, so that it ends after the first one's answers.
+    assert "Run without --resume" in run(*words, "--peer", "scan-context", "--resume", status=1)
+    # The packages of the second peer are not installed, so the run stops after the first peer.
     two = (*words, "--peer", "scan-context", "--peer", "kiss-matcher")
     run(*two, status=1)
     answers = tmp_path / "answers" / "scan-context.jsonl"
     kept = [each.stat().st_mtime_ns for each in (answers, cloud_file(tmp_path / MAP, 0))]
-    assert "kiss-matcher: ended" in run(*two, "--resume", status=1)
+    assert "Peer 'kiss-matcher' failed" in run(*two, "--resume", status=1)
     run(*words, "--peer", "scan-context", "--resume")
     assert [each.stat().st_mtime_ns for each in (answers, cloud_file(tmp_path / MAP, 0))] == kept
     assert json.loads((tmp_path / "figures.json").read_text())["rows"][0]["queries"] == 4
-    # Answers that are cut short are asked for anew.
+    # A peer with an incomplete file of answers runs again.
     answers.write_text(answers.read_text()[:-5])
     run(*words, "--peer", "scan-context", "--resume")
     assert len(read_answers(answers, 4)[1]) == 4
     other = (*words, "--peer", "scan-context", "--resume", "--seed", 9)
-    assert "leave out --resume" in run(*other, status=1)
+    assert "Run without --resume" in run(*other, status=1)
 
 
-def test_a_drive_by_blocks(drives: tuple[Path, Path], tmp_path: Path) -> None:
+def test_one_drive_is_split_into_blocks(drives: tuple[Path, Path], tmp_path: Path) -> None:
     shown = run(
         *(drives[0], "--peer", "scan-context", "--no-refine", "--radius", 60),
         *("--python", HERE, "--output", tmp_path),
@@ -93,7 +93,7 @@ def test_a_drive_by_blocks(drives: tuple[Path, Path], tmp_path: Path) -> None:
     assert len(list((tmp_path / QUERIES).iterdir())) > 2
 
 
-def test_without_the_environment_it_says_how_to_make_it(
+def test_error_without_the_environment_names_make_peers(
     drives: tuple[Path, Path], tmp_path: Path
 ) -> None:
     shown = run(*drives, "--python", tmp_path / "none", "--output", tmp_path / "x", status=1)
@@ -101,13 +101,13 @@ def test_without_the_environment_it_says_how_to_make_it(
     assert not (tmp_path / "x").exists()
 
 
-def test_a_peer_that_fails_is_named(drives: tuple[Path, Path], tmp_path: Path) -> None:
+def test_error_names_the_peer_that_failed(drives: tuple[Path, Path], tmp_path: Path) -> None:
     shown = run(
         *(*drives, "--peer", "kiss-matcher", "--queries", 1),
         *("--python", HERE, "--output", tmp_path),
         status=1,
     )
-    assert "kiss-matcher: ended with status 1" in shown
+    assert "Peer 'kiss-matcher' failed with exit status 1" in shown
 
 
 def test_unknown_peers_are_refused(drives: tuple[Path, Path], tmp_path: Path) -> None:
@@ -130,7 +130,7 @@ print(*names)
 """
 
 
-def test_the_runner_needs_none_of_our_packages() -> None:
+def test_runner_loads_none_of_our_packages() -> None:
     done = subprocess.run(
         [sys.executable, "-c", LOAD],
         cwd=Path(benchmarks.__file__).parents[1], capture_output=True, text=True, check=True,
@@ -140,7 +140,7 @@ def test_the_runner_needs_none_of_our_packages() -> None:
 
 
 def blocks(seed: int, reach: float) -> Cloud:
-    """Ground and boxes upon it, in a square of so many metres to each side."""
+    """Return points of ground and boxes in a square that reaches `reach` meters to each side."""
     random = np.random.default_rng(seed)
     floor = int(240 * reach**2)
     parts = [
@@ -159,10 +159,10 @@ def blocks(seed: int, reach: float) -> Cloud:
 
 
 @pytest.mark.parametrize("name", sorted(PEERS.keys() - {"kiss-matcher-3"}))  # as kiss-matcher
-def test_each_peer_finds_a_place_again(name: str, tmp_path: Path) -> None:
+def test_each_peer_localizes_a_query_of_the_map(name: str, tmp_path: Path) -> None:
     if not ENVIRONMENT.is_file():
         pytest.skip("no environment of the peers: make peers")
-    # MapClosures looks for features 16 m away from the edge of what it sees.
+    # MapClosures detects features only 16 m from the edge of its image.
     reach = 60.0 if name == "map-closures" else 25.0
     frames = [pose(200.0 * index, 30.0, 1.0, yaw=0.5 * index) for index in range(3)]
     query = pose(2.0, -1.0, 0.0, yaw=2.0)

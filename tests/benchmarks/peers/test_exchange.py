@@ -31,7 +31,7 @@ def file(tmp_path: Path) -> Path:
     return file
 
 
-def test_answers_come_back_as_they_were(file: Path) -> None:
+def test_answers_are_read_as_written(file: Path) -> None:
     peer, answers = read_answers(file, 3)
     assert peer == PEER
     assert [answer.milliseconds for answer in answers] == [30.5, 2.0, 3.0]
@@ -42,13 +42,13 @@ def test_answers_come_back_as_they_were(file: Path) -> None:
         assert answer.estimate.sure == before.estimate.sure
 
 
-def test_every_line_is_json_of_any_reader(file: Path) -> None:
+def test_every_line_is_standard_json(file: Path) -> None:
     for line in file.read_text().splitlines():
         json.loads(line, parse_constant=pytest.fail)
 
 
-def test_answers_that_are_too_few_are_refused(file: Path) -> None:
-    with pytest.raises(ValueError, match="3 answers to 4 queries"):
+def test_too_few_answers_are_refused(file: Path) -> None:
+    with pytest.raises(ValueError, match="3 answers; 4 were expected"):
         read_answers(file, 4)
 
 
@@ -67,20 +67,20 @@ def test_answers_that_are_too_few_are_refused(file: Path) -> None:
         json.dumps({"milliseconds": 1, "pose": np.eye(4).tolist(), "score": None, "sure": True}),
     ],
 )
-def test_what_is_no_answer_is_refused(file: Path, line: str) -> None:
+def test_line_that_is_no_answer_is_refused(file: Path, line: str) -> None:
     file.write_text(file.read_text().splitlines()[0] + "\n" + line + "\n")
-    with pytest.raises(ValueError, match=r"somebody.jsonl: no answers"):
+    with pytest.raises(ValueError, match=r"somebody.jsonl is not a file of a peer's answers"):
         read_answers(file, 1)
 
 
 @pytest.mark.parametrize("text", ["", "{}\n", '{"name": 1, "more": 2}\n', "\x00\n"])
-def test_a_file_without_its_head_is_refused(tmp_path: Path, text: str) -> None:
+def test_file_without_a_peer_is_refused(tmp_path: Path, text: str) -> None:
     (tmp_path / "x.jsonl").write_text(text)
-    with pytest.raises(ValueError, match="no answers of a peer"):
+    with pytest.raises(ValueError, match="not a file of a peer's answers"):
         read_answers(tmp_path / "x.jsonl", 0)
 
 
-def test_nearest_frame() -> None:
+def test_nearest_frame_is_the_one_with_the_nearest_origin() -> None:
     frames = [MapFrame(pose(x), np.zeros((0, 3), np.float32)) for x in (0.0, 5.0, 10.0)]
     assert nearest_frame(frames, pose(7.4, 2.0)) is frames[1]
     assert nearest_frame(frames, pose(7.6, 2.0)) is frames[2]

@@ -21,7 +21,7 @@ from tests.placecell.segment_builders import MemoryDrive, pose
 
 
 def drive(poses: list[Float64], seed: int = 0) -> MemoryDrive:
-    """A few points to each scan, all around the sensor."""
+    """Return a drive with a few points per scan, around the sensor."""
     random = np.random.default_rng(seed)
     return MemoryDrive([random.uniform(-20, 20, (50, 3)) for _ in poses], poses)
 
@@ -30,14 +30,14 @@ def along(count: int, spacing: float = 1.0) -> MemoryDrive:
     return drive([pose(spacing * index, 0.1 * index, yaw=0.05 * index) for index in range(count)])
 
 
-def test_upright_keeps_place_and_heading_and_levels_the_rest() -> None:
+def test_leveled_pose_keeps_position_and_heading() -> None:
     tilted = pose(1, 2, 3, yaw=0.7)
     tilted[:3, :3] = tilted[:3, :3] @ [[1, 0, 0], [0, 0.995, -0.0998], [0, 0.0998, 0.995]]
     assert leveled(tilted) == pytest.approx(pose(1, 2, 3, yaw=0.7), abs=1e-3)
     assert leveled(pose(1, 2, 3, yaw=0.7), 0.5) == pytest.approx(pose(1, 2, 3, yaw=1.2))
 
 
-def test_map_frames_are_the_local_maps_of_our_segments(tmp_path: Path) -> None:
+def test_map_files_are_the_local_maps_of_our_segmentation(tmp_path: Path) -> None:
     driven = along(60)
     mapped, _ = stretches_of_one(driven)
     write_map(tmp_path, mapped)
@@ -51,7 +51,7 @@ def test_map_frames_are_the_local_maps_of_our_segments(tmp_path: Path) -> None:
         assert in_world == pytest.approx(expected, abs=1e-4)
 
 
-def test_no_scan_is_in_map_and_query() -> None:
+def test_no_scan_is_in_both_map_and_queries() -> None:
     mapped, asking = stretches_of_one(along(60))
     first, second = (
         {scan for block in blocks for scan in block.scans} for blocks in (mapped, asking)
@@ -60,12 +60,12 @@ def test_no_scan_is_in_map_and_query() -> None:
     assert first | second == set(range(60))
 
 
-def test_a_drive_that_stands_still_is_refused() -> None:
-    with pytest.raises(ValueError, match="stands still"):
+def test_drive_without_a_second_block_is_refused() -> None:
+    with pytest.raises(ValueError, match="too short for a second block"):
         stretches_of_one(drive([pose()] * 5))
 
 
-def test_queries_are_turned_and_the_truth_turns_along(tmp_path: Path) -> None:
+def test_queries_are_rotated_with_their_true_poses(tmp_path: Path) -> None:
     driven = along(60)
     _, asking = stretches_of_one(driven)
     write_queries(tmp_path, asking, seed=3)
@@ -85,7 +85,7 @@ def test_queries_are_turned_and_the_truth_turns_along(tmp_path: Path) -> None:
     assert not np.allclose(truth, query_poses(asking, seed=4))
 
 
-def test_truth_between_two_drives_is_in_the_maps_frame() -> None:
+def test_true_poses_of_two_drives_are_in_the_frame_of_the_map() -> None:
     mapped, asked = along(4), along(3, spacing=2.0)
     to_map = pose(100, 50, 2, yaw=np.pi / 2)
     first, second = stretches_of_two(mapped, asked, to_map)
@@ -94,7 +94,7 @@ def test_truth_between_two_drives_is_in_the_maps_frame() -> None:
     assert truth[:, :3, 3] == pytest.approx((to_map @ asked.poses)[:, :3, 3])
 
 
-def test_queries_near_the_map_by_hand() -> None:
+def test_queries_within_ten_meters_are_near_the_map() -> None:
     frames = np.stack([pose(0.0), pose(0.0, 30.0)])
     asked = np.stack([pose(10.0), pose(10.1), pose(8.0, 36.0), pose(0.0, 15.0)])
     assert near_map(frames, asked).tolist() == [True, False, True, False]
@@ -106,14 +106,14 @@ def test_fewer_queries_are_spread_evenly() -> None:
     assert len(query_poses(asking, most=100)) == 9
 
 
-def test_what_lies_there_from_before_is_no_query(tmp_path: Path) -> None:
+def test_files_of_an_earlier_run_are_no_queries(tmp_path: Path) -> None:
     _, asking = stretches_of_two(along(2), along(9), np.eye(4))
     write_queries(tmp_path, asking)
     write_queries(tmp_path, asking, most=2)
     assert len(query_files(tmp_path)) == 2
 
 
-def test_a_wider_radius_keeps_what_the_protocol_cuts() -> None:
+def test_larger_radius_keeps_points_beyond_the_protocols_radius() -> None:
     def farthest(radius: float | None) -> tuple[float, str]:
         far = MemoryDrive([[(30.0, 0, 0), (55.0, 0, 0), (90.0, 0, 0)]] * 2, [pose(), pose(1.0)])
         (stretch,), _ = stretches_of_two(far, far, np.eye(4), radius)
@@ -125,6 +125,6 @@ def test_a_wider_radius_keeps_what_the_protocol_cuts() -> None:
 
 
 def reach_of(stretch: Stretch) -> float:
-    """How far ahead of the first scan its local map holds a point."""
+    """Return the largest distance of a point ahead of the first scan in its local map."""
     accumulator = Accumulator(stretch.drive, stretch.parameters, stretch.scans.start)
     return float(accumulator.local_map(0)[:, 0].max())

@@ -28,22 +28,22 @@ def polar(distance: float, degrees: float, height: float) -> tuple[float, float,
 
 
 def scene(seed: int, count: int = 400) -> Cloud:
-    """Poles of different heights all around."""
+    """Return points of poles of different heights around the sensor."""
     random = np.random.default_rng(seed)
     distance, degrees = random.uniform(3, 70, count), random.uniform(0, 360, count)
     heights = random.uniform(-1.5, 8, count)
     return cloud(*map(polar, distance, degrees, heights))
 
 
-def test_context_by_hand() -> None:
+def test_context_holds_the_largest_height_of_each_cell() -> None:
     context = scan_context(
         cloud(
             polar(5, 10, 1.0),  # ring 0, sector 0
-            polar(6, 80, 3.0),  # the same cell: the greatest height counts
+            polar(6, 80, 3.0),  # the same cell: the largest height counts
             polar(7, 45, -1.0),
             polar(15, 100, 0.5),  # ring 1, sector 1
             polar(9.99, 350, -1.9),  # ring 0, sector 3
-            polar(20.01, 200, 9.0),  # beyond
+            polar(20.01, 200, 9.0),  # beyond the radius
         ),
         SMALL,
     )
@@ -51,25 +51,25 @@ def test_context_by_hand() -> None:
     assert context == pytest.approx(np.array(expected), abs=1e-6)
 
 
-def test_angle_just_below_a_full_turn_is_the_last_sectors() -> None:
+def test_angle_just_below_a_full_turn_is_in_the_last_sector() -> None:
     assert scan_context(cloud((5.0, -0.01, 1.0)), SMALL)[0].tolist() == [0, 0, 0, 3]
-    # Rounded, it is a whole turn: the first sector again, not one past the last.
+    # Rounded to a full turn, it is in the first sector, not one beyond the last.
     assert scan_context(cloud((5.0, -1e-12, 1.0)), SMALL)[0].sum() == 3
 
 
-def test_constants_are_the_papers() -> None:
+def test_default_parameters_are_those_of_the_paper() -> None:
     parameters = ScanContextParameters()
     assert (parameters.rings, parameters.sectors, parameters.radius) == (20, 60, 80.0)
     assert scan_context(cloud()).shape == (20, 60)
     assert not scan_context(cloud()).any()
 
 
-def test_ring_key_counts_sectors_by_hand() -> None:
+def test_ring_key_is_the_share_of_occupied_sectors() -> None:
     context = np.array([[5.0, 0, 0, 0.1], [0, 2.5, 0, 0]])
     assert ring_key(context).tolist() == [0.5, 0.25]
 
 
-def test_distances_by_hand() -> None:
+def test_distances_equal_those_computed_by_hand() -> None:
     # Columns of the query: (1, 0), (0, 1), none; of the candidate: (0, 2), none, (1, 1).
     query = np.array([[1.0, 0, 0], [0, 1, 0]])
     candidate = np.array([[0.0, 0, 1], [2, 0, 1]])
@@ -82,27 +82,27 @@ def test_distances_by_hand() -> None:
     assert distances(query, candidate) == pytest.approx(np.array(expected))
 
 
-def test_nothing_in_common_is_as_far_as_can_be() -> None:
+def test_contexts_without_common_sectors_have_the_largest_distance() -> None:
     empty, full = np.zeros((2, 3)), np.ones((2, 3))
     assert distances(empty, full).tolist() == [1, 1, 1]
 
 
 @given(st.integers(0, 59), st.integers(0, 1000))
-def test_turning_the_query_turns_the_angles(turn: int, seed: int) -> None:
+def test_rotation_of_the_query_shifts_the_distances(turn: int, seed: int) -> None:
     random = np.random.default_rng(seed)
     query, candidate = (random.uniform(0, 5, (20, 60)) for _ in range(2))
     turned = distances(np.roll(query, -turn, axis=1), candidate)
     assert turned == pytest.approx(np.roll(distances(query, candidate), turn))
 
 
-def test_a_context_is_at_no_distance_from_itself() -> None:
+def test_context_has_distance_zero_from_itself() -> None:
     context = scan_context(scene(0))
     apart = distances(context, context)
     assert apart[0] == pytest.approx(0)
     assert apart[1:].min() > 0.1
 
 
-def test_the_frame_that_was_seen_is_found_first() -> None:
+def test_local_map_of_the_query_is_found_first() -> None:
     contexts = ScanContexts([scene(seed) for seed in range(30)])
     for frame in (0, 17, 29):
         best = contexts.find(scene(frame))[0]
@@ -110,7 +110,7 @@ def test_the_frame_that_was_seen_is_found_first() -> None:
         assert best.distance == pytest.approx(0)
 
 
-def test_candidates_are_as_many_as_asked_or_as_there_are() -> None:
+def test_number_of_candidates_is_limited_by_the_map() -> None:
     few = ScanContexts([scene(0), scene(1)])
     assert sorted(found.frame for found in few.find(scene(5))) == [0, 1]
     many = ScanContexts([scene(seed) for seed in range(15)])
@@ -120,7 +120,7 @@ def test_candidates_are_as_many_as_asked_or_as_there_are() -> None:
 
 
 @pytest.mark.parametrize("turn", [0.0, 1.0, -2.5, 3.1])
-def test_pose_is_the_frames_turned_by_the_angle_found(turn: float) -> None:
+def test_pose_is_that_of_the_local_map_rotated_by_the_best_angle(turn: float) -> None:
     frames = [
         MapFrame(pose(10.0 * seed, -3.0, 1.0, yaw=0.4 * seed), scene(seed)) for seed in (1, 2)
     ]
@@ -135,7 +135,7 @@ def test_pose_is_the_frames_turned_by_the_angle_found(turn: float) -> None:
     assert np.degrees(off) <= 3.01  # half a sector
 
 
-def test_sure_only_of_what_looks_the_same() -> None:
+def test_only_a_similar_context_is_sure() -> None:
     peer = ScanContextPeer(ScanContextParameters())
     peer.learn([MapFrame(np.eye(4), scene(0))])
     same, other = peer.locate(scene(0)), peer.locate(scene(1))
@@ -144,7 +144,7 @@ def test_sure_only_of_what_looks_the_same() -> None:
     assert other.score < -0.13 < same.score <= 0
 
 
-def test_an_empty_local_map_is_nowhere() -> None:
+def test_empty_local_map_has_no_pose() -> None:
     peer = ScanContextPeer(ScanContextParameters())
     peer.learn([MapFrame(np.eye(4), scene(0))])
     assert peer.locate(cloud()) is NOTHING

@@ -17,12 +17,12 @@ def answer(
 
 
 def scored(answers: list[PeerAnswer], mapped: list[bool] | None = None) -> dict[str, Any]:
-    """Against a truth that is the identity."""
+    """Return the outcome of an answer if the true pose is the identity."""
     within = np.array(mapped or [True] * len(answers))
     return score_peer(PEER, answers, np.stack([np.eye(4)] * len(answers)), within)
 
 
-def test_errors_by_hand() -> None:
+def test_errors_equal_those_computed_by_hand() -> None:
     true = pose(1.0, 2.0, 3.0, yaw=np.pi)
     there = outcome_of(PeerAnswer(Estimate(true, 1, sure=True), 7.0), true, mapped=True)
     assert (there.meters, there.degrees) == pytest.approx((0, 0), abs=1e-9)
@@ -37,7 +37,7 @@ def test_errors_by_hand() -> None:
     assert not nothing.wrong_but_sure
 
 
-def test_a_tilt_counts_too() -> None:
+def test_tilt_counts_as_error() -> None:
     tilted = np.eye(4)
     tilted[1:3, 1:3] = [[np.cos(0.2), -np.sin(0.2)], [np.sin(0.2), np.cos(0.2)]]
     found = outcome_of(PeerAnswer(Estimate(tilted, 1, sure=True), 1.0), np.eye(4), mapped=True)
@@ -45,11 +45,11 @@ def test_a_tilt_counts_too() -> None:
     assert found.wrong_but_sure
 
 
-def test_shares_by_hand() -> None:
+def test_shares_equal_those_computed_by_hand() -> None:
     answers = [
         answer(0.9, value=9),
         answer(0.9, 2.9, value=5),
-        answer(0.9, 2.9, value=8, sure=False),  # right, but its rule does not accept it
+        answer(0.9, 2.9, value=8, sure=False),  # right, but not accepted by the peer's rule
         answer(1.1, value=7),  # neither right nor wrong
         answer(0.0, 5.0, value=7),
         answer(3.1, value=6),
@@ -74,19 +74,19 @@ def test_shares_by_hand() -> None:
     assert (figures["name"], figures["settings"]) == ("somebody", {"voxel": 0.3})
 
 
-def test_limits_are_inclusive() -> None:
+def test_error_at_the_tolerance_is_right() -> None:
     at_limit = scored([answer(1.0), answer(3.0, 10.0)])
     assert (at_limit["localised_right"], at_limit["wrong_but_sure"]) == (0.5, 0)
 
 
 def test_bounds_are_those_of_the_binomial_distribution() -> None:
     figures = scored([answer() for _ in range(100)])
-    # None of a hundred: 1 - 0.025 ** (1 / 100).
+    # The upper bound of 0 of 100 is 1 - 0.025 ** (1 / 100).
     assert figures["bounds_95"]["wrong_but_sure"] == [0, 0.03622]
     assert figures["bounds_95"]["localised_right"] == [1 - 0.03622, 1]
 
 
-def test_a_peer_that_says_nothing() -> None:
+def test_peer_without_any_pose_has_no_errors() -> None:
     figures = scored([PeerAnswer(NOTHING, 5.0)])
     assert figures["not_localised"] == 1
     assert figures["median_position_error_m"] is None
@@ -94,7 +94,7 @@ def test_a_peer_that_says_nothing() -> None:
     assert figures["by_score"] == []
 
 
-def test_queries_beyond_the_map_stand_apart() -> None:
+def test_queries_beyond_the_map_are_counted_apart() -> None:
     answers = [answer(value=5), answer(50.0, value=9), PeerAnswer(NOTHING, 1.0)]
     figures = scored(answers, [True, False, False])
     assert (figures["queries"], figures["localised_right"]) == (1, 1)
@@ -108,7 +108,7 @@ def test_queries_beyond_the_map_stand_apart() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 19, 20, 21, 300])
-def test_scores_are_spread_over_all_that_were_given(count: int) -> None:
+def test_score_thresholds_are_spread_over_all_scores(count: int) -> None:
     rows = scored([answer(value=value) for value in range(count)])["by_score"]
     assert len(rows) == min(count, 20)
     assert (rows[0]["score"], rows[-1]["score"]) == (0, count - 1)
