@@ -1,4 +1,4 @@
-"""All attack cases, ordered by fault row."""
+"""All attack cases, in the order of the fault rows."""
 
 from benchmarks.attack import connections, storage, tenants, work
 from benchmarks.attack.stage import AttackCase

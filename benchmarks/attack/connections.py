@@ -32,7 +32,7 @@ SMALL_WINDOW = 1 << 12
 """Receive window of a slow reader, bytes that its kernel holds."""
 
 UNREAD_MB = 150.0
-"""Largest growth of the service's memory for answers that nobody reads, MB."""
+"""Largest growth of the service's memory for answers that no client reads, MB."""
 
 
 def slow_download(stage: Stage) -> None:
@@ -42,7 +42,7 @@ def slow_download(stage: Stage) -> None:
         template = template_of(target)
         file = _put_map(stage, target, template, "large", count)
         stage.note("bytes", len(file))
-        # The kernel's own buffers hide a slow link at first, so each reader is slow for long.
+        # The kernel's buffers hide a slow link at first, so each reader is slow for a long time.
         slow = stage.size(45, 20)
         links: list[tuple[str, float, str]] = [
             ("map at 500 kB/s", 5e5, "/maps/large"),
@@ -108,7 +108,7 @@ def trickled_bodies(stage: Stage) -> None:
             AttackRequest("POST", "/maps/slow/merge", key=WRITER, headers={"Content-Type": JSON})
         ]
         * 20,
-        "body nobody asked for": [AttackRequest("GET", "/maps", key=READER, headers=packed)] * 40,
+        "unexpected body": [AttackRequest("GET", "/maps", key=READER, headers=packed)] * 40,
     }
     with stage.service(own=False) as target:
         small = encode(
@@ -117,7 +117,7 @@ def trickled_bodies(stage: Stage) -> None:
         align = AttackRequest("POST", f"/maps/{VICTIM_MAP}/align/{VICTIM_MAP}", key=VICTIM)
         with stage.victim(target):
             pass
-        stage.ask(target, align)  # the first one compiles
+        stage.ask(target, align)  # a warm-up: the first alignment compiles
         for name, requests in doors.items():
             with stage.victim(target), _trickling(target, requests):
                 time.sleep(seconds)
@@ -160,7 +160,7 @@ def unread_answers(stage: Stage) -> None:
             stage.note(f"{name}, growth MB", round(growth))
             stage.expect(
                 growth <= UNREAD_MB,
-                f"{name}: {readers} answers that nobody reads took {growth:.0f} MB; "
+                f"{name}: {readers} answers that no client reads took {growth:.0f} MB; "
                 f"{UNREAD_MB:.0f} are allowed.",
             )
 
@@ -188,14 +188,14 @@ def idle_connections(stage: Stage) -> None:
                 stage.count([answer])
                 stage.expect(
                     answer.status == 200 and answer.seconds <= stage.victim_seconds,
-                    f"{name}: a new connection of another address was answered {answer.status} "
+                    f"{name}: a new connection from another address was answered {answer.status} "
                     f"after {answer.seconds:.1f} s.",
                 )
             time.sleep(1)
 
 
 def smuggled_requests(stage: Stage) -> None:
-    """A27: requests that state their length twice, with a second request in their body."""
+    """A27: requests that state their length twice and hide a second request in their body."""
     with stage.service(own=False) as target:
         template = template_of(target)
         _put_map(stage, target, template, "precious", 10)
@@ -252,7 +252,7 @@ def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[i
     """Read an answer slowly for `slow` seconds, then at full speed.
 
     Returns:
-        Its status, the length that it states (-1: none), and how many bytes of it came.
+        The status, the stated length (-1: none), and the number of body bytes that arrived.
     """
     request = AttackRequest("GET", path, key=READER, headers={"Connection": "close"})
     with connect(target, 60, SMALL_WINDOW) as link:
@@ -271,7 +271,7 @@ def _read_slowly(target: Target, path: str, rate: float, slow: float) -> tuple[i
     status = int(lines[0].split()[1]) if lines[0] else 0
     if "content-length" in fields:
         return status, int(fields["content-length"]), len(body)
-    # In pieces: it came whole if the last, empty piece came.
+    # A chunked answer is complete if its last, empty chunk has arrived.
     return status, -1, len(body) if body.endswith(b"0\r\n\r\n") else 0
 
 
@@ -287,7 +287,7 @@ def _trickling(target: Target, requests: Sequence[AttackRequest]) -> Iterator[No
                     break
                 try:
                     links[number].sendall(b"\x80")
-                except OSError:  # refused: it comes again, as an attacker does
+                except OSError:  # refused: reconnect, as an attacker does
                     links[number].close()
                     with suppress(OSError):
                         links[number] = begin(request)
@@ -312,7 +312,7 @@ def _trickling(target: Target, requests: Sequence[AttackRequest]) -> Iterator[No
 
 
 def _expect_at_once(stage: Stage, target: Target, request: AttackRequest, what: str) -> None:
-    """Expect that the service admits another key's request at once."""
+    """Expect that the service answers another key's request at once."""
     begun = time.perf_counter()
     while (answer := stage.ask(target, request)).status in {0, 429, 503, 504}:
         if time.perf_counter() > begun + 5 * stage.victim_seconds:

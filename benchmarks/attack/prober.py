@@ -1,10 +1,10 @@
-"""The victim: a robot process that sends small requests all the time.
+"""Process of the victim: a robot that sends small requests all the time.
 
     python -m benchmarks.attack.prober PLAN
 
-Only the standard library is imported, so that it starts at once and measures nothing of its own.
-It writes `ready`, waits for the line `attack`, goes on until its input ends, and then writes what
-it measured as JSON.
+The process imports only the standard library, so it starts at once and adds no delay of its own.
+It writes `ready`, waits for the line `attack`, continues until its input ends, and then writes its
+measurements as JSON.
 """
 
 import http.client
@@ -26,15 +26,15 @@ PAUSE = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Probe:
-    """A small request that is sent again and again.
+    """A small request that is sent repeatedly.
 
     Attributes:
-        name: of the request, for the report.
-        method, path: of HTTP.
-        bodies: sent in turn; a body that was acknowledged is not sent again where `once` is set.
-        headers: of every request, the key among them.
-        interval: seconds between two requests.
-        once: whether each body is sent until it is acknowledged, and then never again.
+        name: name of the request in the report.
+        method, path: HTTP method and path.
+        bodies: bodies, sent in turn.
+        headers: headers of every request, with the key.
+        interval: time between two requests, seconds.
+        once: whether each body is sent until it is acknowledged, and never again after that.
     """
 
     name: str
@@ -61,10 +61,10 @@ class Waits:
 
     Attributes:
         idle_max: longest wait before the attack, seconds.
-        max: longest wait from its begin on, seconds; a request that was never answered counts.
-        statuses: of every answer; 0 where the connection failed.
-        done: how many bodies were acknowledged.
-        unanswered: whether the last request never got its answer.
+        max: longest wait since the begin of the attack, seconds; unanswered requests count too.
+        statuses: number of answers with each status; 0: the connection failed.
+        done: number of acknowledged bodies.
+        unanswered: whether the last request was never answered.
     """
 
     idle_max: float = 0.0
@@ -75,7 +75,7 @@ class Waits:
 
 
 class _Prober:
-    """Sender of one kind of request, until it is told to stop."""
+    """Sender of one kind of request."""
 
     def __init__(self, plan: ProbePlan, probe: Probe) -> None:
         self.waits = Waits()
@@ -84,7 +84,7 @@ class _Prober:
         self._connection: http.client.HTTPConnection | None = None
 
     def run(self, attacked: threading.Event, ended: threading.Event) -> None:
-        """Send requests when they are due; a late one delays the next."""
+        """Send requests at their interval until the attack ends; a late request delays the next."""
         probe, waits = self._probe, self.waits
         while not ended.is_set() and not (probe.once and waits.done >= len(probe.bodies)):
             due = time.perf_counter()
@@ -108,7 +108,7 @@ class _Prober:
                 return True
             if ended.is_set():
                 end = end or time.perf_counter()
-                # A refused connection means that the service is gone: nobody will answer.
+                # A refused connection means that the service is down and will not answer.
                 if status == 0 or time.perf_counter() > end + PATIENCE:
                     return False
             time.sleep(PAUSE)
@@ -133,7 +133,7 @@ class _Prober:
 
 
 def main() -> None:
-    """Run the plan file that the caller wrote, for this process alone."""
+    """Run the plan file that the caller wrote for this process."""
     plan: ProbePlan = pickle.loads(Path(sys.argv[1]).read_bytes())
     attacked, ended = threading.Event(), threading.Event()
     probers = [_Prober(plan, probe) for probe in plan.probes]

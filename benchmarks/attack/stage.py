@@ -44,13 +44,13 @@ class Findings:
     """Findings of one case.
 
     Attributes:
-        why: one sentence for everything that is not as it should be.
-        victim_max_s: longest wait of a victim's request during an attack.
-        victim_idle_max_s: longest wait just before one.
-        statuses: of the attacker's and the victim's requests, how many of each.
-        lost: acknowledged writes that are gone.
-        peak_mb: the most memory that a service of this case had.
-        notes: further figures.
+        why: one sentence per fault.
+        victim_max_s: longest wait of a victim's request during an attack, seconds.
+        victim_idle_max_s: longest wait of a victim's request just before an attack, seconds.
+        statuses: number of answers with each status, to the attacker and the victim.
+        lost: number of acknowledged writes that were lost.
+        peak_mb: peak memory of the case's services, MB.
+        notes: further figures, by name.
     """
 
     why: list[str] = field(default_factory=list)
@@ -67,13 +67,14 @@ class Stage:
     """Services, victim and findings of one case.
 
     Attributes:
-        folder: for the data directories of its services.
-        limit_mb: of a service's memory.
+        folder: folder for the data directories of its services.
+        limit_mb: memory limit of a service, MB.
         short: whether sizes and times are those of the short form.
-        victim_seconds: that a victim's request may wait.
-        random: draws everything.
-        shared: a service that runs, for all cases that do not need their own; None: there is none.
-        found: what the case found so far.
+        victim_seconds: longest allowed wait of a victim's request, seconds.
+        random: random generator of the case.
+        shared: running service for cases that need none of their own; None: each case starts its
+            own.
+        found: findings so far.
     """
 
     folder: Path
@@ -112,12 +113,12 @@ class Stage:
         with_keys: bool = True,
         own: bool = True,
     ) -> Iterator[Target]:
-        """Run a service; at the end it must run and hold every acknowledged write.
+        """Run a service; at the end of the block it must run and hold every acknowledged write.
 
         Args:
-            environment: further variables.
-            with_keys: whether it asks for a key.
-            own: whether the case needs a service of its own, not the shared one.
+            environment: further environment variables.
+            with_keys: whether the service requires API keys.
+            own: whether the case needs a service of its own instead of the shared one.
         """
         if self.shared is not None and not own:
             yield from self._sharing(self.shared)
@@ -157,7 +158,7 @@ class Stage:
         self.found.statuses.update(str(answer.status) for answer in answers)
 
     def expect_no_failure(self, answers: Iterable[AttackResponse], what: str) -> None:
-        """Expect answers that are at worst refusals: no 500, no cut connection."""
+        """Expect successes or refusals only: no status 500 or 502, no cut connection."""
         bad = Counter(answer.status for answer in answers if answer.status in {0, 500, 502})
         self.expect(not bad, f"{what}: {sum(bad.values())} requests failed (statuses {dict(bad)}).")
 
@@ -172,10 +173,10 @@ class Stage:
         """Measure how long the victim waits while the block attacks.
 
         Args:
-            target: the service.
-            writes: whether it also edits its map.
-            reads: whether it also downloads its map.
-            seconds: that it may wait; None: as long as this run allows.
+            target: service under attack.
+            writes: whether the victim also edits its map.
+            reads: whether the victim also downloads its map.
+            seconds: longest allowed wait, seconds; None: that of the run.
         """
         probes = [self._describe_probe(target)]
         if writes:
@@ -222,13 +223,13 @@ class Stage:
         lost = {*written} - there
         self._lost |= {(target, name, id_) for id_ in lost}
         self.found.lost = len(self._lost)
-        self.expect(not lost, f"{len(lost)} acknowledged writes of {name} are gone {when}.")
+        self.expect(not lost, f"{len(lost)} acknowledged writes of {name} are lost {when}.")
 
     def _sharing(self, target: Target) -> Iterator[Target]:
         """Lend the shared service; restart it if the previous case ended it."""
         if not target.is_running():
             target.stop()
-            self.expect(not target.died, f"It ended after the case before: {target.died}.")
+            self.expect(not target.died, f"The service ended after the last case: {target.died}.")
             target.start()
         target.forget_peak()
         target.memory.peak_mb, target.memory.killed, target.died = 0.0, False, ""
@@ -298,13 +299,13 @@ Attack = Callable[[Stage], None]
 
 @dataclass(frozen=True, slots=True)
 class AttackCase:
-    """A case of the attack.
+    """One attack and the behavior that it must not break.
 
     Attributes:
-        id: the row of the list of faults, such as A1.
-        attack: what is done.
-        expected: what the service must do, in a sentence.
-        in_short: whether the short form has it.
+        id: row in the list of known faults, such as A1.
+        attack: function that attacks; its docstring states the attack in one sentence.
+        expected: required behavior of the service, in one sentence.
+        in_short: whether the short form runs the case.
     """
 
     id: str
@@ -316,7 +317,10 @@ class AttackCase:
 def clouds(
     count: int, points: int, random: np.random.Generator, spread: float = 20.0
 ) -> list[np.ndarray[Any, np.dtype[np.float32]]]:
-    """Random points of segments, float32 (points, 3) each, within `spread` meters of the sensor."""
+    """Return the random points of `count` segments, float32 (points, 3) each.
+
+    The segments lie within `spread` meters of the sensor along each axis.
+    """
     return [
         (random.uniform(-1, 1, (points, 3)) + random.uniform(-spread, spread, 3)).astype("<f4")
         for _ in range(count)
@@ -326,7 +330,7 @@ def clouds(
 def described(
     segments: Sequence[np.ndarray[Any, np.dtype[np.float32]]], sensor: Sequence[float] = (0, 0, 0)
 ) -> dict[str, Any]:
-    """Body of a request as msgpack content, not yet packed."""
+    """Return the body of a request with segments, before encoding in msgpack."""
     return {
         "segments": [
             {"points": each.astype("<f4").tobytes(), "sensor": [*map(float, sensor)]}
@@ -336,23 +340,23 @@ def described(
 
 
 def describe_body(segments: Sequence[np.ndarray[Any, np.dtype[np.float32]]]) -> bytes:
-    """Body of a `/describe` request in msgpack."""
+    """Return the body of a `/describe` request in msgpack."""
     packed: bytes = msgpack.packb(described(segments))
     return packed
 
 
 def template_of(target: Target) -> MapTemplate:
-    """Kind of map that the service's default model describes."""
+    """Return the template of maps for the service's default model."""
     return MapTemplate.from_info(target.client(OWNER).info())
 
 
 def delta_of(changed: CompactMap, removed: UInt32 = NONE) -> bytes:
-    """Delta file of an edit."""
+    """Return the delta file of an edit."""
     return encode_delta(Delta(changed, removed))
 
 
 def with_columns(content: CompactMap, **columns: Any) -> CompactMap:
-    """Copy of a map with some columns replaced."""
+    """Return a copy of a map with some columns replaced."""
     return replace(content, **columns)
 
 

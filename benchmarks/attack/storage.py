@@ -1,4 +1,4 @@
-"""Attacks on the store: filled, moved or altered files: A2, A8, A10, A16-A18, A22-A24, A28."""
+"""Attacks that fill, move or alter stored data: A2, A8, A10, A16-A18, A22-A24, A28."""
 
 import os
 import shutil
@@ -68,7 +68,7 @@ def empty_maps(stage: Stage) -> None:
         growth = target.peak_mb() - before
         stage.note("maps", made)
         stage.note("growth MB", round(growth))
-        # What a short run makes is few; the rest of what is allowed is for the service itself.
+        # A short run makes few maps; 15% of the allowed growth is for the service itself.
         most = EMPTY_MAPS_MB * max(made / 10_000, 0.15)
         stage.expect(
             growth <= most, f"{made} empty maps took {growth:.0f} MB; {most:.0f} are allowed."
@@ -114,7 +114,7 @@ def all_ids(stage: Stage) -> None:
             if target.client(OWNER).maps() and name not in {
                 each.name for each in target.client(OWNER).maps()
             }:
-                continue  # refused, and so there is no map
+                continue  # the service refused the write, so there is no map
             answer = stage.ask(
                 target, AttackRequest("POST", f"/maps/{name}/ids?count=1000", key=VICTIM)
             )
@@ -155,7 +155,7 @@ def moved_database(stage: Stage) -> None:
         ]
         for request in requests:
             answer = stage.ask(target, request)
-            # What is in memory may still be read.
+            # Maps in memory may still be read.
             good = {503} if request.method == "POST" else {200, 503}
             stage.expect(
                 answer.status in good,
@@ -237,7 +237,7 @@ def long_history(stage: Stage) -> None:
         stored = (target.data / DATABASE).stat().st_size
         stage.note("edits", len(statuses))
         stage.note("database bytes", stored)
-        # What compaction takes off the history in time is no fault.
+        # Compaction may drop old versions meanwhile.
         stage.expect(
             statuses[-1] in REFUSALS or stored < 8 * bytes_,
             f"{len(statuses)} edits of {count} segments store {stored} bytes, where {bytes_} are "
@@ -356,7 +356,7 @@ def delete_of_shared_map(stage: Stage) -> None:
             )
         answer = stage.ask(target, AttackRequest("GET", "/maps/shared?version=1", key=VICTIM))
         stage.found.lost += answer.status != 200
-        stage.expect(answer.status == 200, "The victim's version is gone.")
+        stage.expect(answer.status == 200, "The victim's version is lost.")
         target.client(ROBOT).edit_map(
             "own", Delta(_with_ids(stage, template, ROBOT, [1]), NONE), create=True
         )
@@ -400,12 +400,12 @@ def flipped_bits(stage: Stage) -> None:
             versions = stage.ask(
                 target, AttackRequest("GET", f"/maps/{VICTIM_MAP}/versions", key=OWNER)
             )
-            is_told = (
+            is_reported = (
                 versions.status != 200
                 or VICTIM_MAP in listed.json().get("damaged", [])
                 or any(each.get("damaged") for each in versions.json()["versions"])
             )
-            stage.expect(is_told, f"A changed {name} of a commit goes unnoticed.")
+            stage.expect(is_reported, f"A changed {name} of a commit is not reported.")
             target.stop()
         for tail in ("-wal", "-shm"):
             (target.data / (DATABASE + tail)).unlink(missing_ok=True)
@@ -429,7 +429,7 @@ def _expect_after_start(
     names = {each.name for each in target.client(OWNER, 300).maps()}
     gone = made - len(names - {VICTIM_MAP})
     stage.found.lost += max(0, gone)
-    stage.expect(gone <= 0, f"{gone} maps are gone after a kill.")
+    stage.expect(gone <= 0, f"{gone} maps are lost after a kill.")
 
 
 def _expect_limit_of_maps(stage: Stage) -> None:
@@ -476,7 +476,7 @@ def _fill_and_free(stage: Stage, name: str, request: AttackRequest) -> None:
         stage.expect(
             statuses[-1] == 507, f"On a full disk an edit was answered {statuses[-1]}; not 507."
         )
-        # Others fill what is left: the room that is kept must be the service's own.
+        # Another program fills the rest of the disk: the reserve must be the service's own file.
         ballast = _fill(target.data)
         for id_ in range(2, 40):
             delta = delta_of(_with_ids(stage, template, VICTIM, [id_]))
@@ -508,7 +508,7 @@ def _fill_and_free(stage: Stage, name: str, request: AttackRequest) -> None:
 
 
 def _soon(stage: Stage, target: Target, request: AttackRequest) -> AttackResponse:
-    """Repeat a request until it succeeds, for some seconds."""
+    """Repeat a request until it succeeds, for 5 seconds at most."""
     for _ in range(20):
         answer = stage.ask(target, request)
         if answer.status < 300:
@@ -518,7 +518,7 @@ def _soon(stage: Stage, target: Target, request: AttackRequest) -> AttackRespons
 
 
 def _fill(folder: Path) -> Path:
-    """Fill a disk with a file of another program."""
+    """Fill the disk of a folder with a file, as another program might."""
     file = folder / "ballast"
     with file.open("wb", buffering=0) as written:
         for size in (1 << 20, 1 << 12, 1):
@@ -533,7 +533,7 @@ def _fill(folder: Path) -> Path:
 
 @contextmanager
 def _small_disk(stage: Stage) -> Iterator[bool]:
-    """Put the next service's data directory on a small disk; yield whether that is possible."""
+    """Mount a small disk for the next service's data directory; yield whether it is mounted."""
     folder = stage.next_data()
     folder.mkdir(parents=True)
     options = ["-t", "tmpfs", "-o", f"size={DISK_BYTES}", "tmpfs", str(folder)]

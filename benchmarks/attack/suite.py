@@ -1,4 +1,4 @@
-"""Run the attack cases and report which of them the service withstands."""
+"""Attack suite: runs the attack cases and reports which ones the service withstands."""
 
 import resource
 import tempfile
@@ -27,10 +27,10 @@ class AttackPlan:
 
     Attributes:
         cases: ids of the cases; empty: all.
-        short: whether in the short form.
-        limit_mb: of a service's resident memory.
-        victim_seconds: that another key's small request may wait.
-        seed: of everything that is drawn.
+        short: whether to run the short form.
+        limit_mb: limit of a service's resident memory, MB.
+        victim_seconds: longest allowed wait of another key's small request, seconds.
+        seed: random seed of all choices.
     """
 
     cases: tuple[str, ...] = ()
@@ -44,12 +44,12 @@ def select_cases(plan: AttackPlan) -> list[AttackCase]:
     """Return the cases that a plan names.
 
     Raises:
-        ValueError: it names one that does not exist.
+        ValueError: the plan names an unknown case.
     """
     known = {case.id: case for case in CASES}
     unknown = [name for name in plan.cases if name not in known]
     if unknown:
-        raise ValueError(f"there is no case {unknown[0]!r}; the cases are {', '.join(known)}")
+        raise ValueError(f"Unknown case {unknown[0]!r}. Known cases: {', '.join(known)}.")
     if plan.cases:
         return [case for case in CASES if case.id in plan.cases]
     return [case for case in CASES if case.in_short or not plan.short]
@@ -58,17 +58,17 @@ def select_cases(plan: AttackPlan) -> list[AttackCase]:
 def run_attacks(
     plan: AttackPlan,
     progress: Callable[[Iterable[int], int, str], Iterable[int]] = lambda items, *_: items,
-    told: Callable[[str, dict[str, Any]], None] = lambda *_: None,
+    report_case: Callable[[str, dict[str, Any]], None] = lambda *_: None,
 ) -> dict[str, Any]:
     """Run the cases and return the report that `placecell bench attack` writes.
 
     Args:
-        plan: what is run.
+        plan: selection and limits.
         progress: wraps the loop.
-        told: is given each case's id and result as soon as it is there.
+        report_case: called with the id and the result of each case when the case ends.
 
     Raises:
-        ValueError: the plan names a case that does not exist.
+        ValueError: the plan names an unknown case.
     """
     cases = select_cases(plan)
     _allow_descriptors()
@@ -78,7 +78,7 @@ def run_attacks(
         for number in progress(range(len(cases)), len(cases), "cases"):
             case = cases[number]
             results[case.id] = run_case(case, plan, shared)
-            told(case.id, results[case.id])
+            report_case(case.id, results[case.id])
     held = sum(each["held"] for each in results.values())
     return {
         "cases": results,
@@ -111,9 +111,9 @@ def run_case(case: AttackCase, plan: AttackPlan, shared: Target | None = None) -
     """Run one case and return its part of the report.
 
     Args:
-        case: to run.
-        plan: of the run.
-        shared: a service for what needs none of its own.
+        case: case to run.
+        plan: selection and limits of the run.
+        shared: service for cases that need none of their own.
     """
     begun = time.perf_counter()
     random = np.random.default_rng([plan.seed, int(case.id[1:])])
@@ -121,12 +121,12 @@ def run_case(case: AttackCase, plan: AttackPlan, shared: Target | None = None) -
         stage = Stage(Path(folder), plan.limit_mb, plan.short, plan.victim_seconds, random, shared)
         try:
             case.attack(stage)
-        except Exception as error:  # a service that dies breaks whatever asks it next
+        except Exception as error:  # a service that dies breaks the case's next request
             last = traceback.extract_tb(error.__traceback__)[-1]
             where = f"{Path(last.filename).name}:{last.lineno}"
             stage.expect(
                 False,
-                f"The case could not go on: {type(error).__name__}: {error!s:.300} ({where}).",
+                f"The case failed with {type(error).__name__}: {error!s:.300} ({where}).",
             )
     found = stage.found
     return {

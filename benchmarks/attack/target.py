@@ -19,7 +19,7 @@ from service.core.auth import new_key
 CORES = 2
 """Processor cores that the service may use."""
 
-LOOK_SECONDS = 0.01
+WATCH_SECONDS = 0.01
 """Seconds between two reads of the service's memory."""
 
 ONCE = Retries(attempts=1)
@@ -35,8 +35,9 @@ OWNER, VICTIM, ROBOT, WRITER, READER, HALL = (
     "reader",
     "hall",
 )
-"""Names of the keys: the owner may do all; the victim and mallory write their own segments only;
-the writer writes those of all robots; the reader reads; the last one maps of `hall-*`."""
+"""Names of the keys. The owner may do everything. The victim and mallory write their own segments
+only. The writer writes segments of all robots. The reader reads. The last key opens maps `hall-*`.
+"""
 
 RIGHTS: dict[str, dict[str, Any]] = {
     OWNER: {"write": True, "admin": True},
@@ -53,9 +54,9 @@ class Memory:
     """Memory use of the watched processes.
 
     Attributes:
-        limit_mb: of resident memory; a service above it is killed.
-        peak_mb: the most that any of them had.
-        killed: whether one was killed for it.
+        limit_mb: limit of the resident memory, MB; a service above it is killed.
+        peak_mb: peak memory of all processes, MB.
+        killed: whether a process was killed for its memory.
     """
 
     limit_mb: float
@@ -76,10 +77,10 @@ class Target:
         """Prepare the service's files; `start` starts it.
 
         Args:
-            folder: a new one, for its data directory `data` and its file of keys.
-            limit_mb: of resident memory.
-            environment: further variables.
-            with_keys: whether it asks for a key.
+            folder: new folder for the data directory `data` and the key file.
+            limit_mb: limit of the resident memory, MB.
+            environment: further environment variables.
+            with_keys: whether the service requires API keys.
         """
         self.folder = folder
         self.data = folder / "data"
@@ -120,7 +121,7 @@ class Target:
         """Start the service and wait until it listens.
 
         Raises:
-            RuntimeError: it does not start.
+            RuntimeError: the service does not start.
         """
         options = [] if self.keys_file is None else ["--keys-file", str(self.keys_file)]
         cores = sorted(os.sched_getaffinity(0))
@@ -135,7 +136,7 @@ class Target:
         self._watcher = threading.Thread(target=self._watch, args=(self._service,), daemon=True)
         self._watcher.start()
         self.address = self._service.address()
-        # Once it listens it may still be at work on its start.
+        # A listening service may still be starting.
         with Client(self.address, key=self.keys.get(OWNER)) as client:
             client.info()
 
@@ -154,7 +155,7 @@ class Target:
             self._service = None
 
     def client(self, name: str = OWNER, seconds: float = 120.0) -> Client:
-        """Return a client with the key of that name; it is closed when the service stops."""
+        """Return a client with the key of a name; the stop of the service closes it."""
         if name not in self._clients:
             self._clients[name] = Client(
                 self.address, seconds, key=self.keys.get(name), retries=ONCE
@@ -162,12 +163,12 @@ class Target:
         return self._clients[name]
 
     def authorization(self, name: str | None) -> dict[str, str]:
-        """Return the header that shows a key; empty without a name or without keys."""
+        """Return the header with the key of a name; empty without a name or without keys."""
         key = self.keys.get(name) if name is not None else None
         return {"Authorization": f"Bearer {key}"} if key is not None else {}
 
     def is_running(self) -> bool:
-        """Whether the process lives."""
+        """Return whether the process runs."""
         return self._service is not None and self._service.process.poll() is None
 
     def resident_mb(self) -> float:
@@ -176,10 +177,10 @@ class Target:
         return int(pages) * PAGE_BYTES / 1e6
 
     def peak_mb(self) -> float:
-        """Return the peak memory since `forget_peak`, MB; 0 if the process is gone."""
+        """Return the peak memory since `forget_peak`, MB; 0 if the process has ended."""
         try:
             peak = self.service.peak_mb()
-        except (AssertionError, OSError, IndexError):  # a dead process has no memory
+        except (AssertionError, OSError, IndexError):  # an ended process has no memory
             return 0.0
         self.memory.peak_mb = max(self.memory.peak_mb, peak)
         return peak
@@ -203,13 +204,13 @@ class Target:
         if self.is_running():
             self.peak_mb()
         elif not self.died:
-            self.died = f"the service ended with status {self.service.process.returncode}"
+            self.died = f"it ended with status {self.service.process.returncode}"
         for client in self._clients.values():
             client.close()
         self._clients.clear()
 
     def _watch(self, service: Service) -> None:
-        """Kill the service when it takes too much memory."""
+        """Kill the service when its memory exceeds the limit."""
         file, limit = Path(f"/proc/{service.process.pid}/statm"), self.memory.limit_mb * 1e6
         while service.process.poll() is None:
             try:
@@ -225,4 +226,4 @@ class Target:
                 )
                 service.process.kill()
                 return
-            time.sleep(LOOK_SECONDS)
+            time.sleep(WATCH_SECONDS)

@@ -1,4 +1,4 @@
-"""Attacks on what one key learns or takes from another: A9, A12, A19, A20, A21, A25, A26."""
+"""Attacks on the isolation of keys, and on deployment: A9, A12, A19, A20, A21, A25, A26."""
 
 import os
 import re
@@ -117,16 +117,16 @@ def broken_key_file(stage: Stage) -> None:
             ready = stage.ask(target, AttackRequest("GET", "/readyz"))
             broken = _key_metrics(stage, target)
             stage.note(f"{name}: the withdrawn key", used.status)
-            if name == "no content":  # a good file, of no keys
+            if name == "no content":  # a valid file without keys
                 stage.expect(used.status == 401, f"{name}: a withdrawn key is {used.status}.")
                 continue
-            # It stays ready as long as a key works, but says what needs somebody.
+            # The service stays ready as long as a key works, but must report the bad file.
             stage.expect(
                 ready.status == 503 or "key" in ready.text.lower(),
-                f"{name}: /readyz is {ready.status} and tells nothing of the keys.",
+                f"{name}: /readyz is {ready.status} and does not report the key file.",
             )
             stage.expect(
-                broken != before and bool(broken), f"{name}: no metric tells of the file of keys."
+                broken != before and bool(broken), f"{name}: no metric reports the key file."
             )
         target.keys_file.write_text(withdrawn)
         time.sleep(0.05)
@@ -181,22 +181,22 @@ def foreign_names(stage: Stage) -> None:
             f"{missing.status}.",
         )
         for request, answer in zip(requests, answers, strict=True):
-            told = answer.text
-            is_asked = SECRET in request.path or SECRET.encode() in request.body
-            if not is_asked and request.path != "/maps/hall-a" and "changes" not in request.path:
-                stage.expect(SECRET not in told, f"{request.path} tells the name {SECRET!r}.")
-            elif not is_asked:
-                stage.note(f"{request.path} tells the name", SECRET in told)
+            text = answer.text
+            is_named = SECRET in request.path or SECRET.encode() in request.body
+            if not is_named and request.path != "/maps/hall-a" and "changes" not in request.path:
+                stage.expect(SECRET not in text, f"{request.path} reveals the name {SECRET!r}.")
+            elif not is_named:
+                stage.note(f"{request.path} reveals the name", SECRET in text)
             if request.path.endswith("versions"):
-                others = [name for name in RIGHTS if name != HALL and f'"{name}"' in told]
-                stage.expect(not others, f"{request.path} tells keys' names: {others}.")
+                others = [name for name in RIGHTS if name != HALL and f'"{name}"' in text]
+                stage.expect(not others, f"{request.path} reveals names of keys: {others}.")
         delta = delta_of(template.random_map("shared-robot", _ids(100, 30), stage.random))
         over = stage.ask(target, edit_request("hall-c", delta, HALL, "create=true"))
         stage.expect(over.status == 507, f"Beyond a quota an edit was answered {over.status}.")
-        told = re.sub(r'"request_id": *"[^"]*"', "", over.text)
+        text = re.sub(r'"request_id": *"[^"]*"', "", over.text)
         stage.expect(
-            not re.search(r"\b(37|67)\b", told),
-            "A quota's message tells how many segments a robot has in other maps.",
+            not re.search(r"\b(37|67)\b", text),
+            "A quota's message reveals how many segments a robot has in other maps.",
         )
 
 
@@ -216,10 +216,10 @@ def docs_pages(stage: Stage) -> None:
                     stage.expect(part.status == 200, f"{path} needs {link}: {part.status}.")
                     beyond = re.findall(r"@import\s+url\(\s*https?:[^)]*\)", part.text)
                     stage.expect(not beyond, f"{link} loads {beyond[:1]}.")
-        told = stage.ask(target, AttackRequest("GET", "/openapi.json"))
-        if told.status == 401:
-            told = stage.ask(target, AttackRequest("GET", "/openapi.json", key=READER))
-        schemes = told.json().get("components", {}).get("securitySchemes", {})
+        openapi = stage.ask(target, AttackRequest("GET", "/openapi.json"))
+        if openapi.status == 401:
+            openapi = stage.ask(target, AttackRequest("GET", "/openapi.json", key=READER))
+        schemes = openapi.json().get("components", {}).get("securitySchemes", {})
         stage.expect(
             any(
                 each.get("type") == "http" and each.get("scheme") == "bearer"
@@ -227,8 +227,8 @@ def docs_pages(stage: Stage) -> None:
             ),
             "The OpenAPI has no security scheme for keys.",
         )
-        paths = told.json()["paths"]
-        secured = bool(told.json().get("security")) or "security" in paths["/maps"]["get"]
+        paths = openapi.json()["paths"]
+        secured = bool(openapi.json().get("security")) or "security" in paths["/maps"]["get"]
         stage.expect(secured, "The OpenAPI does not say that /maps needs a key.")
 
 
@@ -247,8 +247,8 @@ def unknown_keys(stage: Stage) -> None:
             stage.expect(answer.status == 401, f"{name}: it was answered {answer.status}.")
             time.sleep(0.1)
             log = target.service.log()[before:]
-            stage.expect(ATTACKER in log, f"{name}: the log does not tell the client's address.")
-            stage.expect("placecell_wrong" not in log, f"{name}: the log tells the key.")
+            stage.expect(ATTACKER in log, f"{name}: the log lacks the client's address.")
+            stage.expect("placecell_wrong" not in log, f"{name}: the log reveals the key.")
         before = len(target.service.log())
         stage.ask_all(
             target, [AttackRequest("GET", "/maps") for _ in range(stage.size(20_000, 2_000))], 8
@@ -257,7 +257,7 @@ def unknown_keys(stage: Stage) -> None:
 
 
 def many_sessions(stage: Stage) -> None:
-    """A25: one key opens sessions until another key's session would be dropped."""
+    """A25: one key opens so many sessions that another key's session might be dropped."""
     with stage.service({"PLACECELL_LIMITS__SESSIONS": "40"}) as target:
         template = template_of(target)
         codes = stage.random.integers(-127, 128, (60, template.code_bytes)).astype(np.int8)
@@ -268,7 +268,7 @@ def many_sessions(stage: Stage) -> None:
             centroids=places,
             frame_positions=np.zeros((2, 3)),
         )
-        # Two places alike: a part of the scan is ambiguous, unless the robot's last request counts.
+        # The map has two similar places: part of the scan is ambiguous without the session.
         shifted = with_columns(made, centroids=places + [150, 0, 0], ids=_ids(101, 60))
         shifted = with_columns(shifted, frame_positions=np.full((2, 3), [150.0, 0, 0]))
         target.client(OWNER).edit_map("hall", Delta(made, NONE), create=True)
@@ -319,7 +319,7 @@ def many_sessions(stage: Stage) -> None:
         after = localize(slice(0, 40), "second-session", 0).json()
         stage.note("probability after the flood", score_of(after))
         stage.expect(
-            score_of(after) != score_of(alone), "Another key's sessions pushed the victim's out."
+            score_of(after) != score_of(alone), "Another key's sessions displaced the victim's."
         )
 
 
@@ -329,7 +329,7 @@ def pinned_builds(stage: Stage) -> None:
     images = re.findall(r"^FROM\s+(\S+)", dockerfile, flags=re.MULTILINE)
     stages = set(re.findall(r"^FROM\s+\S+\s+AS\s+(\S+)", dockerfile, flags=re.MULTILINE | re.I))
     by_tag = [each for each in images if "@sha256:" not in each and each not in stages]
-    # Where no registry can be asked, no digest is known: a release is pinned by the script.
+    # Digests are known only with access to a registry, so the script pins images at release.
     stage.note("pinned at release", by_tag)
     unpinned = _unpinned(by_tag)
     stage.expect(
@@ -340,19 +340,19 @@ def pinned_builds(stage: Stage) -> None:
     commands = dockerfile.replace("\\\n", " ")
     installs = re.findall(r"pip (?:install|wheel|download)\b[^&;|\n]*", commands)
     stage.note("installs", len(installs))
-    # What does not ask an index takes what was built and checked before.
+    # Installs without an index use packages that were built and checked before.
     bare = [each.strip() for each in installs if not re.search("--require-hashes|--no-index", each)]
     stage.expect(bool(installs) and not bare, f"Installed without hashes: {', '.join(bare)}.")
     stage.expect(
         "PIP_BUILD_CONSTRAINT" in dockerfile
         or "--build-constraint" in dockerfile
         or "--no-build-isolation" in dockerfile,
-        "No pins hold for what builds the packages.",
+        "The build dependencies of the packages are not pinned.",
     )
     names = re.findall(r"(?:--requirement|-r)[ =](\S+)", dockerfile)
     files = [ROOT / name for name in names]
     stage.note("files with hashes", [file.name for file in files])
-    if stage.expect(bool(files), "No file of pins has hashes."):
+    if stage.expect(bool(files), "No requirements file is installed."):
         for file in files:
             lines = file.read_text().replace("\\\n", " ").splitlines()
             bare = [
@@ -384,9 +384,9 @@ def _unpinned(images: list[str]) -> list[str]:
 
 def score_of(answer: dict[str, object]) -> float:
     """Return the probability of an answer's first localization; -1 if there is none."""
-    told = answer.get("localizations") or answer.get("localizations") or []
-    assert isinstance(told, list)
-    return round(float(told[0]["probability"]), 6) if told else -1.0
+    localizations = answer.get("localizations") or []
+    assert isinstance(localizations, list)
+    return round(float(localizations[0]["probability"]), 6) if localizations else -1.0
 
 
 def _put_precious(stage: Stage, target: Target, template: MapTemplate) -> None:

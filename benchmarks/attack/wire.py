@@ -1,4 +1,4 @@
-"""Requests as an attacker sends them: whole, slow, cut, concurrent, or not HTTP."""
+"""Requests of an attacker: complete, slow, cut, concurrent, or not HTTP."""
 
 import http.client
 import json
@@ -69,8 +69,8 @@ def ask(target: Target, request: AttackRequest, seconds: float = 120.0) -> Attac
         connection.request(request.method, request.path, request.body or None, headers)
         response = connection.getresponse()
         body = response.read()
-        told = {name.lower(): value for name, value in response.getheaders()}
-        return AttackResponse(response.status, time.perf_counter() - begun, body, told)
+        answered = {name.lower(): value for name, value in response.getheaders()}
+        return AttackResponse(response.status, time.perf_counter() - begun, body, answered)
     except (OSError, http.client.HTTPException):
         return AttackResponse(0, time.perf_counter() - begun)
     finally:
@@ -103,9 +103,9 @@ def connect(
     """Open a connection from the attacker's address.
 
     Args:
-        target: to connect to.
-        seconds: after which a call fails.
-        receive_bytes: that the kernel may hold of an answer; None: as many as it likes.
+        target: service to connect to.
+        seconds: timeout of each call, seconds.
+        receive_bytes: size of the kernel's receive buffer; None: the default.
     """
     host, port = target.place
     connection = socket.socket()
@@ -123,7 +123,7 @@ def connect(
 
 
 def abandon(target: Target, request: AttackRequest) -> None:
-    """Send a whole request and disconnect before its answer."""
+    """Send a complete request and disconnect before its answer."""
     with suppress(OSError), connect(target) as connection:
         connection.sendall(head_of(target, request) + request.body)
 

@@ -1,4 +1,4 @@
-"""Small requests that cost much work: A1, A4, A13, A14, A15."""
+"""Attacks by small requests that cause much work: A1, A4, A13, A14, A15."""
 
 import gzip
 import json
@@ -37,7 +37,7 @@ CELLS = 1 << 13
 
 
 def coincident(stage: Stage) -> None:
-    """A1: coincident segments with `deduplicate=true`."""
+    """A1: edits of many coincident segments with `deduplicate=true`."""
     count = stage.size(100_000, 8_000)
     with stage.service(own=False) as target:
         template = template_of(target)
@@ -231,7 +231,7 @@ def far_origin(stage: Stage) -> None:
 
 
 def _parked(stage: Stage, template: MapTemplate, objects: int, count: int, noise: float) -> bytes:
-    """Return the edit of a robot that stands before `objects` and sees them repeatedly."""
+    """Return the edit of a standing robot that sees the same objects repeatedly."""
     made = template.random_map(ROBOT, np.arange(1, count + 1, dtype=np.uint32), stage.random)
     frames = count // objects
     owners = np.arange(count) % objects
@@ -278,7 +278,7 @@ def _one_slot(points: int) -> Cloud:
     cells = np.stack([x[good], y[good], z[good]], axis=1)[: points - 1]
     corner = np.zeros((1, 3))
     found = np.concatenate([corner, (cells + 0.5) * VOXEL])
-    # About the sensor: no point may be too far from it.
+    # The segment is centered on the sensor, because no point may be too far from it.
     centered: Cloud = (found - found.max(axis=0) / 2).astype("<f4")
     return centered
 

@@ -55,7 +55,7 @@ def attack(
 
     with clear_errors():
         plan = AttackPlan(tuple(case or ()), short, memory_limit_mb, victim_seconds, seed)
-        report = run_attacks(plan, progress=show, told=tell)
+        report = run_attacks(plan, progress=show, report_case=tell)
         write_json(report, json_file)
     typer.echo(f"{report['held']} cases held, {report['failed']} failed, {report['seconds']:.0f} s")
     for line in failures(report):

@@ -7,7 +7,7 @@ from tests.service.service_builders import write_eigenvalue_model
 
 @pytest.fixture(scope="module")
 def tiny(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Services that are started have a model that needs no network."""
+    """Let started services use a small model without a network."""
     folder = tmp_path_factory.mktemp("models")
     write_eigenvalue_model(folder)
     with pytest.MonkeyPatch.context() as patched:

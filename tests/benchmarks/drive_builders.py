@@ -1,4 +1,4 @@
-"""Drives that leave a small built-up area, for what becomes of frames that show nothing."""
+"""Drives that leave a small built-up area, so that some captures have no segments."""
 
 from pathlib import Path
 
@@ -24,14 +24,14 @@ BOXES = [
         ),
     ]
 ]
-"""What stands in the built-up area, of which a robot sees all until it leaves."""
+"""Objects in the built-up area; a robot in the area sees all of them."""
 
 FAR = (70.0, 0.0, 0.0)
-"""A return that the preprocessing drops, for a scan must hold a point."""
+"""A point that the preprocessing drops; a scan must hold at least one point."""
 
 
 def trip(folder: Path, scans: int, left: range) -> Drive:
-    """A robot that sees the built-up area but for some scans, metre after metre."""
+    """Write a drive of 1 m per scan that sees the built-up area, except in the scans `left`."""
     area = np.concatenate(BOXES)
     seen = [
         np.array([FAR]) if scan in left else area - np.array([scan, 0, 0]) for scan in range(scans)

@@ -1,4 +1,4 @@
-"""The standing attack in its short form, and its ability to find faults."""
+"""Attack suite in its short form, and its ability to find faults."""
 
 import json
 from pathlib import Path
@@ -25,7 +25,7 @@ def run_attack(attack: Any, plan: AttackPlan = PLAN) -> dict[str, Any]:
     return run_case(AttackCase("A0", attack, "It holds."), plan)
 
 
-def test_every_row_has_a_case() -> None:
+def test_every_fault_row_has_a_case() -> None:
     assert [case.id for case in CASES] == [f"A{number}" for number in range(1, 29)]
     assert all(case.expected.endswith(".") for case in CASES)
 
@@ -33,7 +33,7 @@ def test_every_row_has_a_case() -> None:
 @pytest.mark.slow
 def test_short_form_holds(tmp_path: Path) -> None:
     file = tmp_path / "attack.json"
-    # Other work on the machine makes a victim wait longer; a fault makes it wait far longer still.
+    # Other load on the machine makes a victim wait longer; a fault makes it wait far longer.
     command = ["bench", "attack", "--short", "--victim-seconds", "5", "--json", str(file)]
     result = CliRunner().invoke(app, command)
     assert result.exit_code == 0, result.output
@@ -49,7 +49,7 @@ def test_unknown_case_is_refused() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_service_that_is_left_alone_holds() -> None:
+def test_service_without_attack_holds() -> None:
     def leave_alone(stage: Stage) -> None:
         with stage.service() as target, stage.victim(target, reads=True):
             pass
@@ -76,7 +76,7 @@ def test_service_that_dies_is_a_failure() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_service_above_the_limit_of_memory_is_killed() -> None:
+def test_service_above_the_memory_limit_is_killed() -> None:
     def nothing(stage: Stage) -> None:
         with stage.service():
             pass
@@ -87,7 +87,7 @@ def test_service_above_the_limit_of_memory_is_killed() -> None:
 
 
 @pytest.mark.usefixtures("tiny")
-def test_write_that_is_gone_is_counted() -> None:
+def test_lost_write_is_counted() -> None:
     def undo(stage: Stage) -> None:
         with stage.service() as target:
             with stage.victim(target):
@@ -96,10 +96,10 @@ def test_write_that_is_gone_is_counted() -> None:
 
     report = run_attack(undo)
     assert report["lost"] > 0
-    assert "are gone" in report["why"]
+    assert "are lost" in report["why"]
 
 
-def test_victim_that_waits_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_victim_that_waits_too_long_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
     stage = Stage(Path(), 1_000, True, 1.0, np.random.default_rng(0))
     waits = {"max": 1.5, "idle_max": 0.1, "statuses": {"200": 3}, "done": 3, "unanswered": False}
     stage._take(None, {"describe": waits}, 1.0)  # type: ignore[arg-type]
@@ -108,7 +108,7 @@ def test_victim_that_waits_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None
     assert "waited 1.50 s" in stage.found.why[0]
 
 
-def test_case_that_breaks_is_a_failure() -> None:
+def test_case_that_raises_is_a_failure() -> None:
     def fail(stage: Stage) -> None:
         raise ValueError("no such thing")
 

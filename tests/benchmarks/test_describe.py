@@ -39,7 +39,7 @@ def report(workbench: Path) -> dict[str, Any]:
     return measure_inference(SOME, workbench, TINY, seed=3)
 
 
-def test_report_holds_the_contract(report: dict[str, Any]) -> None:
+def test_report_has_the_documented_keys(report: dict[str, Any]) -> None:
     assert set(report) >= {
         *("rows", "points_in_descriptors_out_segments_per_second", "default_over_paper"),
         *("preprocessing_segments_per_second", "single_segment_ms", "machine", "seed", "sizes"),
@@ -80,7 +80,7 @@ def test_every_shipped_pair_classifier_is_measured(report: dict[str, Any]) -> No
         assert pair["bytes"] <= 3_000_000
 
 
-def test_ratio_is_that_of_the_rows(report: dict[str, Any]) -> None:
+def test_ratio_is_computed_from_the_rows(report: dict[str, Any]) -> None:
     rates = {
         row["model"]: row["segments_per_second"]
         for row in report["rows"]
@@ -103,17 +103,17 @@ def test_without_torch_there_is_no_ratio(tmp_path: Path, monkeypatch: pytest.Mon
     assert rate_ratio([row], "group", 1, 1) is None
 
 
-def test_papers_network_once_exported_needs_no_torch(
+def test_exported_network_of_the_paper_needs_no_torch(
     report: dict[str, Any], workbench: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "torch", None)
     dimension = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL).dimension
     (network,) = paper_network(workbench, PROTOCOL_V1, dimension, seed=3)
-    # 10.6 of SegMap's 10.8 million weights are its first dense layer's.
+    # The first dense layer of SegMap has 10.6 of its 10.8 million weights.
     assert network.file.stat().st_size > 4 * 10_600_000
 
 
-def test_quantized_network_beside_the_served_one(tmp_path: Path) -> None:
+def test_quantized_network_beside_the_served_one_is_not_served(tmp_path: Path) -> None:
     served = (MODELS_FOLDER / "group" / "model.onnx").read_bytes()
     (tmp_path / "model.onnx").write_bytes(served)
     (tmp_path / "model-int8.onnx").write_bytes(b"...QuantizeLinear...")
@@ -129,17 +129,17 @@ def test_quantized_network_beside_the_served_one(tmp_path: Path) -> None:
     assert found["model-int8.onnx"].top1 is None
 
 
-def test_picture(report: dict[str, Any], tmp_path: Path) -> None:
+def test_plot_is_a_png(report: dict[str, Any], tmp_path: Path) -> None:
     draw_accuracy_speed(report, tmp_path / "new" / "speed.png")
     assert (tmp_path / "new" / "speed.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_no_segments_is_said(tmp_path: Path) -> None:
+def test_scans_without_segments_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="no segment"):
         measure_inference([Segments.of([], np.zeros((0, 3)))], tmp_path, TINY)
 
 
-def test_scans_are_drawn_whole_and_again_where_they_are_few() -> None:
+def test_whole_scans_are_drawn_and_repeated_if_too_few() -> None:
     drawn = draw_scans(SOME, 9, seed=0)
     assert sum(map(len, drawn[:-1])) < 9 <= sum(map(len, drawn))
     assert {len(scan) for scan in drawn} == {1, 3}
@@ -164,13 +164,13 @@ def test_command_takes_segments_from_the_town(
     assert json.loads(file.read_text())["source"] == "synthetic town"
 
 
-def test_command_says_what_is_wrong_with_its_segments() -> None:
+def test_command_names_a_missing_file_of_segments() -> None:
     result = CliRunner().invoke(app, ["bench", "describe", "--segments", "nowhere"])
     assert result.exit_code == 1
     assert "nowhere" in result.output
 
 
-def test_help_tells() -> None:
+def test_help_names_the_options() -> None:
     result = CliRunner().invoke(app, ["bench", "describe", "--help"])
     assert result.exit_code == 0
     assert "--segments" in result.output

@@ -1,4 +1,4 @@
-"""What storing descriptors costs, and maps made for benches."""
+"""Benchmark of descriptor compression, and synthetic maps."""
 
 import json
 from dataclasses import replace
@@ -28,7 +28,7 @@ EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)
 
 
 def recorded(views: int = 200) -> Recording:
-    """Eight boxes, seen in turn in each of many scans; from the middle on, eight others."""
+    """Return a recording of eight boxes, seen in turn; in its second half, of eight others."""
     shapes = make_shapes(views, seed=3)
     frames = np.tile(np.arange(views), 8)
     return Recording(
@@ -45,7 +45,7 @@ def recorded(views: int = 200) -> Recording:
 
 
 def recorded_from_two_places() -> Recording:
-    """The same, from places 7 m apart in turn."""
+    """Return the same recording, seen from two viewpoints 7 m apart in turn."""
     boxes = recorded()
     sensors = boxes.segments.sensors + np.outer(boxes.captures % 2, [0, 7, 0]).astype(np.float32)
     return replace(boxes, segments=replace(boxes.segments, sensors=sensors))
@@ -55,7 +55,7 @@ def clouds(count: int, dimension: int = 8, seed: int = 0) -> Float32:
     return np.random.default_rng(seed).normal(size=(count, dimension)).astype(np.float32)
 
 
-def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
+def test_each_storage_format_has_its_stated_size() -> None:
     found = clouds(600)
     asked = np.arange(600) < 100
     steps = {
@@ -71,7 +71,9 @@ def test_each_step_of_the_ladder_is_as_wide_as_it_says() -> None:
     assert 0 < errors["float16"] < errors["255 levels"] < errors["15 levels"] < errors["4 levels"]
 
 
-def test_report_has_a_row_for_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_report_has_a_row_for_each_storage_format(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(ladders, "PRODUCT_BYTES", (7,))
     report = measure_compression(EIGENVALUE, recorded(300), (150, 299))
     assert report["segments"] == 8 * 150
@@ -88,7 +90,7 @@ def test_too_few_segments_are_refused() -> None:
         measure_compression(EIGENVALUE, recorded(20), (10, 19))
 
 
-def test_command_tells_and_writes(tmp_path: Path) -> None:
+def test_command_prints_and_writes_the_report(tmp_path: Path) -> None:
     recorded(300).save(tmp_path / "boxes.safetensors")
     words = ["bench", "ladder", tmp_path / "boxes.safetensors", "--scans", "150:299",
              "--model", BASELINE, "--json", tmp_path / "ladder.json"]  # fmt: skip
@@ -97,21 +99,21 @@ def test_command_tells_and_writes(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "ladder.json").read_text())["rows"][0]["storage"] == "float32"
 
 
-def test_views_of_a_thing_differ_as_those_of_one_group_do() -> None:
+def test_sampled_views_differ_like_those_of_one_group() -> None:
     views = DescriptorSampler.from_recording(EIGENVALUE, recorded_from_two_places(), seed=0)
     assert len(views.descriptors) == 16
     assert 700 < len(views.differences) < 900  # half of the pairs
     content = views.sample_map(1000, 50, seed=1)
     assert np.bincount(content.objects).tolist() == [VIEWS] * 250
     assert len(np.unique(content.query_objects)) == 50
-    # More things than there are groups, and none of their views alike.
+    # There are more objects than groups, and no two views are equal.
     assert len(np.unique(content.codes, axis=0)) > 900
     np.testing.assert_array_equal(content.codes, views.sample_map(1000, 50, seed=1).codes)
     with pytest.raises(ValueError, match="5 m apart"):
         DescriptorSampler.from_recording(EIGENVALUE, recorded(), seed=0)
 
 
-def test_made_map_is_small_and_valid() -> None:
+def test_road_map_is_small_and_valid() -> None:
     manifest = load_extractor(MODELS_FOLDER / DEFAULT_MODEL).manifest
     codes = np.zeros((10_000, manifest.code_bytes), np.int8)
     file = encode(road_map(codes, manifest, "ann"))

@@ -1,4 +1,4 @@
-"""The load generator, and short runs of what it is for; what they measure is not asserted."""
+"""Load generator, and short runs of the load benchmarks; times are not asserted."""
 
 import asyncio
 from collections.abc import Awaitable, Callable
@@ -18,7 +18,7 @@ pytestmark = [pytest.mark.integration, pytest.mark.slow]
 
 
 def scans(count: int) -> list[Segments]:
-    """Boxes of points about the sensor, ten a scan."""
+    """Return scans of ten boxes of points each, around the sensor."""
     random = np.random.default_rng(0)
     made = []
     for _ in range(count):
@@ -32,7 +32,7 @@ def scans(count: int) -> list[Segments]:
 
 
 async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> LoadResult:
-    """What the generator finds of a server that answers so."""
+    """Send a load to a server that gives this answer, and return the result."""
 
     async def serve_one(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         with suppress(asyncio.IncompleteReadError):
@@ -48,7 +48,7 @@ async def measured(answer: Callable[[], Awaitable[bytes]], **load: Any) -> LoadR
     return outcome
 
 
-def test_requests_leave_when_due_whether_or_not_answers_come() -> None:
+def test_requests_are_sent_when_due_although_answers_are_late() -> None:
     arrived: list[float] = []
 
     async def slow() -> bytes:
@@ -59,10 +59,10 @@ def test_requests_leave_when_due_whether_or_not_answers_come() -> None:
 
     outcome = asyncio.run(measured(slow, rate=50, seconds=0.2))
     assert outcome.statuses == [429] * 10
-    # All came before the first answer went.
+    # All requests arrived before the first answer was sent.
     assert max(arrived) - min(arrived) < 0.3
     assert min(outcome.milliseconds) >= 300
-    assert not outcome.stages  # of refusals nobody wants the steps
+    assert not outcome.stages  # refusals have no stages
 
 
 def test_without_a_rate_clients_wait_for_their_answers() -> None:
@@ -82,13 +82,13 @@ def test_without_a_rate_clients_wait_for_their_answers() -> None:
     assert outcome.stages["a"] == [1.5] * len(outcome.statuses)
 
 
-def test_connection_that_fails_is_told() -> None:
+def test_failed_connection_has_status_0() -> None:
     outcome = asyncio.run(send_load(Load("127.0.0.1", 1, (b"x",), 20, 0.1)))
     assert outcome.statuses == [0, 0]
 
 
 @pytest.mark.integration
-def test_short_run_against_the_real_service(
+def test_short_load_run_measures_the_real_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
@@ -110,7 +110,7 @@ def test_short_run_against_the_real_service(
 
 
 @pytest.mark.integration
-def test_short_soak(tmp_path: Path) -> None:
+def test_short_soak_has_no_unexpected_answer(tmp_path: Path) -> None:
     report = soak.run_soak(scans(4), soak.SoakPlan(seconds=3.0, bad_clients=1, every=0.5, full=1.0))
     assert report["unexpected"] == 0
     told = {status for each in report["bad_clients"].values() for status in each}
@@ -120,7 +120,7 @@ def test_short_soak(tmp_path: Path) -> None:
     assert (tmp_path / "soak.png").stat().st_size > 1000
 
 
-def test_perturbed_codes_stay_near_and_differ() -> None:
+def test_perturbed_codes_differ_in_a_tenth_of_their_bytes() -> None:
     codes = np.random.default_rng(0).integers(-128, 128, (20, 32)).astype(np.int8)
     many = workload.perturbed(codes, 100, seed=1)
     changed = (many != codes[np.arange(100) % 20]).mean()

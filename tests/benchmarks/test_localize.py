@@ -1,4 +1,4 @@
-"""The bench of `/localize`, on a small map."""
+"""Benchmark of `/localize` on a small map."""
 
 import json
 from pathlib import Path
@@ -20,7 +20,7 @@ pytestmark = [pytest.mark.integration, pytest.mark.slow]
 
 
 @pytest.mark.integration
-def test_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_writes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def small(sizes: tuple[int, ...], seconds: float) -> LocalizePlan:
         return LocalizePlan(sizes, requests=5, rate=5, seconds=seconds)
 
@@ -39,7 +39,7 @@ def test_command_measures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert 0 <= row["localised_right"] <= 1
 
 
-def test_what_is_asked_about_stands_in_the_map() -> None:
+def test_queries_hold_objects_of_the_map() -> None:
     extractor = load_extractor(MODELS_FOLDER / DEFAULT_MODEL)
     views = DescriptorSampler.from_recording(extractor, recorded_from_two_places(), 0)
     frame = random_frame(1)

@@ -1,4 +1,4 @@
-"""The bench of large maps, on small ones."""
+"""Benchmark of large maps, run on a small map."""
 
 import json
 from dataclasses import replace
@@ -21,7 +21,9 @@ ROW = {
 
 
 @pytest.mark.integration
-def test_command_measures_and_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_writes_a_report_and_a_plot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     tiny = MapsPlan(
         (2000,), asked=100, rate=5, upserts=100, upload=500, upload_seconds=0.5, starts=1
     )

@@ -1,4 +1,4 @@
-"""The tables of localisation say what the reports say."""
+"""Localization tables agree with the reports."""
 
 import json
 from pathlib import Path
@@ -38,7 +38,7 @@ def folder(tmp_path: Path) -> Path:
     return case
 
 
-def test_row_a_system_and_a_column_a_case(folder: Path) -> None:
+def test_comparison_has_a_row_per_system_and_a_column_per_case(folder: Path) -> None:
     table = list(comparison_table({"town": read_reports(folder), "drive": {"context": REPORT}}))
     assert table == [
         "|  | town | drive |",
@@ -49,7 +49,7 @@ def test_row_a_system_and_a_column_a_case(folder: Path) -> None:
     ]
 
 
-def test_in_full_with_bounds() -> None:
+def test_full_table_states_bounds() -> None:
     nothing = {"median_position_error_m": None, "median_yaw_error_deg": None}
     never = {"metres_until_localised": {"median": None, "p95": None, "never": 9}}
     _, _, told, untold = full_table({"town": REPORT, "lost": REPORT | nothing | never})
@@ -58,7 +58,7 @@ def test_in_full_with_bounds() -> None:
     assert untold.endswith("| - | - |")
 
 
-def test_shares_of_no_queries_are_left_open() -> None:
+def test_shares_without_queries_are_a_dash() -> None:
     keys = ("localised_right", "wrong_but_sure", "not_localised")
     beyond = REPORT | {
         "queries": 0,
@@ -72,13 +72,13 @@ def test_shares_of_no_queries_are_left_open() -> None:
     assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'} - | - |"
 
 
-def test_of_a_peer_it_is_not_known_how_far_it_drives_until_localized() -> None:
+def test_peer_has_no_distance_until_localized() -> None:
     peer = {key: value for key, value in REPORT.items() if key != "metres_until_localised"}
     *_, row = full_table({"town": peer})
     assert row.endswith("| 0.07 m, 0.15 deg | - |")
 
 
-def test_command_writes_either(folder: Path, tmp_path: Path) -> None:
+def test_command_writes_both_kinds_of_tables(folder: Path, tmp_path: Path) -> None:
     def run(*words: object) -> tuple[int, str]:
         done = CliRunner().invoke(app, ["bench", "pose-tables", *map(str, words)])
         return done.exit_code, done.output

@@ -5,7 +5,7 @@ import pytest
 from benchmarks.town import measure_town
 
 
-def test_figures_are_of_what_was_driven(tmp_path: Path) -> None:
+def test_figures_are_those_of_the_simulated_drive(tmp_path: Path) -> None:
     report = measure_town(tmp_path, meters=600.0, scans=6, spacing=0.5)
     assert report["scans"] == len(list((tmp_path / "velodyne").iterdir())) == 6
     assert report["street_metres"] >= 600.0

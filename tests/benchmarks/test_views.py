@@ -1,4 +1,4 @@
-"""What several views of a thing are worth, on boxes that are seen from all sides."""
+"""Benchmark of stored views, on boxes that are seen from all sides."""
 
 import json
 from dataclasses import replace
@@ -19,7 +19,7 @@ EIGENVALUE = load_extractor(MODELS_FOLDER / BASELINE)
 
 
 def driven_past(views: int) -> Recording:
-    """The boxes, seen from places three metres apart."""
+    """Recording of the boxes, from viewpoints 3 m apart."""
     recording = recorded(views)
     sensors = (
         recording.segments.sensors + np.array([3, 0, 0], np.float32) * recording.captures[:, None]
@@ -28,7 +28,7 @@ def driven_past(views: int) -> Recording:
     return replace(recording, segments=segments)
 
 
-def test_more_views_are_more_segments_and_no_less_recall() -> None:
+def test_more_views_have_more_segments_and_no_less_recall() -> None:
     report = measure_views(EIGENVALUE, driven_past(40), (0, 39), seed=0)
     every, *rest = report["rows"]
     assert every["segments"] == 320
@@ -43,12 +43,12 @@ def test_more_views_are_more_segments_and_no_less_recall() -> None:
     assert differing[-1]["cross_view_recall_at_25"] >= differing[0]["cross_view_recall_at_25"]
 
 
-def test_without_a_mate_far_off_there_is_nothing_to_ask() -> None:
+def test_recording_without_distant_mates_is_refused() -> None:
     with pytest.raises(ValueError, match="no segment has a mate"):
         measure_views(EIGENVALUE, recorded(2), (0, 0), seed=0)
 
 
-def test_command_tells_and_writes(tmp_path: Path) -> None:
+def test_command_prints_and_writes_the_report(tmp_path: Path) -> None:
     driven_past(40).save(tmp_path / "boxes.safetensors")
     words = ["bench", "views", tmp_path / "boxes.safetensors", "--scans", "0:39",
              "--model", BASELINE, "--json", tmp_path / "views.json"]  # fmt: skip
