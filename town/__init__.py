@@ -1,7 +1,7 @@
-"""A synthetic town with a simulated spinning LiDAR: drives for demos, tests and training.
+"""Synthetic town with a simulated spinning LiDAR: drives for demos, tests and training.
 
-Everything follows from seeds: the town from one, the parked cars from a second, the sensor's noise
-from a third. The same seeds give the same files, byte for byte.
+Seeds determine everything: one the town, a second the parked cars, a third the sensor noise. The
+same seeds give the same files, byte for byte.
 
     two_robots(Path("out/town"))
 
@@ -11,14 +11,15 @@ writes two drives along the same streets in opposite directions, in the KITTI od
     route = Route.wander(town.plan, town.terrain, length=400.0)
     write_drive(Path("out/drive"), town, route, traffic_seed=1, scans=350)
 
-writes one. A large town has tens of kilometers of streets, of which only what is near is built:
+writes one drive. A large town has tens of kilometers of streets. Only the part near the sensor is
+built:
 
     city = City.build(seed=7, meters=20_000.0)
     route = city.route(city.planner.every_street())
     several_robots(Path("out/city"), city, route, robots=2)
 
-Frames: the *town frame* (x, y level, z up); a drive's *world frame* (where
-`origin.txt` takes it to the town frame); the *sensor frame* (x ahead, y left, z up).
+Frames: the *town frame* (x and y level, z up); a drive's *world frame* (`origin.txt` has its
+transform to the town frame); the *sensor frame* (x ahead, y left, z up).
 """
 
 from town.city import City

@@ -1,4 +1,4 @@
-"""A large town: tens of kilometers of streets, of which only what is near the sensor is built."""
+"""Large town: tens of kilometers of streets. Only the part near the sensor is built."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -24,14 +24,14 @@ from town.tiles import Tiles
 
 @dataclass(frozen=True)
 class City:
-    """What does not change between two drives, in tiles: a block and two of its streets each.
+    """Static part of a large town, in tiles. A tile is a block with two of its streets.
 
-    Each tile follows from the seed and its place alone, whatever was built before it. Town frame:
-    meters, x and y level, z up.
+    The seed and the position determine a tile, whatever was built before. Town frame: meters, x and
+    y level, z up.
 
     Attributes:
-        seed: it follows from.
-        network: the streets.
+        seed: seed of the town.
+        network: street network.
         terraces: designs of the rows of identical houses.
     """
 
@@ -41,15 +41,16 @@ class City:
 
     @classmethod
     def build(cls, seed: int, meters: float, look_alikes: float = 0.25) -> Self:
-        """The large town of this seed.
+        """Build the large town of a seed.
 
         Args:
-            meters: of streets in all; there are up to a street's length more, and half a kilometer
-                at least.
-            look_alikes: the share of the streets that identical houses line.
+            seed: seed of the town.
+            meters: total length of the streets, meters. The town has up to one street more, and at
+                least 500 m.
+            look_alikes: share of the streets that are lined by identical houses, 0 to 1.
 
         Raises:
-            ValueError: no number of meters that a town can have, or no share.
+            ValueError: `meters` or `look_alikes` is out of range.
         """
         network = Network.draw(seed, meters, look_alikes)
         designs = [Terrace.draw(np.random.default_rng([seed, 5, n])) for n in range(DESIGNS)]
@@ -57,29 +58,33 @@ class City:
 
     @cached_property
     def planner(self) -> Planner:
-        """Plans ways through the streets."""
+        """Planner of paths through the streets."""
         return Planner.of(self.network)
 
     @cached_property
     def ground(self) -> Ground:
-        """Carriageways, curbs and blocks."""
+        """Ground: carriageways, curbs and blocks."""
         return Ground.of(self.network.plan, self.network.terrain, self.network.raised())
 
     def route(self, way: Sequence[Crossing], lane_offset: float = 1.6) -> Route:
-        """The route along a way.
+        """Return the route along a path of crossings.
+
+        Args:
+            way: crossings of the path.
+            lane_offset: distance of the lane to the right of the center line, meters.
 
         Raises:
-            ValueError: fewer than two crossings, some that no street joins, or a turn on the spot.
+            ValueError: The path has fewer than two crossings, a gap, or a U-turn.
         """
         self.planner.arcs_of(way)
         return Route.over(self.network.plan, self.network.terrain, way, lane_offset)
 
     def tile(self, column: int, row: int, traffic_seed: int) -> Mesh:
-        """All that a ray can hit on one day in a tile, in the town frame.
+        """Build the mesh of a tile with its parked cars, in the town frame.
 
         Args:
-            column, row: of its block.
-            traffic_seed: another seed, another day: other cars are parked.
+            column, row: column and row of the tile's block.
+            traffic_seed: seed of the parked cars and people.
         """
         fixed = np.random.default_rng([self.seed, 6, column, row])
         today = np.random.default_rng([self.seed, 7, column, row, traffic_seed])
@@ -88,20 +93,21 @@ class City:
         return Mesh.joined([ground, *(thing.mesh for thing in things)])
 
     def scenes(self, traffic_seed: int, reach: float) -> Tiles:
-        """What a sensor can see on one day, built as it comes near.
+        """Return the scenes of the town, built when the sensor comes near.
 
         Args:
-            reach: how far the sensor sees, meters.
+            traffic_seed: seed of the parked cars and people.
+            reach: range of the sensor, meters.
         """
         return Tiles(
             self.ground.boxes(), lambda column, row: self.tile(column, row, traffic_seed), reach
         )
 
     def designs_at(self, places: Float64) -> Int64:
-        """Which identical houses stand in the street at each place of the town frame: (n,).
+        """Return the design of the houses in the street at each place, (n,).
 
         Args:
-            places: (n, 2), meters.
+            places: (n, 2), meters, town frame.
         """
         lines = list(self.network.lines())
         street = np.repeat(np.arange(len(lines)), [len(line) for line in lines])

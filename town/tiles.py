@@ -1,4 +1,4 @@
-"""What is near the sensor: tiles of a large town, built when they come into reach."""
+"""Tiles of a large town near the sensor, built when they come into reach."""
 
 from collections.abc import Callable
 from functools import lru_cache, partial
@@ -10,51 +10,51 @@ from town.geometry.mesh import Mesh
 from town.geometry.scene import Scene
 
 CELL = 80.0
-"""A scene serves a square of this edge, meters."""
+"""Edge length of the square that one scene serves, meters."""
 
 SLACK = 15.0
-"""What stands in a tile may jut out of it, and a sensor moves while it sweeps: meters."""
+"""Margin of a scene, meters: objects may extend beyond their tile, and the sensor moves."""
 
 KEPT_TILES = 96
 KEPT_SCENES = 3
-"""As many as a drive back and forth across a border of two cells needs."""
+"""Number of scenes that are kept, for a drive back and forth across cell borders."""
 
 
 class Tiles:
-    """Scenes of the tiles around a sensor, the last few of them kept.
+    """Scenes of the tiles around a sensor; the last few are kept.
 
-    Memory is bounded by what is near, and not by the town.
+    The memory depends on the sensor's range, not on the size of the town.
     """
 
     def __init__(self, boxes: Float64, build: Callable[[int, int], Mesh], reach: float) -> None:
-        """Nothing is built yet.
+        """Create the scenes without building a tile.
 
         Args:
-            boxes: (columns, rows, 2, 2): lowest and highest x and y of each tile, town frame.
-            build: makes the tile of a column and row.
-            reach: how far the sensor sees, meters.
+            boxes: (columns, rows, 2, 2), lowest and highest x and y of each tile, town frame.
+            build: function that builds the tile of a column and row.
+            reach: range of the sensor, meters.
         """
         self._tile = lru_cache(KEPT_TILES)(build)
         self._scene = lru_cache(KEPT_SCENES)(partial(scene_of_cell, boxes, self._tile, reach))
 
     def around(self, place: Float64) -> Scene:
-        """A scene that holds all that a sensor at this place (2,) can reach, town frame."""
+        """Return a scene with everything in range of a sensor at a place (2,) of the town frame."""
         column, row = np.floor(place / CELL).astype(int).tolist()
         return self._scene(column, row)
 
     def built(self) -> int:
-        """How many tiles have been built so far, again and again counted."""
+        """Return the number of tiles that were built so far, with repetitions."""
         return self._tile.cache_info().misses
 
 
 def scene_of_cell(
     boxes: Float64, tile: Callable[[int, int], Mesh], reach: float, column: int, row: int
 ) -> Scene:
-    """The scene of one square, of the tiles that can be reached from anywhere in it.
+    """Build the scene of one square: all tiles within reach of any place in it.
 
     Args:
-        boxes, tile, reach: as `Tiles` has them.
-        column, row: of the square.
+        boxes, tile, reach: see `Tiles`.
+        column, row: column and row of the square.
     """
     low = CELL * np.array([column, row])
     gaps = np.maximum(low - boxes[:, :, 1], boxes[:, :, 0] - (low + CELL))

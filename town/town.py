@@ -1,4 +1,4 @@
-"""A town: streets on hilly ground, and everything that stands along them."""
+"""Town: streets on hilly ground and the objects along them."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -16,14 +16,14 @@ from town.streets.terrain import Terrain
 
 @dataclass(frozen=True, slots=True)
 class Town:
-    """What does not change between two drives.
+    """Static part of a town.
 
     Town frame: meters, x and y level, z up.
 
     Attributes:
-        seed: it follows from.
-        plan: the streets.
-        terrain: bends the plan and lifts the ground.
+        seed: seed of the town.
+        plan: street plan.
+        terrain: terrain that bends the plan and has the height of the ground.
         ground: carriageways, curbs and blocks, in the town frame.
         objects: houses, trees, fences and so on.
     """
@@ -36,13 +36,14 @@ class Town:
 
     @classmethod
     def build(cls, seed: int, streets: tuple[int, int] = (4, 4)) -> Self:
-        """The town of this seed.
+        """Build the town of a seed.
 
         Args:
-            streets: how many run north-south and how many east-west, two or more each.
+            seed: seed of the town.
+            streets: number of streets north-south and east-west, at least two each.
 
         Raises:
-            ValueError: fewer than two streets a direction.
+            ValueError: A direction has fewer than two streets.
         """
         rng = np.random.default_rng([seed, 0])
         plan = StreetPlan.draw(rng, streets)
@@ -53,14 +54,14 @@ class Town:
         return cls(seed, plan, terrain, Ground.of(plan, terrain).mesh(), tuple(objects))
 
     def traffic(self, seed: int) -> tuple[SceneObject, ...]:
-        """Parked cars and people of one drive; another seed, another day."""
+        """Return the parked cars and people of one drive."""
         return tuple(traffic(self.plan, self.terrain, seed))
 
     def mesh(self, traffic_seed: int) -> Mesh:
-        """All that a ray can hit on one day, in the town frame."""
+        """Return the mesh of the town with the parked cars of one drive, in the town frame."""
         things = self.objects + self.traffic(traffic_seed)
         return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
 
     def scenes(self, traffic_seed: int, reach: float) -> WholeTown:  # noqa: ARG002
-        """What a sensor can see on one day."""
+        """Return the scene of one drive."""
         return WholeTown(Scene(self.mesh(traffic_seed)))

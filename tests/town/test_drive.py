@@ -193,7 +193,7 @@ def test_overwrite_leaves_no_scan_of_the_longer_drive(
     assert (drive / "notes.txt").read_text() == "mine"
 
 
-@pytest.mark.parametrize(("scans", "message"), [(0, "one scan or more"), (500, "too short")])
+@pytest.mark.parametrize(("scans", "message"), [(0, "expected at least 1"), (500, "too short")])
 def test_impossible_drives_are_refused(
     town: Town, route: Route, tmp_path: Path, scans: int, message: str
 ) -> None:

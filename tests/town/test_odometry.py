@@ -73,5 +73,5 @@ def test_each_step_is_as_it_was_felt() -> None:
 
 @pytest.mark.parametrize(("yaw", "scale"), [(-0.1, 0.0), (0.0, -0.1), (np.nan, 0.0), (0.0, 0.5)])
 def test_what_is_no_deviation_is_refused(yaw: float, scale: float) -> None:
-    with pytest.raises(ValueError, match="drift must be"):
+    with pytest.raises(ValueError, match="Invalid drift"):
         Odometry(yaw, scale)

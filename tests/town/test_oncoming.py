@@ -53,7 +53,7 @@ def test_far_cars_are_left_out(route: Route) -> None:
 
 @pytest.mark.parametrize("per_km", [-1.0, 101.0, np.nan])
 def test_impossible_numbers_of_cars_are_refused(route: Route, per_km: float) -> None:
-    with pytest.raises(ValueError, match="0 to 100 oncoming cars"):
+    with pytest.raises(ValueError, match="expected 0 to 100"):
         Oncoming.draw(route, per_km, seed=1)
 
 

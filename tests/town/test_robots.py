@@ -139,6 +139,6 @@ def test_nothing_is_driven_before_all_can_be(tmp_path: Path) -> None:
         several_robots(tmp_path, city, route, 2, scans=2)
     with pytest.raises(ValueError, match="too short"):
         several_robots(tmp_path / "long", city, route, 2, scans=5000)
-    with pytest.raises(ValueError, match="1 to 26 robots"):
+    with pytest.raises(ValueError, match="expected 1 to 26"):
         several_robots(tmp_path / "many", city, route, 27)
     assert {path.name for path in tmp_path.rglob("*")} == {"robot_b", "notes.txt"}

@@ -1,4 +1,4 @@
-"""Drives through the town, written in the layout of the KITTI odometry benchmark."""
+"""Writer of drives through the town, in the layout of the KITTI odometry benchmark."""
 
 import shutil
 from collections.abc import Iterable
@@ -51,35 +51,40 @@ def write_drive(
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> Path:
-    """Drive a route and write what the sensor saw.
+    """Simulate a drive along a route and write it.
 
-    The folder then holds `velodyne/NNNNNN.bin` (float32 x, y, z, reflectance; sensor frame),
-    `poses.txt` and `calib.txt` (left camera, as KITTI's), `times.txt`, and one file that KITTI has
-    not: `origin.txt`, the 3x4 transform, row by row, from the drive's world frame to the town
-    frame. The drive's world frame (that of the poses, as `placecell.datasets` reads them) has its
-    origin at the first scan's sensor and its x axis along the first scan's heading, but is level:
-    a robot knows which way is up, so the first pose holds the street's slope at its start. With
-    `origin.txt`, drives of one town can be compared in one true frame. With an odometry there is a
-    second file in the form of `poses.txt`, `poses_odometry.txt`: the first pose is the same, the
-    others are where the robot believes to be (`KittiOdometry(folder, ODOMETRY_FILE)` reads them).
+    The folder then has `velodyne/NNNNNN.bin` (float32 x, y, z, reflectance; sensor frame),
+    `poses.txt` and `calib.txt` (left camera, as in KITTI) and `times.txt`. A file that KITTI does
+    not have is `origin.txt`: the 3x4 transform, in row-major order, from the drive's world frame to
+    the town frame. So drives of one town can be compared in one true frame.
+
+    The drive's world frame (that of the poses, as `placecell.datasets` reads them) has its origin
+    at the sensor of the first scan and its x axis along the first heading. It is level, because a
+    robot knows the direction of gravity; so the first pose has the slope of the street.
+
+    With an odometry, `poses_odometry.txt` has the estimated poses in the form of `poses.txt`. The
+    first pose is exact. `KittiOdometry(folder, ODOMETRY_FILE)` reads them.
 
     Args:
-        folder: made if it is missing.
-        traffic_seed: which cars are parked where.
-        scans: how many.
-        spacing: meters between scans along the lane.
-        noise_seed: of the sensor's noise, and of the odometry's.
-        odometry: how it errs, if the robot has one.
-        oncoming: cars that come the other way, a kilometer of the route.
-        overwrite: replace the drive that the folder holds.
-        progress: wraps the loop over the scans.
+        folder: folder of the drive, created if it is missing.
+        town: town or large town.
+        route: route of the robot.
+        traffic_seed: seed of the parked cars and people.
+        scans: number of scans.
+        spacing: distance between scans along the lane, meters.
+        noise_seed: seed of sensor noise and odometry errors.
+        odometry: errors of the odometry; None for no odometry.
+        oncoming: number of oncoming cars per kilometer of the route.
+        lidar: simulated sensor.
+        overwrite: replace the drive in the folder.
+        progress: function that shows the progress.
 
     Returns:
-        the folder.
+        The folder.
 
     Raises:
-        FileExistsError: the folder is not empty, and `overwrite` is not set.
-        ValueError: the route is too short, there is to be no scan, or no such number of cars.
+        FileExistsError: The folder is not empty, and `overwrite` is not set.
+        ValueError: The route is too short, or the number of scans or cars is out of range.
     """
     check(folder, route, scans, spacing, overwrite)
     cars = Oncoming.draw(route, oncoming, traffic_seed)
@@ -106,29 +111,29 @@ def write_drive(
 
 
 def seen_from(place: Float64, scenes: Scenes, cars: Oncoming, time: float) -> Surfaces:
-    """What rays from a place (2,) are cast at, at a time in seconds."""
+    """Return the surfaces in range of a place (2,) at a time, seconds."""
     standing = scenes.around(place)
     moving = cars.around(place, time)
     return Layers(standing, Scene(moving)) if len(moving) else standing
 
 
 def scan_distances(scans: int, spacing: float) -> Float64:
-    """Meters along the lane at which scans are taken: (scans,).
+    """Return the position of each scan along the lane, (scans,), meters.
 
-    A sweep reaches half a spacing to both sides of its scan's pose.
+    A sweep extends by half of the spacing to both sides of its scan's pose.
     """
     return np.asarray(spacing * (np.arange(scans, dtype=np.float64) + 0.5))
 
 
 def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: bool) -> None:
-    """See that a drive can be written.
+    """Check that a drive can be written.
 
     Raises:
-        FileExistsError: the folder is not empty, and `overwrite` is not set.
-        ValueError: the route is too short, or there is to be no scan.
+        FileExistsError: The folder is not empty, and `overwrite` is not set.
+        ValueError: The route is too short, or the number of scans is not positive.
     """
     if scans < 1:
-        raise ValueError(f"a drive needs one scan or more, not {scans}")
+        raise ValueError(f"Invalid number of scans: expected at least 1, not {scans}")
     if route.length() < scans * spacing:
         raise ValueError(
             f"the route is {route.length():.1f} m long: too short for {scans} scans "
@@ -141,8 +146,8 @@ def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: boo
 
 
 def clear(folder: Path) -> None:
-    """Make the folder ready for a new drive."""
-    # Only what a drive consists of is taken away: no scan of a longer drive may stay behind.
+    """Create the folder, or remove the files of the drive in it."""
+    # Remove only the files of a drive, including all scans of a longer drive.
     if (folder / "velodyne").is_dir():
         shutil.rmtree(folder / "velodyne")
     for name in FILES:
@@ -151,17 +156,18 @@ def clear(folder: Path) -> None:
 
 
 def as_camera(poses: Float64, origin: Float64) -> Float64:
-    """Poses (n, 4, 4) of the sensor in the town frame, as KITTI's of the left camera.
+    """Return KITTI's left-camera poses (n, 4, 4) of sensor poses in the town frame.
 
     Args:
-        origin: (4, 4) the drive's world to the town frame.
+        poses: (n, 4, 4), sensor to town.
+        origin: (4, 4), the drive's world to town.
     """
     to_world = SENSOR_TO_CAMERA @ np.linalg.inv(origin)
     return np.asarray(to_world @ poses @ np.linalg.inv(SENSOR_TO_CAMERA))
 
 
 def levelled(pose: Float64) -> Float64:
-    """A pose (4, 4) with its heading and place, but upright."""
+    """Return a pose (4, 4) with the same position and heading, and without roll and pitch."""
     heading = np.arctan2(pose[1, 0], pose[0, 0])
     level = np.eye(4)
     level[:2, :2] = [[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]]
@@ -170,7 +176,7 @@ def levelled(pose: Float64) -> Float64:
 
 
 def matrix_lines(transforms: Iterable[Float64]) -> str:
-    """The upper 3x4 of each transform, row by row, a line each."""
+    """Return one line per transform: its upper 3x4 matrix in row-major order."""
     return "".join(
         " ".join(f"{value:.12e}" for value in transform[:3].ravel()) + "\n"
         for transform in transforms
@@ -178,10 +184,10 @@ def matrix_lines(transforms: Iterable[Float64]) -> str:
 
 
 def read_origin(folder: Path) -> Float64:
-    """World-to-town transform of a drive (4, 4), from its `origin.txt`.
+    """Read the world-to-town transform of a drive, (4, 4), from its `origin.txt`.
 
     Raises:
-        DriveError: the folder holds no drive of a town, or the file is no such transform.
+        DriveError: The folder is no drive of a town, or the file is no transform.
     """
     file = folder / ORIGIN_FILE
     what = (

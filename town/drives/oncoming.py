@@ -1,4 +1,4 @@
-"""Cars that come the other way while a robot drives: they smear in the accumulated scans."""
+"""Oncoming cars during a drive: they leave a trail in the accumulated scans."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -11,21 +11,20 @@ from town.objects.car import car
 from town.streets.route import Route
 
 NEAR = 80.0
-"""Cars farther from the sensor are left out, meters."""
+"""Largest distance of a simulated car from the sensor, meters."""
 
 
 @dataclass(frozen=True)
 class Oncoming:
-    """Cars on the other lane of a robot's route, each at its own even speed.
+    """Cars on the opposite lane of a robot's route, each with its own constant speed.
 
-    A car stands still while the sensor sweeps over it. One that reaches the end of the lane begins
-    anew.
+    A car does not move during a sweep. At the end of the lane a car starts again.
 
     Attributes:
-        lane: that they drive on.
-        cars: their meshes, each in the car's frame.
-        starts: (cars,) meters along the lane at time 0.
-        speeds: (cars,) meters a second.
+        lane: lane of the cars.
+        cars: mesh of each car in its own frame.
+        starts: (cars,), position along the lane at time 0, meters.
+        speeds: (cars,), meters per second.
     """
 
     lane: Route
@@ -35,17 +34,20 @@ class Oncoming:
 
     @classmethod
     def draw(cls, route: Route, per_km: float, seed: int) -> Self:
-        """Random cars.
+        """Draw random cars.
 
         Args:
-            route: of the robot.
-            per_km: how many a kilometer of the lane, on average.
+            route: route of the robot.
+            per_km: mean number of cars per kilometer of the lane, 0 to 100.
+            seed: seed of the cars.
 
         Raises:
-            ValueError: a negative number, or more than one every ten meters.
+            ValueError: `per_km` is out of range.
         """
         if not 0 <= per_km <= 100:
-            raise ValueError(f"there can be 0 to 100 oncoming cars a kilometer, not {per_km}")
+            raise ValueError(
+                f"Invalid number of oncoming cars per kilometer: expected 0 to 100, not {per_km}"
+            )
         rng = np.random.default_rng([seed, 9])
         lane = route.reversed()
         count = int(rng.poisson(per_km * lane.length() / 1000))
@@ -57,7 +59,7 @@ class Oncoming:
         )
 
     def around(self, place: Float64, time: float) -> Mesh:
-        """The cars near a place (2,) of the town frame, at a time in seconds."""
+        """Return the cars near a place (2,) of the town frame at a time, seconds."""
         if not self.cars:
             return Mesh.joined([])
         along = (self.starts + time * self.speeds) % self.lane.length()

@@ -1,4 +1,4 @@
-"""Two stretches of two drives: two maps, and how one lies in the other."""
+"""Pair of stretches of two drives: two maps with their true alignment."""
 
 from dataclasses import dataclass
 
@@ -7,15 +7,15 @@ from placecell.core.types import Float64
 
 @dataclass(frozen=True, slots=True)
 class StretchPair:
-    """Two stretches of two drives.
+    """Pair of stretches of two drives.
 
     Attributes:
-        scans_a, scans_b: first and last scan of each, both included.
-        overlap: share of b's scans that were taken in a's streets.
-        look_alike: share of b's scans where the same identical houses stand as in a street of a's.
-        frame_a, frame_b: (4, 4) world of each drive to the frame of its map: any heading,
-            kilometers away.
-        b_to_a: (4, 4) map b's frame to map a's, in truth.
+        scans_a, scans_b: first and last scan of each stretch (included).
+        overlap: share of b's scans in streets of a.
+        look_alike: share of b's scans in streets with the same identical houses as a street of a.
+        frame_a, frame_b: (4, 4), transform from each drive's world to its map's frame, with a
+            random heading and kilometers of translation.
+        b_to_a: (4, 4), true transform from map b's frame to map a's.
     """
 
     scans_a: tuple[int, int]
@@ -27,7 +27,7 @@ class StretchPair:
     b_to_a: Float64
 
     def as_dict(self) -> dict[str, object]:
-        """Plain values for JSON."""
+        """Return plain values for JSON."""
         return {
             "scans_a": self.scans_a,
             "scans_b": self.scans_b,

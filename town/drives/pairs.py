@@ -1,7 +1,7 @@
-"""Pairs of maps of one town, with a chosen overlap or with none, to test how maps are aligned.
+"""Pairs of maps of one town, with a chosen overlap or none, to evaluate map alignment.
 
-A map is a stretch of a drive. Two drives through all streets of a town so give as many pairs as are
-wanted, and their segments are cut out but once.
+A map is a stretch of a drive. So two drives through all streets of a town give any number of pairs,
+and their segments are extracted only once.
 """
 
 from dataclasses import dataclass
@@ -17,40 +17,43 @@ from town.drives.traversal import Traversal
 from town.streets.network import OWN
 
 SAME_STREET = 7.0
-"""Scans of two drives nearer to one another than this are in the same street, meters."""
+"""Largest distance between scans of two drives in the same street, meters."""
 
 APART = 100.0
-"""Maps that share nothing were seen from so far apart, meters: each reaches 40 m."""
+"""Smallest distance between the scans of maps without overlap, meters. A scan reaches 40 m."""
 
 TOLERANCE = 0.02
-"""An overlap is that which was wanted, give or take, or half a scan."""
+"""Largest difference from the chosen overlap, unless half a scan is more."""
 
 TRIES = 100
-"""Stretches of the first drive that are looked at for one pair, at most."""
+"""Largest number of stretches of the first drive that are tried for one pair."""
 
 COMPARED = 5
-"""Pairs of which the one that looks most alike is taken."""
+"""Number of pairs among which the most similar one is chosen."""
 
 FARTHEST = 5000.0
-"""Origins of the maps' frames lie up to so far from the drives' worlds' on x and y, meters."""
+"""Largest distance along x and y of a map's origin from its drive's origin, meters."""
 
 
 def draw_pairs(
     city: City, a: Traversal, b: Traversal, count: int, meters: float, seed: int = 0
 ) -> tuple[list[StretchPair], list[StretchPair]]:
-    """Pairs of maps: so many with an overlap of 10% to 100%, in even steps, and as many with none.
+    """Draw pairs of maps: `count` with an overlap of 10% to 100%, and as many without.
 
-    Half of those with none are chosen for streets that look alike.
+    Half of the pairs without overlap are chosen for similar streets.
 
     Args:
+        city: town of the drives.
         a, b: two drives through the town.
-        meters: that each map's robot has driven.
+        count: number of pairs with overlap, and of pairs without.
+        meters: length of each map's path, meters.
+        seed: seed of the choice.
 
     Raises:
-        ValueError: the drives are too short for it, or too near one another.
+        ValueError: The drives are too short, or too near to each other.
     """
     if count < 1:
-        raise ValueError(f"there must be one pair or more, not {count}")
+        raise ValueError(f"Invalid number of pairs: expected at least 1, not {count}")
     drawer = StretchPairDrawer.of(city, a, b, meters, np.random.default_rng([seed, 10]))
     overlapping = [drawer.overlapping(float(share)) for share in np.linspace(0.1, 1.0, count)]
     apart = [drawer.apart(alike=number % 2 == 0) for number in range(count)]
@@ -59,13 +62,13 @@ def draw_pairs(
 
 @dataclass(frozen=True)
 class StretchPairDrawer:
-    """Draws pairs of stretches.
+    """Draws pairs of stretches at random.
 
     Attributes:
         a, b: the drives.
-        designs_a, designs_b: of the houses at each of their scans.
-        scans_a, scans_b: of a stretch.
-        rng: decides.
+        designs_a, designs_b: design of the houses at each scan.
+        scans_a, scans_b: number of scans of a stretch.
+        rng: random number generator.
     """
 
     a: Traversal
@@ -80,10 +83,10 @@ class StretchPairDrawer:
     def of(
         cls, city: City, a: Traversal, b: Traversal, meters: float, rng: np.random.Generator
     ) -> Self:
-        """For stretches of so many meters.
+        """Create the drawer for stretches of a length, meters.
 
         Raises:
-            ValueError: a drive is too short for it.
+            ValueError: A drive is shorter.
         """
         return cls(
             a,
@@ -96,10 +99,10 @@ class StretchPairDrawer:
         )
 
     def overlapping(self, share: float) -> StretchPair:
-        """A pair of which the second has this share in common with the first.
+        """Draw a pair whose second stretch overlaps the first by a share, 0 to 1.
 
         Raises:
-            ValueError: none was found.
+            ValueError: No such pair was found.
         """
         for _ in range(TRIES):
             first_a, distance = self._stretch_of_a()
@@ -111,13 +114,13 @@ class StretchPairDrawer:
         raise ValueError(f"found no two stretches of the drives that share {share:.0%}")
 
     def apart(self, alike: bool) -> StretchPair:
-        """A pair that shares nothing.
+        """Draw a pair without overlap.
 
         Args:
-            alike: take the one that looks most alike, of several.
+            alike: choose the most similar one of several.
 
         Raises:
-            ValueError: none was found.
+            ValueError: No such pair was found.
         """
         found = []
         for _ in range(TRIES):
@@ -135,13 +138,13 @@ class StretchPairDrawer:
         return self._pair(first_a, first_b, 0.0)
 
     def _stretch_of_a(self) -> tuple[int, Float64]:
-        """Where a random one begins, and how far each scan of b is from it, meters."""
+        """Draw a stretch of a; return its first scan and the distance of each scan of b, meters."""
         first = int(self.rng.integers(len(self.a.poses) - self.scans_a + 1))
         tree = cKDTree(self.a.places[first : first + self.scans_a])
         return first, tree.query(self.b.places)[0]
 
     def _likeness(self, first_a: int) -> Float64:
-        """Of each stretch of b, the share of its scans where a's identical houses stand too."""
+        """Return the share of scans with a's identical houses, for each stretch of b."""
         designs = self.designs_a[first_a : first_a + self.scans_a]
         alike = (self.designs_b != OWN) & np.isin(self.designs_b, designs)
         return means(alike, self.scans_b)
@@ -168,6 +171,6 @@ class StretchPairDrawer:
 
 
 def means(flags: Bool, window: int) -> Float64:
-    """Share of true flags in each window of so many: (flags - window + 1,)."""
+    """Return the share of true flags in each window, (flags - window + 1,)."""
     sums = np.concatenate([[0], np.cumsum(flags)])
     return np.asarray((sums[window:] - sums[:-window]) / window)

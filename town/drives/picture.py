@@ -1,4 +1,4 @@
-"""A plan of a large town, with the drives through it."""
+"""Picture of a large town's plan with the drives through it."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,12 +15,13 @@ from town.streets.route import Route
 
 
 def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> None:
-    """Draw the streets, those of identical houses in colors, the route and the odometry.
+    """Draw the streets, with those of identical houses in color, the route and the odometry.
 
     Args:
-        file: PNG.
-        route: of the first robot.
-        drives: whose odometry is drawn, where they have one.
+        file: PNG file to write.
+        city: the town.
+        route: route of the first robot.
+        drives: folders of drives. Their odometry is drawn if they have one.
     """
     figure = Figure(figsize=(7, 7), layout="constrained")
     axes = figure.add_subplot()
@@ -45,7 +46,7 @@ def draw_plan(file: Path, city: City, route: Route, drives: Sequence[Path]) -> N
 
 
 def title(city: City, route: Route) -> str:
-    """What the picture shows."""
+    """Return the title of the picture."""
     alike = np.mean(city.network.designs != OWN)
     return (
         f"Town {city.seed}: {city.network.meters():,.0f} m of streets, {alike:.0%} lined by "

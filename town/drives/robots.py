@@ -1,4 +1,4 @@
-"""Robots in one town: the case that place recognition between robots is for."""
+"""Drives of several robots in one town, for place recognition between robots."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -23,22 +23,22 @@ def two_robots(
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> tuple[Path, Path]:
-    """Drives `robot_a` and `robot_b`: the same streets, the other way, other cars parked.
+    """Write `robot_a` and `robot_b`: the same streets in opposite directions, with other cars.
 
     Args:
-        folder: gets both drives.
-        seed: of the town, the route, the parked cars and the noise.
-        scans: of each drive.
-        spacing: meters between scans.
-        columns: azimuth steps of the sensor.
-        overwrite: replace drives that are there.
-        progress: wraps the loops over the scans.
+        folder: parent folder of both drives.
+        seed: seed of town, route, parked cars and noise.
+        scans: number of scans of each drive.
+        spacing: distance between scans, meters.
+        columns: number of azimuth steps of the sensor.
+        overwrite: replace existing drives.
+        progress: function that shows the progress.
 
     Returns:
-        the two drives' folders.
+        The folders of the two drives.
 
     Raises:
-        FileExistsError: a drive is there already, and `overwrite` is not set.
+        FileExistsError: A drive exists, and `overwrite` is not set.
     """
     town = Town.build(seed)
     # The inner lane of a turn is shorter than the center line.
@@ -80,35 +80,39 @@ def several_robots(
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> list[Path]:
-    """Drives `robot_a`, `robot_b`, ... along one route of a large town.
+    """Write `robot_a`, `robot_b`, ... along one route of a large town.
 
-    Every second robot drives the other way, so in the other lane. For each, other cars are parked
-    and others come towards it, and its odometry errs in its own way.
+    Every second robot drives in the opposite direction and lane. Parked cars, oncoming cars and
+    odometry errors differ for each robot.
 
     Args:
-        folder: gets the drives.
-        robots: how many, up to 26.
-        start: where on its way each begins, meters along the middle of the street.
-        scans: of each drive; all the rest of the route unless given.
-        spacing: meters between scans.
-        odometry: how it errs, of all of them, if they have one.
-        oncoming: cars that come the other way, a kilometer.
-        overwrite: replace drives that are there.
-        progress: wraps the loops over the scans.
+        folder: parent folder of the drives.
+        city: the town.
+        route: route of the robots.
+        robots: number of robots, 1 to 26.
+        start: start of each robot on its path, meters along the center line.
+        scans: number of scans of each drive; None for the rest of the route.
+        spacing: distance between scans, meters.
+        odometry: errors of the odometry; None for no odometry.
+        oncoming: number of oncoming cars per kilometer.
+        overwrite: replace existing drives.
+        progress: function that shows the progress.
 
     Returns:
-        the drives' folders.
+        The folders of the drives.
 
     Raises:
-        FileExistsError: a drive is there already, and `overwrite` is not set.
-        ValueError: no such number of robots, scans or cars, or the route is too short.
+        FileExistsError: A drive exists, and `overwrite` is not set.
+        ValueError: The number of robots, scans or cars is out of range, or the route is too short.
     """
     if not 1 <= robots <= len(ascii_lowercase):
-        raise ValueError(f"there can be 1 to {len(ascii_lowercase)} robots, not {robots}")
+        raise ValueError(
+            f"Invalid number of robots: expected 1 to {len(ascii_lowercase)}, not {robots}"
+        )
     drives = [folder / f"robot_{ascii_lowercase[number]}" for number in range(robots)]
     ways = [way_of(number, route, scans, spacing, start) for number in range(robots)]
     for drive, (way, count) in zip(drives, ways, strict=True):
-        # Before the first of them is driven, which may take hours.
+        # Check all before the first drive, which may take hours.
         check(drive, way, count, spacing, overwrite)
     for number, (drive, (way, count)) in enumerate(zip(drives, ways, strict=True)):
         write_drive(
@@ -131,13 +135,17 @@ def several_robots(
 def way_of(
     number: int, route: Route, scans: int | None, spacing: float, start: float = 0.0
 ) -> tuple[Route, int]:
-    """The way that a robot takes, every second one backwards, and how many scans it takes there.
+    """Return a robot's route, reversed for every second robot, and its number of scans.
 
     Args:
-        start: where on it the robot begins, meters along the middle of the street.
+        number: number of the robot, from 0.
+        route: route of the first robot.
+        scans: number of scans; None for the rest of the route.
+        spacing: distance between scans, meters.
+        start: start on the route, meters along the center line.
 
     Raises:
-        ValueError: the route ends before.
+        ValueError: The route ends before the start.
     """
     way = route.reversed() if number % 2 else route
     if start:

@@ -1,4 +1,4 @@
-"""A drive, as far as it matters to what it shares with another."""
+"""Traversal: the poses of a drive, to compare it with another drive."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -13,11 +13,11 @@ from town.streets.route import Route
 
 @dataclass(frozen=True, slots=True)
 class Traversal:
-    """A drive, driven or only planned.
+    """Poses of a simulated or planned drive.
 
     Attributes:
-        poses: (n, 4, 4) sensor to town.
-        origin: (4, 4) the drive's world to town.
+        poses: (n, 4, 4), sensor to town.
+        origin: (4, 4), the drive's world to town.
     """
 
     poses: Float64
@@ -25,20 +25,20 @@ class Traversal:
 
     @classmethod
     def of(cls, route: Route, scans: int, spacing: float, height: float = HDL_64E.height) -> Self:
-        """Of the drive that `write_drive` writes, driven or not."""
+        """Return the traversal of the drive that `write_drive` writes for these arguments."""
         poses = route.poses(scan_distances(scans, spacing), height)
         return cls(poses, levelled(poses[0]))
 
     @property
     def places(self) -> Float64:
-        """Where the sensor was, town frame: (n, 2)."""
+        """Sensor positions in the town frame, (n, 2), meters."""
         return np.asarray(self.poses[:, :2, 3])
 
     def scans_in(self, meters: float) -> int:
-        """How many in so many meters.
+        """Return the number of scans of a stretch of this length, meters.
 
         Raises:
-            ValueError: it is too short.
+            ValueError: The drive is shorter.
         """
         driven = np.linalg.norm(np.diff(self.places, axis=0), axis=1).sum()
         if not 0 < meters <= driven:

@@ -1,4 +1,4 @@
-"""Triangle meshes: what the town is made of and what the rays hit."""
+"""Triangle meshes of the town, which the rays are cast at."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from placecell.core.types import Float32, Float64
 
 
 class Reflectance:
-    """Share of the light that a surface sends back, at the sensor's wavelength."""
+    """Reflectance of materials at the sensor's wavelength, 0 to 1."""
 
     ASPHALT = 0.15
     PAVING = 0.3
@@ -29,10 +29,10 @@ class Reflectance:
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Triangles, each with its own corners (nothing is shared, so meshes are joined by stacking).
+    """Triangles with corners of their own, so meshes are joined by concatenation.
 
     Attributes:
-        triangles: float64 (n, 3, 3): corners' x, y, z in meters.
+        triangles: float64 (n, 3, 3), x, y, z of each corner, meters.
         reflectance: float32 (n,), 0 to 1.
     """
 
@@ -41,17 +41,17 @@ class Mesh:
 
     @classmethod
     def of_triangles(cls, triangles: Float64, reflectance: float) -> Self:
-        """Triangles (n, 3, 3) of one material."""
+        """Build a mesh of triangles (n, 3, 3) with one reflectance."""
         return cls(triangles, np.full(len(triangles), reflectance, dtype=np.float32))
 
     @classmethod
     def of_quads(cls, quads: Float64, reflectance: float) -> Self:
-        """Quadrilaterals (n, 4, 3), corners in turn, each as two triangles."""
+        """Build a mesh of quadrilaterals (n, 4, 3), corners in order, two triangles each."""
         return cls.of_triangles(quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3), reflectance)
 
     @classmethod
     def joined(cls, meshes: Iterable["Mesh"]) -> Self:
-        """All triangles of several meshes, in order."""
+        """Concatenate several meshes."""
         parts = list(meshes)
         if not parts:
             return cls(np.empty((0, 3, 3)), np.empty(0, dtype=np.float32))
@@ -64,16 +64,16 @@ class Mesh:
         return len(self.triangles)
 
     def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, heading: float = 0.0) -> "Mesh":
-        """Turned about z by `heading` (radians, anticlockwise), then shifted (meters)."""
+        """Rotate about z by `heading` (radians, counterclockwise), then translate (meters)."""
         cosine, sine = np.cos(heading), np.sin(heading)
         turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
         return Mesh(self.triangles @ turn + (x, y, z), self.reflectance)
 
     def transformed(self, pose: Float64) -> "Mesh":
-        """Moved by a rigid transform (4, 4)."""
+        """Apply a rigid transform (4, 4)."""
         return Mesh(self.triangles @ pose[:3, :3].T + pose[:3, 3], self.reflectance)
 
     def bounds(self) -> Float64:
-        """Lowest and highest x, y, z: (2, 3)."""
+        """Return the lowest and the highest x, y, z, (2, 3), meters."""
         corners = self.triangles.reshape(-1, 3)
         return np.stack([corners.min(axis=0), corners.max(axis=0)])

@@ -20,15 +20,15 @@ class Scene:
         self._mesh = TriangleMesh(self._scene, mesh.triangles.astype(np.float32))
 
     def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
-        """Where rays first hit.
+        """Cast rays and return their first hits.
 
         Args:
-            origins: float32 (n, 3), meters, the mesh's frame.
+            origins: float32 (n, 3), meters, in the mesh's frame.
             directions: float32 (n, 3), unit vectors.
 
         Returns:
-            ranges in meters, float32 (n,), infinite where nothing is hit, and the triangles hit,
-            int32 (n,), -1 where nothing is.
+            Ranges, float32 (n,), meters, infinite without a hit; and indices of the triangles,
+            int32 (n,), -1 without a hit.
         """
         hits = self._scene.run(origins, directions, query="INTERSECT", output=1)
         triangles: Int32 = hits["primID"]
@@ -37,20 +37,20 @@ class Scene:
 
 
 class Surfaces(Protocol):
-    """What rays are cast at."""
+    """Surfaces that rays are cast at."""
 
     @property
     def reflectance(self) -> Float32:
-        """Of each triangle."""
+        """Reflectance of each triangle, float32 (n,)."""
         ...
 
     def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
-        """Where rays first hit, as `Scene.cast`."""
+        """Cast rays and return their first hits, see `Scene.cast`."""
         ...
 
 
 class Layers:
-    """Two scenes in one place: one that stays, and one that is made anew for each scan."""
+    """Two scenes in one place: a static one, and one that is rebuilt for each scan."""
 
     def __init__(self, standing: Scene, moving: Scene) -> None:
         self.reflectance = np.concatenate([standing.reflectance, moving.reflectance])
@@ -58,7 +58,10 @@ class Layers:
         self._moving = moving
 
     def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
-        """Where rays first hit either, as `Scene.cast`; the second's triangles are counted on."""
+        """Cast rays at both scenes, see `Scene.cast`.
+
+        Indices of the second scene's triangles follow those of the first.
+        """
         ranges, triangles = self._standing.cast(origins, directions)
         nearer, moving = self._moving.cast(origins, directions)
         hidden = nearer < ranges
@@ -67,19 +70,19 @@ class Layers:
 
 
 class Scenes(Protocol):
-    """A town on one day, for a sensor that drives through it."""
+    """Scenes of a town during one drive."""
 
     def around(self, place: Float64) -> Scene:
-        """A scene that holds all that a sensor at this place (2,) can reach, town frame."""
+        """Return a scene with everything in range of a sensor at a place (2,) of the town frame."""
         ...
 
 
 class WholeTown:
-    """A town that is small enough for one scene."""
+    """Scene of a town that is small enough for one scene."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
 
     def around(self, place: Float64) -> Scene:  # noqa: ARG002
-        """The one scene, wherever the sensor is."""
+        """Return the scene of the whole town."""
         return self._scene

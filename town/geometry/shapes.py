@@ -1,6 +1,6 @@
-"""Simple solids and surfaces, from which the town's objects are put together.
+"""Simple solids and surfaces, the parts of the town's objects.
 
-Every shape is in its object's own frame: meters, z up, z = 0 at the ground.
+Every shape is in its object's frame: meters, z up, z = 0 at the ground.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ ICOSAHEDRON_FACES = np.array(
 
 def box(lowest: tuple[float, float, float], size: tuple[float, float, float],
         reflectance: float) -> Mesh:  # fmt: skip
-    """An upright box from its lowest corner and its edges."""
+    """Return an upright box, given its lowest corner and its size."""
     x, y, z = lowest
     outline = np.add(np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * size[:2], (x, y))
     return prism(outline, z, z + size[2], reflectance)
@@ -28,9 +28,12 @@ def box(lowest: tuple[float, float, float], size: tuple[float, float, float],
 
 def prism(outline: Float64, low: float, high: float, reflectance: float,
           taper: float = 1.0) -> Mesh:  # fmt: skip
-    """A convex outline (n, 2) raised from z = low to z = high.
+    """Return the prism of a convex outline (n, 2) from z = low to z = high.
 
     Args:
+        outline: (n, 2), corners, meters.
+        low, high: heights of bottom and top, meters.
+        reflectance: reflectance of all faces.
         taper: scale of the top about the outline's center.
     """
     center = outline.mean(axis=0)
@@ -40,7 +43,7 @@ def prism(outline: Float64, low: float, high: float, reflectance: float,
 
 
 def loft(start: Float64, end: Float64, reflectance: float) -> Mesh:
-    """The solid between two convex polygons (n, 3) whose corners correspond."""
+    """Return the solid between two convex polygons (n, 3) with corresponding corners."""
     sides = np.stack([start, np.roll(start, -1, axis=0), np.roll(end, -1, axis=0), end], axis=1)
     caps = [
         np.stack([np.tile(ring[0], (len(ring) - 2, 1)), ring[1:-1], ring[2:]], axis=1)
@@ -52,13 +55,13 @@ def loft(start: Float64, end: Float64, reflectance: float) -> Mesh:
 
 
 def circle(radius: float, corners: int = 8) -> Float64:
-    """A regular polygon about the origin: (corners, 2)."""
+    """Return the corners of a regular polygon about the origin, (corners, 2), meters."""
     angles = 2 * np.pi * np.arange(corners) / corners
     return radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def pole(x: float, y: float, radius: float, span: tuple[float, float], reflectance: float) -> Mesh:
-    """An upright post at (x, y), from the lower to the upper height of its span."""
+    """Return an upright post at (x, y) between the two heights of `span`."""
     return prism(np.add(circle(radius, corners=6), (x, y)), *span, reflectance)
 
 
@@ -68,7 +71,7 @@ def blob(
     radii: tuple[float, float, float],
     reflectance: float,
 ) -> Mesh:
-    """An ellipsoid of 80 triangles whose corners are pushed in and out by up to a quarter."""
+    """Return an ellipsoid of 80 triangles, its corners displaced radially by up to 25%."""
     golden = (1 + np.sqrt(5)) / 2
     rectangle = np.array([[-1, golden, 0], [1, golden, 0], [-1, -golden, 0], [1, -golden, 0]])
     corners = np.concatenate([np.roll(rectangle, turn, axis=1) for turn in (0, 1, 2)])
@@ -77,7 +80,7 @@ def blob(
     faces = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
     triangles = np.concatenate([np.stack(face, axis=1) for face in faces])
     directions = triangles / np.linalg.norm(triangles, axis=2, keepdims=True)
-    # The surface is bent by waves and not corner by corner: shared corners must stay together.
+    # Waves displace the surface, not random values per corner: shared corners must stay together.
     waves = rng.normal(scale=1.6, size=(4, 3))
     phases = rng.uniform(0, 2 * np.pi, size=4)
     swelling = 1 + 0.0625 * np.sin(directions @ waves.T * 1.5 + phases).sum(axis=2)
@@ -91,7 +94,7 @@ def leaves(
     count: int,
     reflectance: float,
 ) -> Mesh:
-    """Loose triangles of about 0.3 m scattered in an ellipsoid: foliage one can see through."""
+    """Return loose triangles of about 0.3 m in an ellipsoid: foliage that rays can pass."""
     middles = rng.normal(size=(count, 1, 3))
     middles *= rng.uniform(0.5, 1.1, size=(count, 1, 1)) / np.linalg.norm(
         middles, axis=2, keepdims=True
@@ -101,13 +104,13 @@ def leaves(
 
 
 def relief(along: Float64, up: Float64, depth: Float64, reflectance: Float64) -> Mesh:
-    """A wall in the plane y = 0 whose cells stand out or back, with the steps between them.
+    """Return a wall in the plane y = 0 with protruding and recessed cells.
 
     Args:
-        along: (columns + 1,) edges of the cells on x, rising.
-        up: (rows + 1,) edges on z, rising.
-        depth: (columns, rows): how far each cell stands out, towards -y (negative: a niche).
-        reflectance: (columns, rows).
+        along: (columns + 1,), x of the cell edges, ascending, meters.
+        up: (rows + 1,), z of the cell edges, ascending, meters.
+        depth: (columns, rows), protrusion of each cell toward -y, meters; negative for a niche.
+        reflectance: (columns, rows), reflectance of each cell.
     """
     left, right = (edge[:, None] + 0 * depth for edge in (along[:-1], along[1:]))
     low, high = (edge[None, :] + 0 * depth for edge in (up[:-1], up[1:]))
@@ -133,5 +136,5 @@ def relief(along: Float64, up: Float64, depth: Float64, reflectance: Float64) ->
 
 
 def quads(*corners: tuple[Float64, Float64, Float64]) -> Float64:
-    """Four corners, each as arrays of x, y and z -> (n, 4, 3)."""
+    """Stack four corners, each given as arrays of x, y and z, into (n, 4, 3)."""
     return np.stack([np.stack([c.ravel() for c in corner], axis=1) for corner in corners], axis=1)

@@ -1,6 +1,6 @@
-"""What is built onto a front or stands before it.
+"""Annexes: objects on a house front or in front of it.
 
-Frame: x along the front, y = 0 at the front and negative before it, z = 0 at the pavement.
+Frame: x along the front, y = 0 at the front and negative before it, z = 0 at the sidewalk.
 """
 
 from collections.abc import Callable
@@ -11,11 +11,11 @@ from town.geometry.mesh import Mesh, Reflectance
 from town.geometry.shapes import box, loft, pole
 
 Annexe = Callable[[np.random.Generator], Mesh]
-"""Makes one piece, from x = 0 on."""
+"""Function that builds one annex, beginning at x = 0."""
 
 
 def stairs(rng: np.random.Generator) -> Mesh:
-    """Steps to a raised door, between two cheeks."""
+    """Build steps to a raised door, between two side walls."""
     run, wide = float(rng.uniform(0.25, 0.35)), float(rng.uniform(1.2, 2.4))
     steps = int(rng.integers(2, 6))
     treads = [
@@ -28,7 +28,7 @@ def stairs(rng: np.random.Generator) -> Mesh:
 
 
 def porch(rng: np.random.Generator) -> Mesh:
-    """A roof on two posts."""
+    """Build a roof on two posts."""
     wide, out = float(rng.uniform(1.8, 3.0)), float(rng.uniform(0.9, 1.6))
     posts = [pole(x, -out, 0.12, (-0.5, 2.6), Reflectance.WOOD) for x in (0, wide)]
     cover = box((-0.2, -out - 0.2, 2.6), (wide + 0.4, out + 0.2, 0.25), Reflectance.ROOF)
@@ -36,7 +36,7 @@ def porch(rng: np.random.Generator) -> Mesh:
 
 
 def balcony(rng: np.random.Generator) -> Mesh:
-    """A balcony of the first floor with a solid parapet, at times on posts."""
+    """Build a balcony of the upper floor with a solid parapet, with or without posts."""
     wide, out = float(rng.uniform(2.0, 3.0)), float(rng.uniform(0.8, 1.5))
     parts = [box((0, -out, 2.6), (wide, out, 1.1), Reflectance.PLASTER)]
     if rng.random() < 0.5:
@@ -47,26 +47,26 @@ def balcony(rng: np.random.Generator) -> Mesh:
 
 
 def planter(rng: np.random.Generator) -> Mesh:
-    """A trough for flowers."""
+    """Build a flower box."""
     size = (float(rng.uniform(0.6, 2.5)), 0.5, float(rng.uniform(0.5, 1.1)))
     return box((0, -0.5, -0.2), size, Reflectance.WOOD)
 
 
 def cellar(rng: np.random.Generator) -> Mesh:
-    """A low block over cellar stairs."""
+    """Build a low block over cellar stairs."""
     size = (float(rng.uniform(1.0, 2.0)), float(rng.uniform(0.6, 1.3)), 1.3)
     return box((0, -size[1], -0.5), size, Reflectance.BRICK)
 
 
 def awning(rng: np.random.Generator) -> Mesh:
-    """A cloth over a shop's window, sloping to the street."""
+    """Build an awning over a shop window, sloping to the street."""
     wide, out = float(rng.uniform(2.0, 3.0)), float(rng.uniform(0.8, 1.6))
     cloth = np.array([[0, 0, 2.3], [wide, 0, 2.3], [wide, -out, 2.1], [0, -out, 2.1]])
     return loft(cloth, np.add(cloth, (0, 0, 0.1)), Reflectance.CLOTH)
 
 
 def wall_unit(rng: np.random.Generator) -> Mesh:
-    """A meter box or an air conditioner on the wall."""
+    """Build a meter box or an air conditioner on the wall."""
     size = (float(rng.uniform(0.6, 1.2)), 0.4, float(rng.uniform(0.5, 1.0)))
     return box((0, -0.4, float(rng.uniform(0.2, 1.8))), size, Reflectance.METAL)
 

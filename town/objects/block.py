@@ -1,4 +1,4 @@
-"""What stands along a street: houses, gardens and street furniture of one side of a block."""
+"""Objects along a street: houses, gardens and street furniture of one side of a block."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from town.streets.plan import CURB_HEIGHT, Frontage
 from town.streets.terrain import Terrain
 
 LOT_DEPTH = 14.0
-"""A side's houses end this far before the corner: the next side's first house stands there."""
+"""Distance of a side's last house from the corner, meters; the next side's first house is there."""
 
 FURNITURE: tuple[tuple[str, Furniture, float], ...] = (
     ("tree", tree, 0.36),
@@ -38,16 +38,16 @@ FURNITURE: tuple[tuple[str, Furniture, float], ...] = (
     ("advertising column", advertising_column, 0.04),
     ("bus shelter", bus_shelter, 0.04),
 )
-"""Kind, maker, and its share of what stands at the curb."""
+"""Name, builder and share of each kind of street furniture."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneObject:
-    """A thing in the town.
+    """Object of the town.
 
     Attributes:
-        kind: in words, such as "house" or "parked car".
-        mesh: in the town frame.
+        kind: name of the kind, such as "house" or "parked car".
+        mesh: mesh in the town frame.
     """
 
     kind: str
@@ -56,18 +56,18 @@ class SceneObject:
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """Where a frontage's objects are set down.
+    """Site of a frontage's objects.
 
     Attributes:
-        frontage: whose frame places are given in.
-        terrain: the ground they stand on.
+        frontage: frontage whose frame is used.
+        terrain: terrain under the objects.
     """
 
     frontage: Frontage
     terrain: Terrain
 
     def place(self, kind: str, mesh: Mesh, x: float, y: float, turn: float = 0.0) -> SceneObject:
-        """An object at (x, y) of the frontage's frame, on the pavement, turned by radians."""
+        """Place an object on the sidewalk at (x, y) of the frontage's frame, turned by radians."""
         spot, heading = self.frontage.on_plan(x, y), self.frontage.heading + turn
         return SceneObject(kind, self.terrain.place(mesh, spot, heading, lift=CURB_HEIGHT))
 
@@ -75,7 +75,7 @@ class Site:
 def furnish(
     frontage: Frontage, terrain: Terrain, rng: np.random.Generator
 ) -> Iterator[SceneObject]:
-    """Everything that always stands along one side of a block."""
+    """Yield the static objects along one side of a block."""
     pavement = float(rng.uniform(2.4, 3.6))
     gardens = bool(rng.random() < 0.5)
     site = Site(frontage, terrain)
@@ -83,7 +83,7 @@ def furnish(
     end = frontage.length - pavement - LOT_DEPTH
     while x < end - 6.0:
         width = min(float(rng.uniform(7.0, 15.0)), end - x)
-        # In a street with front gardens the houses stand back, in others at the pavement.
+        # With front gardens the houses are set back; otherwise they are at the sidewalk.
         setback = float(rng.uniform(2.0, 4.5)) if gardens else float(rng.uniform(0.0, 0.9))
         if rng.random() < 0.85:
             building = house(rng, width, depth=float(rng.uniform(7.5, 9.0)))
@@ -100,11 +100,13 @@ def furnish(
 def garden(
     rng: np.random.Generator, corner: tuple[float, float], size: tuple[float, float], site: Site
 ) -> Iterator[SceneObject]:
-    """Bushes behind a boundary, and trees too where the garden is deep.
+    """Yield bushes behind a boundary, and trees if the garden is deep.
 
     Args:
-        corner: where the garden begins, x and y of the frontage's frame.
-        size: along the street and away from it, meters.
+        rng: random number generator.
+        corner: corner of the garden, x and y in the frontage's frame, meters.
+        size: extent along the street and away from it, meters.
+        site: site of the objects.
     """
     (x, y), (width, depth) = corner, size
     yield from boundary(rng, width, x, y, site)
@@ -119,7 +121,7 @@ def garden(
 def boundary(
     rng: np.random.Generator, width: float, x: float, y: float, site: Site
 ) -> Iterator[SceneObject]:
-    """A garden's fence, hedge or wall along the pavement, with a gateway in it."""
+    """Yield a garden's fence, hedge or wall along the sidewalk, with a gateway."""
     gate = float(rng.uniform(1.2, 3.2))
     before = float(rng.uniform(0.1, 0.9)) * (width - gate)
     kind = str(rng.choice(["fence", "hedge", "garden wall", "open"], p=[0.3, 0.35, 0.25, 0.1]))
@@ -132,7 +134,7 @@ def boundary(
 
 
 def curbside(rng: np.random.Generator, length: float, site: Site) -> Iterator[SceneObject]:
-    """Trees, posts, bins and the like in a row behind the curb."""
+    """Yield trees, posts, bins and other street furniture in a row behind the curb."""
     shares = np.array([share for _, _, share in FURNITURE])
     x = float(rng.uniform(2.0, 6.0))
     while x < length - 3.0:

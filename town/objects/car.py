@@ -1,6 +1,6 @@
-"""Cars and people: what comes and goes between two drives.
+"""Cars and people: objects that differ between two drives.
 
-Frame of a car: x ahead, origin in the middle on the ground. Frame of a person: the feet.
+Frame of a car: x ahead, origin in the middle on the ground. Frame of a person: origin at the feet.
 """
 
 from dataclasses import dataclass
@@ -14,13 +14,13 @@ from town.geometry.shapes import blob, box, circle, loft, pole
 
 @dataclass(frozen=True, slots=True)
 class CarKind:
-    """A body's proportions.
+    """Proportions of a car body.
 
     Attributes:
-        length, width, height: meters.
+        length, width, height: size, meters.
         waist: height of the lower body's upper edge, meters.
-        cabin: shares of the length, from the rear, where the cabin stands on the body and where
-            its roof lies: foot's rear and front, roof's rear and front.
+        cabin: rear and front of the cabin's base, rear and front of its roof, as shares of the
+            length from the rear.
     """
 
     length: float
@@ -41,7 +41,7 @@ SHARES = (0.3, 0.18, 0.2, 0.14, 0.12, 0.06)
 
 
 def car(rng: np.random.Generator) -> Mesh:
-    """A parked car of a random kind, its proportions varied by a few per cent."""
+    """Build a parked car of a random kind, with proportions that vary by a few percent."""
     kind = KINDS[int(rng.choice(len(KINDS), p=SHARES))]
     length, width, height = np.array([kind.length, kind.width, kind.height]) * rng.uniform(
         0.94, 1.04, size=3
@@ -79,7 +79,13 @@ def car(rng: np.random.Generator) -> Mesh:
 
 
 def side_loft(profile: Float64, half_below: float, half_above: float, reflectance: float) -> Mesh:
-    """A side view (n, 2), x and z, drawn out to both sides, narrower above if so told."""
+    """Extrude a side view (n, 2), x and z, to both sides.
+
+    Args:
+        profile: (n, 2), side view, meters.
+        half_below, half_above: half of the width at the lower and at the upper edge, meters.
+        reflectance: reflectance of all faces.
+    """
     low, high = profile[:, 1].min(), profile[:, 1].max()
     share = (profile[:, 1] - low) / (high - low)
     half = half_below + share * (half_above - half_below)
@@ -88,7 +94,7 @@ def side_loft(profile: Float64, half_below: float, half_above: float, reflectanc
 
 
 def person(rng: np.random.Generator) -> Mesh:
-    """Somebody standing or in mid-step."""
+    """Build a standing or walking person."""
     height, stride = float(rng.uniform(1.55, 1.9)), float(rng.uniform(0.0, 0.25))
     hip = 0.5 * height
     legs = [

@@ -1,7 +1,7 @@
-"""Street furniture and what bounds a garden: from lamp posts to fences.
+"""Street furniture, fences and garden walls.
 
-Origins: the foot's middle; fences and walls begin at x = 0 and run along x. z = 0 at the ground;
-the street lies towards -y.
+The origin is the middle of the foot; fences and walls begin at x = 0 and extend along x. z = 0 is
+the ground. The street is in the direction of -y.
 """
 
 from collections.abc import Callable
@@ -12,11 +12,11 @@ from town.geometry.mesh import Mesh, Reflectance
 from town.geometry.shapes import box, circle, pole, prism
 
 Furniture = Callable[[np.random.Generator], Mesh]
-"""Makes one piece."""
+"""Function that builds one piece."""
 
 
 def lamp_post(rng: np.random.Generator) -> Mesh:
-    """A lamp post with a thicker foot, its arm over the street."""
+    """Build a lamp post with a thick foot and an arm over the street."""
     height = float(rng.uniform(4.0, 7.0))
     return Mesh.joined(
         [
@@ -28,7 +28,7 @@ def lamp_post(rng: np.random.Generator) -> Mesh:
 
 
 def traffic_sign(rng: np.random.Generator) -> Mesh:
-    """A post with one to three plates facing along the street."""
+    """Build a post with one to three signs that face along the street."""
     parts = [pole(0, 0, 0.04, (-0.3, 3.2), Reflectance.METAL)]
     top = 3.2
     for _ in range(int(rng.integers(1, 4))):
@@ -39,7 +39,7 @@ def traffic_sign(rng: np.random.Generator) -> Mesh:
 
 
 def dustbins(rng: np.random.Generator) -> Mesh:
-    """One to four wheeled bins side by side."""
+    """Build one to four wheeled bins side by side."""
     parts, x = [], 0.0
     for _ in range(int(rng.integers(1, 5))):
         wide, high = float(rng.uniform(0.5, 1.3)), float(rng.uniform(1.0, 1.4))
@@ -50,7 +50,7 @@ def dustbins(rng: np.random.Generator) -> Mesh:
 
 
 def cabinet(rng: np.random.Generator) -> Mesh:
-    """A row of one to three switch boxes."""
+    """Build a row of one to three switch boxes."""
     parts, x = [], 0.0
     for _ in range(int(rng.integers(1, 4))):
         size = (float(rng.uniform(0.5, 1.3)), 0.4, float(rng.uniform(0.9, 1.6)))
@@ -60,7 +60,7 @@ def cabinet(rng: np.random.Generator) -> Mesh:
 
 
 def bus_shelter(rng: np.random.Generator) -> Mesh:
-    """A roof over three walls, partly glass, with a bench and a poster."""
+    """Build a roof on three walls, partly of glass, with a bench and a poster."""
     wide, deep = float(rng.uniform(2.5, 5.0)), float(rng.uniform(1.2, 1.6))
     return Mesh.joined(
         [
@@ -76,7 +76,7 @@ def bus_shelter(rng: np.random.Generator) -> Mesh:
 
 
 def advertising_column(rng: np.random.Generator) -> Mesh:
-    """A thick round column with a rim."""
+    """Build a thick round column with a rim."""
     radius = float(rng.uniform(0.45, 0.7))
     return Mesh.joined(
         [
@@ -88,7 +88,7 @@ def advertising_column(rng: np.random.Generator) -> Mesh:
 
 
 def bicycles(rng: np.random.Generator) -> Mesh:
-    """Bicycles in a rack: thin upright discs and bars."""
+    """Build bicycles in a rack from thin upright discs and bars."""
     parts = []
     for number in range(int(rng.integers(2, 7))):
         x = 0.5 * number + float(rng.uniform(-0.1, 0.1))
@@ -101,7 +101,7 @@ def bicycles(rng: np.random.Generator) -> Mesh:
 
 
 def bollards(rng: np.random.Generator) -> Mesh:
-    """A row of thick bollards."""
+    """Build a row of thick bollards."""
     count, step = int(rng.integers(3, 7)), float(rng.uniform(0.35, 0.5))
     radius, height = float(rng.uniform(0.1, 0.18)), float(rng.uniform(0.8, 1.1))
     return Mesh.joined(
@@ -110,7 +110,7 @@ def bollards(rng: np.random.Generator) -> Mesh:
 
 
 def fence(rng: np.random.Generator, length: float) -> Mesh:
-    """Posts and pales, or posts and rails."""
+    """Build a fence of posts and pales, or of posts and rails."""
     height, step = float(rng.uniform(0.9, 1.7)), float(rng.uniform(1.6, 2.4))
     thick = float(rng.uniform(0.05, 0.12))
     parts = [
@@ -129,7 +129,7 @@ def fence(rng: np.random.Generator, length: float) -> Mesh:
 
 
 def garden_wall(rng: np.random.Generator, length: float) -> Mesh:
-    """A wall with pillars, its height stepping along it."""
+    """Build a wall with pillars, whose height changes in steps."""
     parts, x, height = [], 0.0, float(rng.uniform(0.8, 1.8))
     while x < length:
         run = min(float(rng.uniform(2.0, 4.0)), length - x)

@@ -1,7 +1,7 @@
-"""Houses: walls in relief, a roof, and what is built onto a front.
+"""Houses: walls in relief, a roof, and annexes.
 
-Frame of a house: x along its front, y = 0 at the front and growing into the house, z = 0 at the
-pavement. A car's LiDAR sees little above three meters, so most of the variety is low down.
+Frame of a house: x along its front, y = 0 at the front and positive into the house, z = 0 at the
+sidewalk. A car's LiDAR sees little above 3 m, so most of the variety is below.
 """
 
 from collections.abc import Iterator
@@ -14,15 +14,16 @@ from town.geometry.shapes import box, loft, pole, relief
 from town.objects.annexes import ANNEXES
 
 FOUNDATION = 1.0
-"""Walls go this far into the ground, so that none floats on a slope."""
+"""Depth of the walls in the ground, meters, so that no wall floats on a slope."""
 
 
 def house(rng: np.random.Generator, width: float, depth: float) -> Mesh:
-    """A house with a front, two flanks, a plain back and a gabled roof.
+    """Build a house with a front, two flanks, a plain back and a gabled roof.
 
     Args:
-        width: along the street, meters.
-        depth: away from it, meters.
+        rng: random number generator.
+        width: extent along the street, meters.
+        depth: extent away from the street, meters.
     """
     storeys = int(rng.integers(1, 4))
     height = 0.5 + storeys * float(rng.uniform(2.7, 3.2))
@@ -38,10 +39,13 @@ def house(rng: np.random.Generator, width: float, depth: float) -> Mesh:
 def wall(
     rng: np.random.Generator, width: float, height: float, reflectance: float, rich: bool
 ) -> Mesh:
-    """A wall of bays: windows, doors, bay windows, niches, pilasters.
+    """Build a wall of bays: windows, doors, bay windows, niches and pilasters.
 
     Args:
-        rich: a front; otherwise a flank, with fewer openings and no projections.
+        rng: random number generator.
+        width, height: size of the wall, meters.
+        reflectance: reflectance of the wall.
+        rich: true for a front; a flank has fewer openings and no projections.
     """
     plinth, sill = rng.uniform(0.35, 0.8), rng.uniform(0.9, 1.3)
     lintel = sill + rng.uniform(1.1, 1.6)
@@ -65,7 +69,7 @@ def wall(
         columns, panes = bay_cells(rng, str(rng.choice(kinds, p=chances)), up)
         depth += columns
         glass += panes
-    # The outermost strips stay in the wall's plane, so that the corners of a house meet.
+    # The outermost strips are in the wall's plane, so that the corners of a house meet.
     depth[0], depth[-1] = np.zeros(len(up) - 1), np.zeros(len(up) - 1)
     surface = np.where(np.array(glass), Reflectance.GLASS, reflectance)
     return relief(np.array(along), up, np.array(depth), surface)
@@ -74,10 +78,10 @@ def wall(
 def bay_cells(
     rng: np.random.Generator, kind: str, up: Float64
 ) -> tuple[list[Float64], list[Float64]]:
-    """How far the cells of one bay stand out: three columns (beside, opening, beside).
+    """Return the cells of one bay in three columns (beside, opening, beside).
 
     Returns:
-        depths and, as 0 or 1, which cells are glass; three arrays (rows,) each.
+        Protrusion of the cells, meters, and 1 for glass or 0; three arrays (rows,) each.
     """
     rows = len(up) - 1
     base = np.zeros(rows)
@@ -108,7 +112,7 @@ def bay_cells(
 
 
 def roof(rng: np.random.Generator, width: float, depth: float, height: float) -> Mesh:
-    """A gabled roof with overhanging eaves, with or without dormers."""
+    """Build a gabled roof with overhanging eaves, with or without dormers."""
     rise, eaves = rng.uniform(1.5, 4.0), rng.uniform(0.2, 0.6)
     outline = np.array([[-eaves, height], [depth + eaves, height], [depth / 2, height + rise]])
     gables = [np.insert(outline, 0, x, axis=1) for x in (0.0, width)]
@@ -121,7 +125,7 @@ def roof(rng: np.random.Generator, width: float, depth: float, height: float) ->
 
 
 def annexes(rng: np.random.Generator, width: float, height: float) -> Iterator[Mesh]:
-    """Drainpipes, and two to four things before the front."""
+    """Yield drainpipes and two to four annexes."""
     for x in (0.15, width - 0.15):
         if rng.random() < 0.5:
             yield pole(x, -0.12, 0.07, (-FOUNDATION, height), Reflectance.METAL)

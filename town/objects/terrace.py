@@ -1,4 +1,4 @@
-"""Rows of identical houses: places that look alike."""
+"""Rows of identical houses, which make similar places."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from town.streets.terrain import Terrain
 
 @dataclass(frozen=True, slots=True)
 class Terrace:
-    """One house, and how it is set down again and again.
+    """Design of a row of identical houses.
 
     Attributes:
-        house: in its own frame (see `town.objects.house`).
-        width: of it along the street, meters.
-        gap: to the next, meters.
-        setback: of its front behind the pavement, meters.
-        pavement: its width, meters.
+        house: mesh of the house in its own frame (see `town.objects.house`).
+        width: width of the house along the street, meters.
+        gap: distance to the next house, meters.
+        setback: distance of the front from the sidewalk, meters.
+        pavement: width of the sidewalk, meters.
     """
 
     house: Mesh
@@ -33,7 +33,7 @@ class Terrace:
 
     @classmethod
     def draw(cls, rng: np.random.Generator) -> Self:
-        """A random design."""
+        """Draw a random design."""
         width = float(rng.uniform(8.0, 12.0))
         return cls(
             house=house(rng, width, depth=float(rng.uniform(7.5, 9.0))),
@@ -46,10 +46,9 @@ class Terrace:
     def furnish(
         self, frontage: Frontage, terrain: Terrain, rng: np.random.Generator
     ) -> Iterator[SceneObject]:
-        """The row along one side of a block.
+        """Yield the objects of the row along one side of a block.
 
-        The houses are the same, exactly and in equal steps; their hedges and fences, and what
-        stands at the curb, are not.
+        The houses are identical and evenly spaced. Hedges, fences and street furniture differ.
         """
         site = Site(frontage, terrain)
         x = self.pavement + 1.0

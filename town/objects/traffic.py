@@ -1,4 +1,4 @@
-"""Parked cars and people: what has changed when the next robot comes by."""
+"""Parked cars and people, which differ for each drive."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ from town.streets.terrain import Terrain
 
 
 def traffic(plan: StreetPlan, terrain: Terrain, seed: int) -> Iterator[SceneObject]:
-    """Cars in the parking bays and people on the pavements, as they are in one drive."""
+    """Yield the parked cars and the people on the sidewalks of one drive."""
     rng = np.random.default_rng([seed, 1])
     for frontage in plan.frontages():
         yield from traffic_along(frontage, terrain, rng)
@@ -20,9 +20,9 @@ def traffic(plan: StreetPlan, terrain: Terrain, seed: int) -> Iterator[SceneObje
 def traffic_along(
     frontage: Frontage, terrain: Terrain, rng: np.random.Generator
 ) -> Iterator[SceneObject]:
-    """The same, along one side of a block.
+    """Yield the parked cars and people along one side of a block.
 
-    Half of the bays are taken, by a car of any kind, not quite in the middle.
+    Half of the parking bays have a car of a random kind, not exactly in the middle.
     """
     for x in frontage.bays():
         if rng.random() < 0.5:
@@ -31,7 +31,7 @@ def traffic_along(
                 -BAY_WIDTH / 2 + float(rng.uniform(-0.05, 0.1)),
             )
             heading = frontage.heading + float(rng.normal(scale=0.02))
-            # Cars stand in the direction of their lane, a few the other way.
+            # Cars face in the direction of their lane, a few in the opposite direction.
             if rng.random() < 0.9:
                 heading += np.pi
             yield SceneObject("parked car", terrain.place(car(rng), spot, heading))

@@ -1,6 +1,6 @@
-"""Trees, hedges and bushes: irregular, and let part of the light through.
+"""Trees, hedges and bushes: irregular shapes that let part of the rays pass.
 
-Their origin is the foot's middle (a hedge's: its left end), z = 0 at the ground.
+The origin is the middle of the foot (the left end of a hedge); z = 0 is the ground.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from town.geometry.shapes import blob, circle, leaves, loft, pole
 
 
 def tree(rng: np.random.Generator) -> Mesh:
-    """A street tree, 4 to 11 m high: a leaning trunk, forked at times, under an airy crown."""
+    """Build a street tree, 4 to 11 m high, with a leaning, sometimes forked trunk and a crown."""
     height = float(rng.uniform(4.0, 11.0))
     radius = 0.06 + 0.022 * height * float(rng.uniform(0.7, 1.3))
     fork = float(rng.uniform(0.25, 0.4)) * height
@@ -28,7 +28,7 @@ def tree(rng: np.random.Generator) -> Mesh:
         )
         radii = rng.uniform(0.45, 0.8, size=3) * spread
         outer = (float(radii[0]), float(radii[1]), float(radii[2]))
-        # The core is opaque, as the inside of a crown is to a beam; the leaves make it fuzzy.
+        # The core is opaque, like the inside of a crown; the leaves make its surface irregular.
         core = (0.55 * outer[0], 0.55 * outer[1], 0.55 * outer[2])
         parts.append(blob(rng, middle, core, Reflectance.LEAVES))
         parts.append(leaves(rng, middle, outer, 60, Reflectance.LEAVES))
@@ -43,7 +43,7 @@ def tree(rng: np.random.Generator) -> Mesh:
 
 
 def hedge(rng: np.random.Generator, length: float) -> Mesh:
-    """A hedge along x: a row of overlapping clumps of like height."""
+    """Build a hedge along x from a row of overlapping clumps of similar height."""
     height, thickness = float(rng.uniform(0.9, 2.0)), float(rng.uniform(0.35, 0.6))
     parts = []
     x = 0.4
@@ -58,7 +58,7 @@ def hedge(rng: np.random.Generator, length: float) -> Mesh:
 
 
 def bush(rng: np.random.Generator) -> Mesh:
-    """A bush of one to four clumps, up to about 2 m high."""
+    """Build a bush of one to four clumps, up to about 2 m high."""
     parts = []
     for _ in range(int(rng.integers(1, 5))):
         offset = rng.uniform(-0.6, 0.6, size=2)

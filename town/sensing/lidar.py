@@ -1,6 +1,6 @@
-"""A simulated spinning LiDAR, after the Velodyne HDL-64E of KITTI.
+"""Simulated spinning LiDAR, modeled on the Velodyne HDL-64E of KITTI.
 
-Sensor frame: x ahead, y left, z up, meters, the origin where the beams meet.
+Sensor frame: x ahead, y left, z up, meters; the origin is where the beams meet.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from town.geometry.scene import Surfaces
 
 
 def hdl_64e_elevations() -> tuple[float, ...]:
-    """The 64 beams, degrees above the horizon: 32 in thirds of a degree, 32 in halves below."""
+    """Return the elevations of the 64 beams, degrees: 32 in steps of 1/3, 32 in steps of 1/2."""
     upper = np.linspace(2.0, -8.33, 32)
     lower = np.linspace(-8.83, -24.33, 32)
     return tuple(float(angle) for angle in np.concatenate([upper, lower]))
@@ -20,25 +20,26 @@ def hdl_64e_elevations() -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Lidar:
-    """A sensor that sweeps its beams once around, clockwise from straight behind.
+    """Sensor that sweeps its beams once around, clockwise, beginning behind the robot.
 
-    It moves while it sweeps: each column is fired from where the sensor is just then. The points
-    are then de-skewed with the true motion, as KITTI's are with the measured one: a scan is given
-    in the sensor's frame at the middle of its sweep.
+    The sensor moves during the sweep: each column is fired from the position at its time. The
+    points are then deskewed with the true motion (KITTI: with the measured motion). A scan is in
+    the sensor frame at the middle of its sweep.
 
     Attributes:
-        columns: azimuth steps a turn.
-        elevations: of the beams, degrees above the horizon.
-        height: of the sensor above the ground, meters.
-        range_noise: standard deviation, meters.
-        resolution: ranges come in whole steps of this, meters.
+        columns: number of azimuth steps per revolution.
+        elevations: elevation of each beam, degrees above the horizon.
+        height: height of the sensor above the ground, meters.
+        range_noise: standard deviation of the range, meters.
+        resolution: step of the range, meters.
         dropout: share of the returns that are lost.
-        min_range: nothing nearer returns, meters.
-        max_range: nothing farther returns, meters.
-        range_at_tenth: how far a surface of reflectance 0.1 is seen, meters; the brightness that
-            comes back falls with the square of the range, so darker ones vanish sooner.
-        rain: millimeters an hour (2 is light, 10 heavy): less light comes back, so what is far and
-            dark vanishes (Goodin et al., Predicting the Influence of Rain on LIDAR in ADAS, 2019).
+        min_range: smallest range of a return, meters.
+        max_range: largest range of a return, meters.
+        range_at_tenth: largest range at which a surface of reflectance 0.1 is seen, meters. The
+            intensity decreases with the square of the range, so darker surfaces vanish earlier.
+        rain: rain rate, millimeters per hour (2 is light, 10 heavy). Rain reduces the intensity, so
+            far and dark surfaces vanish (Goodin et al. 2019, *Predicting the Influence of Rain on
+            LIDAR in ADAS*).
     """
 
     columns: int = 1000
@@ -53,11 +54,11 @@ class Lidar:
     rain: float = 0.0
 
     def sweep_times(self) -> Float64:
-        """When each column is fired, in turns from the middle of the sweep: (columns,)."""
+        """Return each column's time, (columns,), in revolutions from the middle of the sweep."""
         return (np.arange(self.columns) + 0.5) / self.columns - 0.5
 
     def directions(self) -> Float32:
-        """Unit vectors in the sensor frame, float32 (columns, beams, 3)."""
+        """Beam directions, unit vectors in the sensor frame, float32 (columns, beams, 3)."""
         azimuth = -2 * np.pi * self.sweep_times()[:, None]
         elevation = np.radians(self.elevations)[None, :]
         ahead = np.cos(elevation) * np.cos(azimuth)
@@ -67,15 +68,16 @@ class Lidar:
 
     def scan(self, scene: Surfaces, sweep: Float64, pose: Float64, rng: np.random.Generator) \
             -> Float32:  # fmt: skip
-        """One turn.
+        """Simulate one revolution.
 
         Args:
-            sweep: (columns, 4, 4) sensor to town at each column's time.
-            pose: (4, 4) sensor to town at the middle of the sweep.
-            rng: of the noise.
+            scene: surfaces in range.
+            sweep: (columns, 4, 4), sensor to town at each column's time.
+            pose: (4, 4), sensor to town at the middle of the sweep.
+            rng: random number generator of the noise.
 
         Returns:
-            float32 (n, 4): x, y, z in the sensor frame of `pose`, and reflectance, 0 to 1.
+            float32 (n, 4), x, y, z in the sensor frame of `pose`, meters, and reflectance, 0 to 1.
         """
         directions = self.directions()
         rotations = sweep[:, :3, :3].astype(np.float32)

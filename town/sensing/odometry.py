@@ -1,4 +1,4 @@
-"""Odometry: where a robot believes to be that adds up its own motion."""
+"""Odometry: poses of a robot that integrates its own motion, with drift."""
 
 from dataclasses import dataclass
 
@@ -11,41 +11,41 @@ ODOMETRY_FILE = "poses_odometry.txt"
 
 @dataclass(frozen=True, slots=True)
 class Odometry:
-    """How a robot's odometry errs.
+    """Error model of a robot's odometry.
 
-    Headings drift as a random walk, and distances are all too long or too short by one share, drawn
-    once a drive. Roll and pitch do not drift: the robot feels which way is down.
+    The heading drifts as a random walk. All distances of a drive have one random scale error. Roll
+    and pitch do not drift, because gravity is measured.
 
     Attributes:
-        yaw: standard deviation of the heading after one meter, degrees; it grows with the root of
-            the meters: 0.05 is half a degree after 100 m.
-        scale: standard deviation of the share by which distances are off: 0.01 is one per cent.
+        yaw: standard deviation of the heading after one meter, degrees. It grows with the square
+            root of the distance: 0.05 gives 0.5 degrees after 100 m.
+        scale: standard deviation of the scale error: 0.01 is one percent.
     """
 
     yaw: float = 0.05
     scale: float = 0.01
 
     def __post_init__(self) -> None:
-        """Refuse what is no deviation.
+        """Check the standard deviations.
 
         Raises:
-            ValueError: negative, not finite, or as large as the distances themselves.
+            ValueError: A value is out of range.
         """
         if not (0 <= self.yaw <= 90 and 0 <= self.scale <= 0.3):
             raise ValueError(
-                f"drift must be 0 to 90 degrees a root meter and a share of 0 to 0.3, "
+                f"Invalid drift: expected a yaw of 0 to 90 degrees and a scale of 0 to 0.3, "
                 f"not {self.yaw} and {self.scale}"
             )
 
     def poses(self, true: Float64, seed: int) -> Float64:
-        """Where the robot believes to be.
+        """Return the estimated poses.
 
         Args:
-            true: (n, 4, 4) sensor to a z-up world.
-            seed: of the errors.
+            true: (n, 4, 4), true transforms from the sensor to a z-up world.
+            seed: seed of the errors.
 
         Returns:
-            (n, 4, 4), the first as it truly is.
+            Estimated poses, (n, 4, 4). The first one is exact.
         """
         rng = np.random.default_rng([seed, 8])
         steps = np.diff(true[:, :3, 3], axis=0)

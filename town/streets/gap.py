@@ -1,4 +1,4 @@
-"""Where a street of the plan is missing: what the gap between the blocks shows at its ends."""
+"""Gaps between blocks, where a street of the plan is missing, and the frontages at their ends."""
 
 from collections.abc import Iterator
 
@@ -9,7 +9,7 @@ from town.streets.plan import Frontage
 
 
 def gap_ends(network: Network, column: int, row: int) -> Iterator[Frontage]:
-    """The ends, at a crossing each, of the gaps east and north of a block."""
+    """Yield the frontages at the ends of the gaps east and north of a block."""
     spans_x, spans_y = network.plan.spans()
     (west, east), (south, north) = spans_x[column], spans_y[row]
     here = (column, row)

@@ -1,4 +1,4 @@
-"""The ground as a mesh: carriageways, curbs, and the raised blocks between them."""
+"""Ground mesh: carriageways, curbs and the raised blocks between them."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -12,24 +12,24 @@ from town.streets.plan import CURB_HEIGHT, StreetPlan
 from town.streets.terrain import Terrain
 
 GROUND_CELL = 2.0
-"""Largest edge of the mesh's cells, meters: the hills stay within a millimeter of it."""
+"""Largest edge length of the mesh's cells, meters. The error of the hills is below 1 mm."""
 
 CURB_WIDTH = 0.02
-"""A curb rises over this distance: all but upright, and still a height field."""
+"""Horizontal width of a curb, meters: nearly vertical, but still a height field."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """A height field on the lines of a grid, which has a line at both edges of every curb.
+    """Height field on a grid that has a line at both edges of every curb.
 
-    *Regions* of a line of n streets, in turn: the rim (0), block 0 (1), street 0 (2), block 1 (3),
-    and so on to the other rim (2n + 2).
+    The *regions* along an axis with n streets are the rim (0), block 0 (1), street 0 (2), block 1
+    (3), and so on to the other rim (2n + 2).
 
     Attributes:
-        terrain: it lies on.
-        x, y: the grid's lines on the plan, rising, meters.
-        regions_x, regions_y: the region that each line lies in.
-        raised: (2n + 3, 2m + 3): where the ground is a curb higher than a carriageway, by region.
+        terrain: terrain with the height of the ground.
+        x, y: positions of the grid lines on the plan, ascending, meters.
+        regions_x, regions_y: region of each line.
+        raised: bool (2n + 3, 2m + 3), regions that are a curb higher than a carriageway.
     """
 
     terrain: Terrain
@@ -41,7 +41,7 @@ class Ground:
 
     @classmethod
     def of(cls, plan: StreetPlan, terrain: Terrain, raised: Bool | None = None) -> Self:
-        """The ground of a town, with all the streets of its plan unless `raised` says otherwise."""
+        """Build the ground of a town, with all streets of its plan unless `raised` is given."""
         spans_x, spans_y = plan.spans()
         x, y = grid_lines(spans_x), grid_lines(spans_y)
         if raised is None:
@@ -50,11 +50,10 @@ class Ground:
         return cls(terrain, x, y, regions(x, spans_x), regions(y, spans_y), raised)
 
     def mesh(self, columns: slice = slice(None), rows: slice = slice(None)) -> Mesh:
-        """The ground as a mesh, or a part of it.
+        """Return the mesh of the ground or of a part of it.
 
         Args:
-            columns, rows: which of the grid's lines. Parts that share their outer lines join
-                without a gap.
+            columns, rows: lines of the grid. Parts with a common outer line join without a gap.
         """
         x, y = self.x[columns], self.y[rows]
         on_block = self.raised[np.ix_(self.regions_x[columns], self.regions_y[rows])]
@@ -70,11 +69,11 @@ class Ground:
         return Mesh(mesh.triangles, np.repeat(reflectance.ravel(), 2).astype(np.float32))
 
     def tile(self, column: int, row: int) -> Mesh:
-        """Block (column, row) with the streets on its east and north; tiles make up the ground."""
+        """Return the mesh of block (column, row) and of the streets east and north of it."""
         return self.mesh(tile_lines(self.regions_x, column), tile_lines(self.regions_y, row))
 
     def boxes(self) -> Float64:
-        """Where the tiles lie: (columns, rows, 2, 2), lowest and highest x and y, town frame."""
+        """Return lowest and highest x and y of each tile, (columns, rows, 2, 2), town frame."""
         columns, rows = ((side - 1) // 2 for side in self.raised.shape)
         boxes = np.empty((columns, rows, 2, 2))
         for column, row in np.ndindex(columns, rows):
@@ -88,7 +87,7 @@ class Ground:
 
 
 def grid_lines(spans: Float64) -> Float64:
-    """Lines at both edges of every curb, and between them at most a cell apart."""
+    """Return grid lines at both edges of every curb and at most a cell apart between them."""
     edges = np.stack([spans[:, 0], spans[:, 0] + CURB_WIDTH,
                       spans[:, 1] - CURB_WIDTH, spans[:, 1]], axis=1).ravel()  # fmt: skip
     parts = [
@@ -99,12 +98,12 @@ def grid_lines(spans: Float64) -> Float64:
 
 
 def regions(lines: Float64, spans: Float64) -> Int64:
-    """The region that each line lies in: (lines,); a kerb's lower edge is part of the street."""
+    """Return the region of each line, (lines,). A curb's lower edge is part of the street."""
     starts, ends = spans[:, 0] + CURB_WIDTH, spans[:, 1] - CURB_WIDTH
     return np.searchsorted(starts, lines, side="right") + np.searchsorted(ends, lines, side="left")
 
 
 def tile_lines(regions: Int64, block: int) -> slice:
-    """Lines from a block's curb to the next block's, or to the end."""
+    """Return the lines from a block's curb to the next block's, or to the end."""
     first, last = np.searchsorted(regions, [2 * block + 1, 2 * block + 3]) - 1
     return slice(int(first), int(last) + 1)

@@ -1,4 +1,4 @@
-"""The street network of a large town: an irregular grid of winding streets with gaps in it."""
+"""Street network of a large town: an irregular grid of winding streets with gaps."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,35 +14,35 @@ from town.streets.plan import Crossing, StreetPlan
 from town.streets.terrain import Terrain
 
 LONGEST = 200_000.0
-"""Meters of streets. Rays are cast in float32, which is half a millimeter coarse that far out."""
+"""Largest total length of the streets, meters. Float32 rays are exact to 0.5 mm at that extent."""
 
 SPARE = 1.25
-"""A plan has this many times the meters that are kept."""
+"""Length of the plan's streets divided by the length that is kept."""
 
 DESIGNS = 4
-"""Of rows of identical houses."""
+"""Number of designs of identical houses."""
 
 OWN = -1
-"""The design of a street whose houses are all their own."""
+"""Design number of a street whose houses are all different."""
 
 STEP = 1.0
-"""Between the points of a street's center line, meters on the plan."""
+"""Distance between the points of a center line, meters on the plan."""
 
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """A graph: crossings, joined by streets.
+    """Graph of crossings that are joined by streets.
 
-    Two streets or more meet at each crossing: none is a dead end, and each can be driven, either
-    way, without turning on the spot.
+    At least two streets meet at each crossing. So there is no dead end, and each street can be
+    driven in both directions without a U-turn.
 
     Attributes:
-        plan: the grid of which the streets are a part.
-        terrain: bends it.
-        streets: int64 (streets, 2): the crossings that each joins, numbered column by column.
-        lengths: (streets,) meters along the center lines, from crossing to crossing.
-        designs: int64 (streets,): which identical houses line it, or `OWN`.
-        joined: bool (crossings, crossings).
+        plan: grid that contains the streets.
+        terrain: terrain that bends the plan.
+        streets: int64 (streets, 2), crossings of each street, numbered column by column.
+        lengths: (streets,), length of each center line from crossing to crossing, meters.
+        designs: int64 (streets,), design of the identical houses along each street, or `OWN`.
+        joined: bool (crossings, crossings), whether a street joins two crossings.
     """
 
     plan: StreetPlan
@@ -54,18 +54,19 @@ class Network:
 
     @classmethod
     def draw(cls, seed: int, meters: float, look_alikes: float = 0.25) -> Self:
-        """The network of this seed.
+        """Draw the network of a seed.
 
         Args:
-            meters: of streets in all; there are up to a street's length more, and half a kilometer
-                at least.
-            look_alikes: the share of the streets that identical houses line.
+            seed: seed of the town.
+            meters: total length of the streets, meters. The network has up to one street more, and
+                at least 500 m.
+            look_alikes: share of the streets that are lined by identical houses, 0 to 1.
 
         Raises:
-            ValueError: no number of meters that a town can have, or no share.
+            ValueError: `meters` or `look_alikes` is out of range.
         """
         if not 0 <= look_alikes <= 1:
-            raise ValueError(f"the share of look-alikes is 0 to 1, not {look_alikes}")
+            raise ValueError(f"Invalid share of look-alikes: expected 0 to 1, not {look_alikes}")
         if not 0 < meters <= LONGEST:
             raise ValueError(f"a town has up to {LONGEST:.0f} m of streets, not {meters} m")
         terrain = Terrain.winding(np.random.default_rng([seed, 3]))
@@ -84,14 +85,14 @@ class Network:
         return cls(plan, terrain, streets[kept], lengths[kept], designs, joined | joined.T)
 
     def meters(self) -> float:
-        """Of streets in all."""
+        """Return the total length of the streets, meters."""
         return float(self.lengths.sum())
 
     def number(self, crossing: Crossing) -> int:
-        """Of a crossing, column by column.
+        """Return the number of a crossing, counted column by column.
 
         Raises:
-            ValueError: there is no such crossing.
+            ValueError: The crossing does not exist.
         """
         column, row = crossing
         if not self.has(crossing):
@@ -99,28 +100,28 @@ class Network:
         return column * len(self.plan.norths) + row
 
     def crossing(self, number: int) -> Crossing:
-        """Column and row of a crossing."""
+        """Return column and row of a crossing, given its number."""
         return divmod(int(number), len(self.plan.norths))
 
     def has(self, crossing: Crossing) -> bool:
-        """Whether there is this crossing."""
+        """Return whether the crossing exists."""
         column, row = crossing
         return 0 <= column < len(self.plan.easts) and 0 <= row < len(self.plan.norths)
 
     def joins(self, one: Crossing, other: Crossing) -> bool:
-        """Whether a street joins two crossings directly; beyond the town there is none."""
+        """Return whether a street joins two crossings directly. Outside the town none does."""
         if not (self.has(one) and self.has(other)):
             return False
         return bool(self.joined[self.number(one), self.number(other)])
 
     def design(self, one: Crossing, other: Crossing) -> int:
-        """Of the houses along the street between two crossings."""
+        """Return the design of the houses along the street between two crossings."""
         ends = sorted((self.number(one), self.number(other)))
         (street,) = np.flatnonzero((self.streets == ends).all(axis=1))
         return int(self.designs[street])
 
     def raised(self) -> Bool:
-        """Tell, by region of `town.streets.ground`, where the ground is raised by a curb."""
+        """Return whether each region of `town.streets.ground` is raised by a curb."""
         columns, rows = len(self.plan.easts), len(self.plan.norths)
         raised = np.zeros((2 * columns + 3, 2 * rows + 3), dtype=bool)
         raised[1:-1, 1:-1] = True
@@ -131,12 +132,12 @@ class Network:
         return raised
 
     def lines(self) -> Iterator[Float64]:
-        """The center line of each street in the town frame, from crossing to crossing: (n, 2)."""
+        """Yield each street's center line in the town frame, from crossing to crossing, (n, 2)."""
         return center_lines(self.plan, self.terrain, self.streets)
 
 
 def grid_streets(plan: StreetPlan) -> Int64:
-    """All streets of a plan, as the numbers of the crossings that each joins: (streets, 2)."""
+    """Return the crossings of each street of a plan, (streets, 2)."""
     numbers = np.arange(len(plan.easts) * len(plan.norths)).reshape(len(plan.easts), -1)
     along = np.stack([numbers[:, :-1].ravel(), numbers[:, 1:].ravel()], axis=1)
     across = np.stack([numbers[:-1].ravel(), numbers[1:].ravel()], axis=1)
@@ -144,7 +145,7 @@ def grid_streets(plan: StreetPlan) -> Int64:
 
 
 def center_lines(plan: StreetPlan, terrain: Terrain, streets: Int64) -> Iterator[Float64]:
-    """Of each street (streets, 2) the center line in the town frame: (n, 2), a step apart."""
+    """Yield the center line of each street in the town frame, (n, 2), meters."""
     for ends in streets:
         start, end = (plan.crossing(*divmod(int(number), len(plan.norths))) for number in ends)
         points = int(np.linalg.norm(end - start) / STEP) + 2
@@ -152,20 +153,23 @@ def center_lines(plan: StreetPlan, terrain: Terrain, streets: Int64) -> Iterator
 
 
 def arc_length(line: Float64) -> float:
-    """Meters along a line (n, 2)."""
+    """Return the length of a line (n, 2), meters."""
     return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
 
 
 def thinned(streets: Int64, lengths: Float64, meters: float, rng: np.random.Generator) -> Int64:
-    """Indices of the streets that are left when random ones are taken away.
+    """Remove random streets and return the indices of the others.
 
-    Each crossing keeps two streets or more, the network hangs together, and it is no mere ring:
-    then every street can be reached from every other without turning on the spot, in whichever
-    direction it is to be driven (Kotani and Sunada, Zeta functions of finite graphs, 2000: the
-    graph of directed edges is strongly connected).
+    Each crossing keeps at least two streets, and the network remains connected and is not a single
+    ring. Then every street can be reached from every other, in both directions, without a U-turn:
+    the graph of directed edges is strongly connected (Kotani and Sunada 2000, *Zeta functions of
+    finite graphs*).
 
     Args:
-        meters: that are left at least.
+        streets: int64 (streets, 2), crossings of each street.
+        lengths: (streets,), meters.
+        meters: smallest total length that remains, meters.
+        rng: random number generator.
     """
     crossings = int(streets.max()) + 1
     kept = np.ones(len(streets), dtype=bool)
@@ -187,6 +191,6 @@ def thinned(streets: Int64, lengths: Float64, meters: float, rng: np.random.Gene
 
 
 def components(streets: Int64, crossings: int) -> int:
-    """How many parts a network falls into."""
+    """Return the number of connected components of a network."""
     graph = csr_matrix((np.ones(len(streets)), tuple(streets.T)), shape=(crossings, crossings))
     return int(connected_components(graph, directed=False)[0])

@@ -1,6 +1,6 @@
-"""The street plan: a grid of streets with blocks of unlike size between them.
+"""Street plan: a grid of straight streets with blocks of different sizes.
 
-The plan is straight; `Terrain.bend` takes it to the town frame. Meters, x east, y north.
+`Terrain.bend` transforms the plan to the town frame. Units are meters; x is east, y is north.
 """
 
 from collections.abc import Iterator
@@ -13,31 +13,31 @@ import numpy as np
 from placecell.core.types import Float64
 
 MARGIN = 32.0
-"""How far the town goes on beyond its outermost streets."""
+"""Extent of the town beyond its outermost streets, meters."""
 
 CURB_HEIGHT = 0.12
 
 BAY_LENGTH = 6.3
 BAY_WIDTH = 2.2
-"""Parking bays lie along the curb, on the carriageway."""
+"""Width of a parking bay, meters. Bays are along the curb, on the carriageway."""
 
 
 Crossing = tuple[int, int]
-"""Column and row of the streets that cross; one less or more than there are: beyond the town."""
+"""Column and row of the crossing streets. Values one outside the range are beyond the town."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frontage:
-    """One side of one block: the frame in which its street is furnished.
+    """One side of a block, with the frame of the objects along its street.
 
-    Its x runs along the curb, its y from the curb (0) into the block; the carriageway lies at
-    negative y.
+    The x axis is along the curb. The y axis points from the curb (0) into the block; the
+    carriageway has negative y.
 
     Attributes:
-        corner: (2,) the frame's origin on the plan, where two curbs meet.
-        heading: of its x axis on the plan, radians.
-        length: of the curb to the next corner.
-        street: the crossings at its two ends.
+        corner: (2,), the frame's origin on the plan, where two curbs meet, meters.
+        heading: direction of the x axis on the plan, radians.
+        length: length of the curb to the next corner, meters.
+        street: crossings at the two ends.
     """
 
     corner: Float64
@@ -46,13 +46,13 @@ class Frontage:
     street: tuple[Crossing, Crossing]
 
     def on_plan(self, x: float, y: float) -> Float64:
-        """A place of this frame, on the plan: (2,)."""
+        """Transform a place of this frame to the plan, (2,)."""
         along = np.array([np.cos(self.heading), np.sin(self.heading)])
         inward = np.array([-along[1], along[0]])
         return np.asarray(self.corner + x * along + y * inward)
 
     def bays(self) -> Float64:
-        """Centres of the parking bays along x: (bays,); none near the crossings."""
+        """Return x of the parking bays' centers, (bays,), meters; there is none near crossings."""
         clear = 12.0
         return np.arange(clear + BAY_LENGTH / 2, self.length - clear - BAY_LENGTH / 2, BAY_LENGTH)
 
@@ -62,10 +62,10 @@ class StreetPlan:
     """Streets north-south and east-west.
 
     Attributes:
-        easts: (n,) x of the center lines of the streets that run north-south.
-        norths: (m,) y of those that run east-west.
-        east_curbs: (n,) distance of the curbs from the center line.
-        north_curbs: (m,) the same.
+        easts: (n,), x of the center lines of the north-south streets, meters.
+        norths: (m,), y of the center lines of the east-west streets, meters.
+        east_curbs: (n,), distance of the curbs from the center lines `easts`, meters.
+        north_curbs: (m,), distance of the curbs from the center lines `norths`, meters.
     """
 
     easts: Float64
@@ -75,34 +75,37 @@ class StreetPlan:
 
     @classmethod
     def draw(cls, rng: np.random.Generator, streets: tuple[int, int]) -> Self:
-        """A random plan.
+        """Draw a random plan.
 
         Args:
-            streets: how many run north-south and how many east-west, two or more each.
+            rng: random number generator.
+            streets: number of streets north-south and east-west, at least two each.
 
         Raises:
-            ValueError: fewer than two streets a direction.
+            ValueError: A direction has fewer than two streets.
         """
         if min(streets) < 2:
-            raise ValueError(f"a town needs two streets a direction or more, not {streets}")
+            raise ValueError(
+                f"Invalid number of streets: expected at least 2 per direction, not {streets}"
+            )
         lines = [np.cumsum(rng.uniform(58.0, 96.0, size=count)) for count in streets]
         curbs = [rng.uniform(5.2, 6.4, size=count) for count in streets]
         return cls(lines[0] - lines[0][0], lines[1] - lines[1][0], curbs[0], curbs[1])
 
     def crossing(self, column: int, row: int) -> Float64:
-        """The middle of a crossing: (2,)."""
+        """Return the center of a crossing, (2,), meters."""
         return np.array([self.easts[column], self.norths[row]])
 
     def spans(self) -> tuple[Float64, Float64]:
-        """From curb to curb: where the blocks lie on x (n + 1, 2) and on y (m + 1, 2)."""
+        """Return the blocks' intervals from curb to curb, on x (n + 1, 2) and y (m + 1, 2)."""
         return block_spans(self.easts, self.east_curbs), block_spans(self.norths, self.north_curbs)
 
     def blocks(self) -> Iterator[tuple[int, int]]:
-        """Columns and rows of the blocks: block (i, j) lies south-west of crossing (i, j)."""
+        """Yield column and row of each block. Block (i, j) is southwest of crossing (i, j)."""
         return product(range(len(self.easts) + 1), range(len(self.norths) + 1))
 
     def block(self, column: int, row: int) -> Iterator[Frontage]:
-        """A block's sides that lie on a street, anticlockwise."""
+        """Yield the sides of a block that are on a street, counterclockwise."""
         spans_x, spans_y = self.spans()
         (west, east), (south, north) = spans_x[column], spans_y[row]
         here = (column, row)
@@ -119,13 +122,13 @@ class StreetPlan:
                 yield Frontage(np.array(corner), heading, float(length), ends)
 
     def frontages(self) -> Iterator[Frontage]:
-        """Every block's sides that lie on a street, block by block."""
+        """Yield the sides of all blocks that are on a street, block by block."""
         for column, row in self.blocks():
             yield from self.block(column, row)
 
 
 def block_spans(lines: Float64, curbs: Float64) -> Float64:
-    """Intervals between the streets' curbs and outside the outermost: (lines + 1, 2)."""
+    """Return the intervals of the blocks along an axis, from curb to curb, (lines + 1, 2)."""
     starts = np.concatenate([[lines[0] - MARGIN], lines + curbs])
     ends = np.concatenate([lines - curbs, [lines[-1] + MARGIN]])
     return np.stack([starts, ends], axis=1)

@@ -1,8 +1,7 @@
-"""Ways through a street network: every street, strolls, loops, shortest paths.
+"""Planner of paths through a street network: all streets, random paths, loops, shortest paths.
 
-A way is a list of crossings, each joined to the next by a street. No way turns on the spot: it
-never goes back along the street it came by. So paths are sought over *arcs*, streets with a
-direction.
+A path is a list of crossings, each joined to the next by a street. It has no U-turns: it never goes
+back along the street by which it came. So the search graph has *arcs*: streets with a direction.
 """
 
 from collections.abc import Sequence
@@ -24,15 +23,15 @@ Way = list[Crossing]
 
 @dataclass(frozen=True)
 class Planner:
-    """Plans ways.
+    """Planner of paths.
 
     Attributes:
-        network: of streets.
-        arcs: int64 (2 * streets, 2): the crossings that each arc leads from and to; arcs k and
-            k + streets are the two directions of street k.
-        lengths: (2 * streets,) meters.
-        onward: sparse (arcs, arcs): from each arc to those that go on from its end, but for its
-            own way back; meters of the latter.
+        network: street network.
+        arcs: int64 (2 * streets, 2), start and end crossing of each arc. Arcs k and k + streets are
+            the two directions of street k.
+        lengths: (2 * streets,), meters.
+        onward: sparse (arcs, arcs), length of each arc that continues another one, except its
+            reverse, meters.
     """
 
     network: Network
@@ -42,7 +41,7 @@ class Planner:
 
     @classmethod
     def of(cls, network: Network) -> Self:
-        """The planner of a network."""
+        """Create the planner of a network."""
         arcs = np.concatenate([network.streets, network.streets[:, ::-1]])
         lengths = np.tile(network.lengths, 2)
         before, after = np.nonzero(
@@ -52,10 +51,10 @@ class Planner:
         return cls(network, arcs, lengths, onward)
 
     def between(self, start: Crossing, goal: Crossing) -> Way:
-        """The shortest way from one crossing to another.
+        """Return the shortest path from one crossing to another.
 
         Raises:
-            ValueError: there is no such crossing, or they are the same.
+            ValueError: A crossing does not exist, or both are the same.
         """
         first, last = self.network.number(start), self.network.number(goal)
         if first == last:
@@ -66,30 +65,31 @@ class Planner:
         return [self.network.crossing(number) for number in traced(previous, first, last)]
 
     def every_street(self) -> Way:
-        """The shortest way round that takes each street at least once, either way."""
+        """Return the shortest closed path that contains each street at least once."""
         return self._way(postman(self.network.streets, self.network.lengths))
 
     def wander(self, length: float, rng: np.random.Generator) -> Way:
-        """A random way of at least this many meters."""
+        """Return a random path of at least this length, meters."""
         walk = [int(rng.integers(len(self.arcs)))]
         while self.lengths[walk].sum() < length:
             walk.append(self._any_onward(walk[-1], rng))
         return self._way(walk)
 
     def loop(self, length: float, rng: np.random.Generator, laps: int = 1) -> Way:
-        """A random way round of at least this many meters; it ends with its first street again.
+        """Return a random closed path of at least this length. It ends with its first street.
 
         Args:
-            length: of one lap, meters.
-            laps: how many times it goes round.
+            length: smallest length of one lap, meters.
+            rng: random number generator.
+            laps: number of laps.
 
         Raises:
-            ValueError: fewer laps than one.
+            ValueError: `laps` is less than 1.
         """
         if laps < 1:
             raise ValueError(f"a loop has one lap or more, not {laps}")
         first = int(rng.integers(len(self.arcs)))
-        # From the end of each arc back to the end of the first.
+        # Distance from the end of each arc back to the end of the first.
         home, towards = dijkstra(self.onward.T, indices=first, return_predecessors=True)
         walk = [first]
         while len(walk) < 2 or self.lengths[walk[1:]].sum() + home[walk[-1]] < length:
@@ -99,18 +99,18 @@ class Planner:
         return self._way([*(lap * laps), first])
 
     def meters(self, way: Sequence[Crossing]) -> float:
-        """Along the streets of a way.
+        """Return the length of a path, meters.
 
         Raises:
-            ValueError: it is none.
+            ValueError: It is no valid path (see `arcs_of`).
         """
         return float(sum(self.lengths[arc] for arc in self.arcs_of(way)))
 
     def arcs_of(self, way: Sequence[Crossing]) -> list[int]:
-        """The arcs that a way takes.
+        """Return the arcs of a path.
 
         Raises:
-            ValueError: fewer than two crossings, some that no street joins, or a turn on the spot.
+            ValueError: The path has fewer than two crossings, a gap, or a U-turn.
         """
         if len(way) < 2:
             raise ValueError("a way needs two crossings or more")
@@ -134,7 +134,7 @@ class Planner:
 
 
 def traced(previous: Int64, start: int, end: int) -> list[int]:
-    """The nodes from start to end, from each node's predecessor (nodes,)."""
+    """Return the nodes from start to end, given each node's predecessor (nodes,)."""
     path = [end]
     while path[-1] != start:
         path.append(int(previous[path[-1]]))

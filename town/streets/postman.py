@@ -1,11 +1,11 @@
-"""The Chinese postman's round: every street of a network at least once, in as few meters as can be.
+"""Chinese postman tour: the shortest closed path that contains every street of a network.
 
-Where an odd number of streets meets, the round cannot leave as often as it comes; so such crossings
-are paired with the least meters in all, and the streets on the paths between the two of a pair are
-taken twice (Edmonds and Johnson, Matching, Euler tours and the Chinese postman, 1973). What is then
-even everywhere falls into closed trails, which are joined where they meet, and never so that the
-round goes back along the street that it came by (Kotzig, Moves without forbidden transitions in a
-graph, 1968: where four or more ways meet and no street is there more than twice, it need not).
+A tour leaves a crossing as often as it enters it. So crossings with an odd number of streets are
+paired at the smallest total distance, and the streets on the paths between them are used twice
+(Edmonds and Johnson 1973, *Matching, Euler tours and the Chinese postman*). The resulting graph
+consists of closed trails, which are joined at common crossings without U-turns. That is always
+possible if each crossing has at least four street ends and at most two of one street (Kotzig 1968,
+*Moves without forbidden transitions in a graph*).
 """
 
 from itertools import combinations
@@ -20,12 +20,12 @@ from placecell.core.types import Float64, Int64
 
 
 def postman(streets: Int64, lengths: Float64) -> list[int]:
-    """The round, as arcs: k along street k, k + streets along it the other way.
+    """Return the tour as arcs: k along street k, k + streets in the opposite direction.
 
     Args:
-        streets: (streets, 2): the crossings that each joins; two or more at each crossing, and all
-            of them connected.
-        lengths: (streets,) meters.
+        streets: (streets, 2), crossings of each street, at least two streets per crossing, all
+            connected.
+        lengths: (streets,), meters.
     """
     copies = np.concatenate([np.arange(len(streets)), twice(streets, lengths)]).astype(np.int64)
     partner = transitions(streets[copies], copies)
@@ -38,7 +38,7 @@ def postman(streets: Int64, lengths: Float64) -> list[int]:
 
 
 def twice(streets: Int64, lengths: Float64) -> Int64:
-    """The streets that the round takes twice: indices."""
+    """Return the indices of the streets that the tour uses twice."""
     odd = np.flatnonzero(np.bincount(streets.ravel()) % 2)
     crossings = int(streets.max()) + 1
     graph = csr_matrix((lengths, tuple(streets.T)), shape=(crossings, crossings))
@@ -59,15 +59,15 @@ def twice(streets: Int64, lengths: Float64) -> Int64:
 
 
 def transitions(edges: Int64, streets: Int64) -> list[int]:
-    """By which end the round goes on, wherever it comes to an end of an edge.
+    """Return the end by which the tour continues from each end of an edge.
 
     Args:
-        edges: (edges, 2): the crossings of each; edge e has the ends 2 e and 2 e + 1. An even
-            number of ends is at each crossing.
-        streets: (edges,): the street that each runs along.
+        edges: (edges, 2), crossings of each edge. Edge e has the ends 2 e and 2 e + 1. Each
+            crossing has an even number of ends.
+        streets: (edges,), street of each edge.
 
     Returns:
-        the partner of each end, at the same crossing and on another street.
+        The partner of each end, at the same crossing and on another street.
     """
     partner = [0] * edges.size
     at_crossing = []
@@ -75,7 +75,7 @@ def transitions(edges: Int64, streets: Int64) -> list[int]:
         ends = np.flatnonzero(edges.ravel() == crossing)
         ends = ends[np.argsort(streets[ends // 2], kind="stable")]
         half = len(ends) // 2
-        # Both ends of a street taken twice stand side by side; half a round of four on is another.
+        # Ends of one street are adjacent; the end half a list away is another street's.
         pairs = [
             (int(one), int(other)) for one, other in zip(ends[:half], ends[half:], strict=True)
         ]

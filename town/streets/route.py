@@ -1,4 +1,4 @@
-"""Routes: where a robot drives, in the right-hand lane of the town's streets."""
+"""Routes of robots, in the right-hand lane of the town's streets."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,20 +13,20 @@ from town.streets.plan import Crossing, StreetPlan
 from town.streets.terrain import Terrain
 
 CORNER_RADIUS = 9.0
-"""Of the center line where a route turns at a crossing, meters."""
+"""Radius of the center line where a route turns at a crossing, meters."""
 
 STEP = 0.25
-"""Between the points of a line, meters."""
+"""Distance between the points of a line, meters."""
 
 
 @dataclass(frozen=True)
 class Route:
-    """A way along the streets' center lines, driven beside them.
+    """Route along the center lines of streets, at an offset to them.
 
     Attributes:
-        terrain: the ground driven on.
-        center: (n, 2) the center line in the direction of travel, town frame, meters.
-        lane_offset: meters to the right of it (negative: to the left, against the traffic).
+        terrain: terrain with the height of the ground.
+        center: (n, 2), center line in the direction of travel, town frame, meters.
+        lane_offset: offset of the lane to the right, meters; negative for the opposite lane.
     """
 
     terrain: Terrain
@@ -41,10 +41,10 @@ class Route:
         crossings: Sequence[Crossing],
         lane_offset: float = 1.6,
     ) -> Self:
-        """A route over crossings, each (column, row) next to the one before it.
+        """Build a route over adjacent crossings (column, row).
 
         Raises:
-            ValueError: fewer than two crossings, or some that no street joins.
+            ValueError: There are fewer than two crossings, or two that no street joins.
         """
         if len(crossings) < 2:
             raise ValueError("a route needs two crossings or more")
@@ -61,7 +61,7 @@ class Route:
         crossings: Sequence[Crossing],
         lane_offset: float = 1.6,
     ) -> Self:
-        """A route straight from crossing to crossing of a plan, whatever streets there are."""
+        """Build a route straight from crossing to crossing, without a check of streets."""
         corners = np.stack([plan.crossing(*crossing) for crossing in crossings])
         return cls(terrain, terrain.bend(rounded(corners)), lane_offset)
 
@@ -74,23 +74,27 @@ class Route:
         seed: int = 0,
         lane_offset: float = 1.6,
     ) -> Self:
-        """A random route of at least this length, that never turns back on the spot.
+        """Draw a random route without U-turns.
 
         Args:
-            length: meters.
+            plan: street plan.
+            terrain: terrain of the town.
+            length: smallest length, meters.
+            seed: seed of the route.
+            lane_offset: offset of the lane to the right of the center line, meters.
         """
         crossings = stroll(plan, length, np.random.default_rng([seed, 2]))
         return cls.through(plan, terrain, crossings, lane_offset)
 
     def reversed(self) -> Self:
-        """The same streets the other way, so in the other lane."""
+        """Return the route in the opposite direction and lane."""
         return replace(self, center=self.center[::-1])
 
     def cut(self, start: float, length: float) -> Self:
-        """A stretch, measured along the center line in meters.
+        """Return a part of the route, given start and length along the center line, meters.
 
         Raises:
-            ValueError: the route is too short for it.
+            ValueError: The route is too short.
         """
         traveled = arc_lengths(self.center)
         if start < 0 or start + length > traveled[-1] + STEP:
@@ -102,33 +106,33 @@ class Route:
         return replace(self, center=self.center[wanted])
 
     def lane(self) -> Float64:
-        """The line driven, in the town frame: (n, 2)."""
+        """Line of the lane in the town frame, (n, 2), meters."""
         ahead = np.gradient(self.center, axis=0)
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
         right = np.stack([ahead[:, 1], -ahead[:, 0]], axis=1)
         return np.asarray(self.center + self.lane_offset * right)
 
     def length(self) -> float:
-        """Meters along the lane."""
+        """Return the length of the lane, meters."""
         return float(self._driven[1][-1])
 
     @cached_property
     def _driven(self) -> tuple[Float64, Float64, Float64]:
-        """The lane (n, 2), the meters to each of its points (n,), and the headings there (n,)."""
+        """Return the lane (n, 2), the arc length of each point (n,) and the heading there (n,)."""
         lane = self.lane()
         direction = np.gradient(lane, axis=0)
         headings = np.unwrap(np.arctan2(direction[:, 1], direction[:, 0]))
         return lane, arc_lengths(lane), headings
 
     def poses(self, distances: Float64, height: float) -> Float64:
-        """Where a sensor is after so many meters along the lane.
+        """Return the sensor poses at distances along the lane.
 
         Args:
-            distances: (n,) meters from the route's start.
-            height: of the sensor above the carriageway, meters.
+            distances: (n,), distance from the start of the route, meters.
+            height: height of the sensor above the carriageway, meters.
 
         Returns:
-            float64 (n, 4, 4): sensor (x ahead, y left, z up from the slope) to town.
+            float64 (n, 4, 4), sensor (x ahead, y left, z normal to the slope) to town.
         """
         lane, traveled, headings = self._driven
         heading = np.interp(distances, traveled, headings)
@@ -146,13 +150,13 @@ class Route:
 
 
 def arc_lengths(line: Float64) -> Float64:
-    """Meters from a line's start to each of its points (n, 2): (n,)."""
+    """Return the arc length from a line's start to each of its points (n, 2), (n,), meters."""
     steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def rounded(corners: Float64) -> Float64:
-    """A line over corners (n, 2), its right angles rounded: points a step apart, (m, 2)."""
+    """Return a line over corners (n, 2) with rounded right angles: points (m, 2) a step apart."""
     points = [corners[0]]
     for before, corner, after in zip(corners[:-2], corners[1:-1], corners[2:], strict=True):
         entry = corner - CORNER_RADIUS * unit(corner - before)
@@ -171,12 +175,12 @@ def rounded(corners: Float64) -> Float64:
 
 
 def unit(vector: Float64) -> Float64:
-    """The vector at length 1."""
+    """Return the unit vector in the direction of a vector."""
     return np.asarray(vector / np.linalg.norm(vector))
 
 
 def stroll(plan: StreetPlan, length: float, rng: np.random.Generator) -> list[tuple[int, int]]:
-    """Crossings of a random walk on the grid, until it is this long."""
+    """Return the crossings of a random walk on the grid of at least this length, meters."""
     columns, rows = len(plan.easts), len(plan.norths)
     here = (int(rng.integers(columns)), int(rng.integers(rows)))
     walk, walked = [here], 0.0
@@ -190,6 +194,6 @@ def stroll(plan: StreetPlan, length: float, rng: np.random.Generator) -> list[tu
         ]
         walk.append(ways[int(rng.integers(len(ways)))])
         street = np.linalg.norm(plan.crossing(*walk[-1]) - plan.crossing(*walk[-2]))
-        # A rounded corner is shorter than the right angle; a bend is at most 4 m longer or so.
+        # A rounded corner is shorter than a right angle; a bend is longer by at most about 4 m.
         walked += float(street) - CORNER_RADIUS * (2 - np.pi / 2)
     return walk

@@ -1,4 +1,4 @@
-"""The lie of the land: how the plan's straight streets are bent, and how high the ground is."""
+"""Terrain: the bend of the plan's straight streets and the height of the ground."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -11,18 +11,18 @@ from town.geometry.mesh import Mesh
 
 @dataclass(frozen=True, slots=True)
 class Terrain:
-    """Sums of plane waves: shallow, smooth, and known everywhere in closed form.
+    """Sums of plane waves, which are smooth and known everywhere in closed form.
 
-    The plan is drawn on a straight grid; `bend` shifts it sideways by a few meters, so that streets
-    curve and no two cross at the same angle. All lengths are meters; town frame: z up.
+    The plan is a straight grid. `bend` shifts it sideways by a few meters, so that streets curve
+    and crossings have different angles. Lengths are in meters; the town frame has z up.
 
     Attributes:
-        bend_waves: (n, 2) wave vectors on the plan, 1/m.
-        bend_shifts: (n, 2) shifts on x and y at each wave's crest.
-        bend_phases: (n,) radians.
-        hill_waves: (m, 2) wave vectors in the town frame, 1/m.
-        hill_heights: (m,) amplitudes.
-        hill_phases: (m,) radians.
+        bend_waves: (n, 2), wave vectors on the plan, 1/m.
+        bend_shifts: (n, 2), shift along x and y at each wave's crest, meters.
+        bend_phases: (n,), radians.
+        hill_waves: (m, 2), wave vectors in the town frame, 1/m.
+        hill_heights: (m,), amplitudes, meters.
+        hill_phases: (m,), radians.
     """
 
     bend_waves: Float64
@@ -34,10 +34,11 @@ class Terrain:
 
     @classmethod
     def draw(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
-        """A random terrain.
+        """Draw a random terrain.
 
         Args:
-            slope: the steepest that the ground can get, as rise over run.
+            rng: random number generator.
+            slope: largest slope of the ground, as rise over run.
         """
         bends, hills = 3, 4
         hill_waves = waves(rng, hills, shortest=140.0, longest=420.0)
@@ -54,19 +55,21 @@ class Terrain:
 
     @classmethod
     def winding(cls, rng: np.random.Generator, slope: float = 0.03) -> Self:
-        """A random terrain for a large town, whose streets wind by tens of meters.
+        """Draw a random terrain for a large town, whose streets wind by tens of meters.
 
-        Each wave shifts across its own direction. Streets run nearly along the waves, or across
-        them: what is bent grows longer, hardly ever shorter, so what stands there has its room.
+        Each wave shifts perpendicular to its direction. Streets are nearly parallel or
+        perpendicular to the waves. So a bent street becomes longer and seldom shorter, and its
+        objects have room.
 
         Args:
-            slope: the steepest that the ground can get, as rise over run.
+            rng: random number generator.
+            slope: largest slope of the ground, as rise over run.
         """
         hills = cls.draw(rng, slope)
         angles = rng.uniform(-0.1, 0.1, size=4) + np.array([0, 0, np.pi / 2, np.pi / 2])
         lengths = rng.uniform(450.0, 900.0, size=4)
         directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        # How far a wave turns a street at most, as a slope: four to nine degrees.
+        # Largest rotation of a street by a wave, as a slope: four to nine degrees.
         turns = rng.uniform(0.07, 0.16, size=(4, 1)) * rng.choice([-1.0, 1.0], size=(4, 1))
         across = np.stack([-directions[:, 1], directions[:, 0]], axis=1)
         return replace(
@@ -77,29 +80,29 @@ class Terrain:
         )
 
     def bend(self, plan: Float64) -> Float64:
-        """From the plan (..., 2) to the town frame (..., 2)."""
+        """Transform places of the plan (..., 2) to the town frame (..., 2)."""
         return plan + np.sin(plan @ self.bend_waves.T + self.bend_phases) @ self.bend_shifts
 
     def height(self, places: Float64) -> Float64:
-        """Ground height (carriageway level) at places of the town frame: (..., 2) -> (...)."""
+        """Return the ground height (carriageway level), (...), at places (..., 2), town frame."""
         waves_there = np.sin(places @ self.hill_waves.T + self.hill_phases)
         return np.asarray(waves_there @ self.hill_heights)
 
     def normals(self, places: Float64) -> Float64:
-        """Unit normals of the ground: (..., 2) -> (..., 3)."""
+        """Return the unit normals of the ground, (..., 3), at places (..., 2), town frame."""
         phases = np.cos(places @ self.hill_waves.T + self.hill_phases)
         slopes = (phases * self.hill_heights) @ self.hill_waves
         normals = np.concatenate([-slopes, np.ones((*slopes.shape[:-1], 1))], axis=-1)
         return np.asarray(normals / np.linalg.norm(normals, axis=-1, keepdims=True))
 
     def place(self, mesh: Mesh, plan: Float64, heading: float, lift: float = 0.0) -> Mesh:
-        """Set an object upright on the ground.
+        """Place an object upright on the ground.
 
         Args:
-            mesh: in its own frame.
-            plan: (2,) where on the plan the object's origin goes.
-            heading: of the object's x axis on the plan, radians; turned along with the bend.
-            lift: meters above the carriageway's level (the pavement's height, say).
+            mesh: mesh in the object's frame.
+            plan: (2,), position of the object's origin on the plan, meters.
+            heading: direction of the object's x axis on the plan, radians. It follows the bend.
+            lift: height above the carriageway, meters (such as the curb's height).
         """
         ahead = plan + 0.5 * np.array([np.cos(heading), np.sin(heading)])
         here, there = self.bend(np.stack([plan, ahead]))
@@ -108,7 +111,7 @@ class Terrain:
 
 
 def waves(rng: np.random.Generator, count: int, shortest: float, longest: float) -> Float64:
-    """Random wave vectors (count, 2), 1/m, of wavelengths between two bounds in meters."""
+    """Draw random wave vectors (count, 2), 1/m, of wavelengths between two bounds, meters."""
     lengths = rng.uniform(shortest, longest, size=count)
     angles = rng.uniform(0, 2 * np.pi, size=count)
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
