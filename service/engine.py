@@ -22,7 +22,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import TracebackType
-from typing import Literal, Self
+from typing import Self
 
 from numpy.typing import ArrayLike
 from placecell_client import CompactMap, Delta, Info, decode, encode, encode_delta
@@ -31,8 +31,9 @@ from placecell_client.maps.map_file import VERSION
 from placecell.core.cancellation import current
 from placecell.descriptors.manifest import Manifest, ModelError
 from placecell.localization import LocalizationParameters
-from placecell.map_alignment import AlignmentParameters, MapAlignment
+from placecell.map_alignment import AlignmentParameters
 from service.core.auth import ANYONE, Principal
+from service.core.cost import check_cost, cost_of_aligning
 from service.core.metrics import Metrics
 from service.core.preconditions import Preconditions
 from service.core.settings import Settings
@@ -52,16 +53,13 @@ from service.maps.sync import MapSync, SyncPage
 from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
 from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
-from service.merging.alignment import MapSide, align_maps, check_same_model
+from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
 from service.merging.merge import Merger, MergeResult
 from service.search.localization import LocalizationResult, localize
 from service.search.matching import MatchResult, match
 from service.search.query import Query, query_of_codes, query_of_scan, select_maps
 from service.search.sessions import RobotSession, Session, Sessions
 from service.warm_up import warm_up
-
-Motion = Literal["yaw", "se3"]
-"""Degrees of freedom of a pose: yaw and translation, or all six."""
 
 NO_CONDITIONS = Preconditions()
 
@@ -330,7 +328,7 @@ class Engine:
 
     def align(
         self, name: str, other: str, parameters: AlignmentParameters | None = None
-    ) -> MapAlignment:
+    ) -> AlignedMaps:
         """Return the transform from another map's frame into a map's, or the reason for none.
 
         Args:
@@ -339,14 +337,19 @@ class Engine:
             parameters: parameters of the alignment; the default ones unless given.
 
         Raises:
-            Problem: 404 if there is no such map, 409 if two models made the maps.
+            Problem: 404 if there is no such map, 409 if two models made the maps, 413 if it is too
+                much work.
         """
         here, there = self.maps.get(name), self.maps.get(other)
         check_same_model(here, there)
         model = self.models.named(here.model_id)
-        a, b = MapSide.of(here), MapSide.of(there)
         options = parameters or AlignmentParameters()
-        return align_maps(a, b, a.index(model), model, options, current().check)
+        self._check_alignments(
+            [here, there], options, "Align smaller maps, such as parts of these."
+        )
+        a, b = MapSide.of(here), MapSide.of(there)
+        found = align_maps(a, b, a.index(model), model, options, current().check)
+        return AlignedMaps(a, b, found)
 
     def writer(
         self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
@@ -445,12 +448,27 @@ class Engine:
         principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
     ) -> MergeResult:
-        """Align maps with each other and write their segments into one map; see `Merger.merge`."""
+        """Align maps with each other and write their segments into one map; see `Merger.merge`.
+
+        Raises:
+            Problem: as `Merger.merge`; 413 if it is too much work.
+        """
+        options = parameters or AlignmentParameters()
+        merged = self.maps.find(name)
+        snapshots = [*([] if merged is None else [merged]), *map(self.maps.get, maps)]
+        self._check_alignments(snapshots, options, "Merge fewer or smaller maps at once.")
         merger = Merger(
             writer=self.writer(principal, conditions),
-            parameters=parameters or AlignmentParameters(),
+            parameters=options,
             deduplicate=deduplicate,
             dry_run=dry_run,
             check=current().check,
         )
         return merger.merge(name, maps)
+
+    def _check_alignments(
+        self, snapshots: Sequence[MapSnapshot], parameters: AlignmentParameters, remedy: str
+    ) -> None:
+        """Check that the alignments of all pairs are not too much work; 413 if they are."""
+        cost = cost_of_aligning([len(each) for each in snapshots], K, parameters)
+        check_cost(cost, self.settings.limits.alignment_seconds, remedy)

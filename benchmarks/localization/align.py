@@ -112,7 +112,7 @@ def measure_alignment(
                 part = drives.stretch(which, pair[f"scans_{name}"], frame)
                 engine.put_map(f"{name}-{number}", part)
             started = perf_counter()
-            found = engine.align(f"a-{number}", f"b-{number}")
+            found = engine.align(f"a-{number}", f"b-{number}").found
             milliseconds = 1e3 * (perf_counter() - started)
             rows.append(row_of(kind, pair, found, milliseconds))
         model_id = engine.model.id

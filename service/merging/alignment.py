@@ -7,6 +7,7 @@ import numpy as np
 from placecell_client import CompactMap
 
 from placecell.core.types import Float64, Int64
+from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters, MapAlignment, MapView, align
 from service.core.problems import Problem
 from service.inference.match_probability import match_probabilities
@@ -54,6 +55,26 @@ class MapSide:
         if snapshot.index is not None and self.content is snapshot.layers.base:
             return snapshot.index.base
         return index_of(self.content.codes, model.manifest.quantizer)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AlignedMaps:
+    """Two stored maps and the alignment of the second one with the first one.
+
+    Attributes:
+        a: the first map.
+        b: the second map.
+        found: their alignment; its rows are those of the two contents.
+    """
+
+    a: MapSide
+    b: MapSide
+    found: MapAlignment
+
+    @property
+    def pose(self) -> Pose | None:
+        """Return the pose of b's frame in a's; None if the maps are not aligned."""
+        return self.found.pose
 
 
 class StoredMatchProbabilities:

@@ -6,7 +6,6 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
-from placecell.core.cancellation import current
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
 from service.api.alignment_responses import alignment_of, merged_of
@@ -18,22 +17,13 @@ from service.api.path_parameters import Name, OtherName
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import State
 from service.core.auth import Principal
-from service.core.cost import check_cost, cost_of_aligning
 from service.core.problems import Problem, invalid, invalid_value
-from service.inference.model_registry import Model
-from service.maps.snapshot import MapSnapshot
-from service.merging.alignment import K, MapSide, align_maps, check_same_model
-from service.merging.merge import Merger
 
 router = APIRouter(tags=["sharing"])
 
 _NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
     201: {"model": MergedOut, "description": "The merged map is new."}
 }
-
-PARAMETERS = AlignmentParameters()
-
-SMALLER = "Align smaller maps, such as parts of these."
 
 Motion = Annotated[
     Literal["yaw", "se3"],
@@ -73,27 +63,21 @@ async def align(
         if body.content:  # merge takes options in its body; here they would be ignored
             detail = "Align takes its options in the query (?motion=se3), not in a body."
             raise Problem(422, "invalid-request", detail)
-        one, another = state.engine.maps.get(name), state.engine.maps.get(other)
-        check_same_model(one, another)
-        model = state.engine.models.named(one.model_id)
-        check_cost(
-            cost_of_aligning([len(one), len(another)], K, PARAMETERS),
-            state.settings.limits.alignment_seconds,
-            SMALLER,
-        )
-        answer = await state.run(_aligned, one, another, model, motion, pairs)
+        answer = await state.run(_aligned, state, name, other, motion, pairs)
     timing.lap("verify")
     return answer
 
 
 def _aligned(
-    one: MapSnapshot, other: MapSnapshot, model: Model, motion: Literal["yaw", "se3"], pairs: bool
+    state: State, name: str, other: str, motion: Literal["yaw", "se3"], pairs: bool
 ) -> AlignmentOut:
-    parameters = AlignmentParameters(local=LocalizationParameters(model=motion))
-    here, there = MapSide.of(one), MapSide.of(other)
-    found = align_maps(here, there, here.index(model), model, parameters, current().check)
-    ids = (here.content.ids, there.content.ids) if pairs else None
-    return alignment_of(found, one, other, ids)
+    aligned = state.engine.align(name, other, _parameters(motion))
+    ids = (aligned.a.content.ids, aligned.b.content.ids) if pairs else None
+    return alignment_of(aligned.found, aligned.a.snapshot, aligned.b.snapshot, ids)
+
+
+def _parameters(motion: Literal["yaw", "se3"]) -> AlignmentParameters:
+    return AlignmentParameters(local=LocalizationParameters(model=motion))
 
 
 @router.post(
@@ -116,20 +100,16 @@ async def merge(write: MapWriteOf) -> JSONResponse:
     state = write.state
     async with write.receive(state.lanes.alignments, (JSON,)) as body:
         asked = await state.run(_read, body, write.name, state, write.principal)
-        parameters = AlignmentParameters(local=LocalizationParameters(model=asked.motion))
-        check_cost(
-            cost_of_aligning(_sizes(write.name, asked, state), K, PARAMETERS),
-            state.settings.limits.alignment_seconds,
-            "Merge fewer or smaller maps at once.",
-        )
-        merger = Merger(
-            writer=write.writer,
-            parameters=parameters,
+        merged = await write.run(
+            state.engine.merge_maps,
+            write.name,
+            asked.maps,
+            parameters=_parameters(asked.motion),
             deduplicate=asked.deduplicate,
             dry_run=asked.dry_run,
-            check=current().check,
+            principal=write.principal,
+            conditions=write.writer.conditions,
         )
-        merged = await write.run(merger.merge, write.name, asked.maps)
     if merged.written is not None:
         write.record_result("merge", merged.written)
     answer = merged_of(merged, write.name, asked.maps)
@@ -138,12 +118,6 @@ async def merge(write: MapWriteOf) -> JSONResponse:
         status_code=201 if merged.written is not None and merged.written.is_new else 200,
         headers={"ETag": f'"{answer.etag}"'} if answer.etag is not None else None,
     )
-
-
-def _sizes(name: str, asked: MergeRequest, state: State) -> list[int]:
-    """Return the numbers of segments of a merge's maps, in the order of their alignment."""
-    snapshots = [state.engine.maps.find(name), *map(state.engine.maps.get, asked.maps)]
-    return [len(each) for each in snapshots if each is not None]
 
 
 def _read(content: bytes, name: str, state: State, principal: Principal) -> MergeRequest:

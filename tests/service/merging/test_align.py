@@ -11,7 +11,6 @@ from placecell_client import Delta, decode, encode_delta
 from placecell_client.maps.edit import take
 from scipy.spatial.transform import Rotation
 
-import service.api.routes.align as route
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import Pose
 from service.merging import alignment
@@ -265,7 +264,7 @@ def test_too_many_alignments_get_429(
         assert go.wait(30)
         return alignment.align_maps(*args)
 
-    monkeypatch.setattr(route, "align_maps", slow)
+    monkeypatch.setattr("service.engine.align_maps", slow)
     answers: list[Any] = []
     with start(limits={"alignments": 1}) as service:
         put(service, "east", driven(manifest.model_id, "east", 0, 150))
