@@ -121,3 +121,8 @@ def test_help_shows_an_example() -> None:
     shown = " ".join(run("--help").output.split())
     assert "--meters 5000" in shown
     assert "poses_odometry.txt" in shown
+
+
+def test_british_spelling_of_an_option_is_accepted(tmp_path: Path) -> None:
+    result = run(tmp_path / "drives", "--metres", 0, status=1)
+    assert result.output == run(tmp_path / "drives", "--meters", 0, status=1).output
