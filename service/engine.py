@@ -374,10 +374,10 @@ class Engine:
         Raises:
             Problem: 404 if there is no such map or version, 410 if the version is no longer kept.
         """
-        stored = self.maps.get(name)
+        snapshot = self.maps.get(name)
         if version is None:
-            return stored.layers.content()
-        file, _ = version_file(self.maps.store, stored, version)
+            return snapshot.layers.content()
+        file, _ = version_file(self.maps.store, snapshot, version)
         return decode(file)
 
     def edit_map(

@@ -303,8 +303,8 @@ def _trial_of(
     """Compare the result with the truth."""
     best = result[0]
     pose, probability = best.localization.pose, best.localization.probability
-    right = best.stored.name == name and _is_near(pose, truth, centroids)
-    named = {best.stored.name} | ({best.rival.name} if best.rival is not None else set())
+    right = best.snapshot.name == name and _is_near(pose, truth, centroids)
+    named = {best.snapshot.name} | ({best.rival.name} if best.rival is not None else set())
     return Trial(
         case=case.name,
         share=share,

@@ -164,16 +164,16 @@ class DriveSession:
     history: RequestHistory
     time: float = 0.0
 
-    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+    def evidence(self, snapshot: MapSnapshot, middle: Float64) -> Evidence | None:
         """Return the evidence of the earlier requests."""
-        del stored  # a drive is localized in one map
+        del snapshot  # a drive is localized in one map
         return self.history.at(self.time, middle)
 
     def remember(
-        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+        self, snapshot: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
     ) -> None:
         """Add the hypotheses of a request."""
-        del stored
+        del snapshot
         self.history.add(self.time, middle, hypotheses)
 
 

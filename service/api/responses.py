@@ -32,17 +32,17 @@ def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:
     return [{"map": each.name, "model_id": each.model_id} for each in selection.skipped]
 
 
-def summary_of(stored: MapSnapshot, principal: Principal) -> MapOut:
+def summary_of(snapshot: MapSnapshot, principal: Principal) -> MapOut:
     """Summarize a map as a key may see it; reads the whole map, so call it in a thread."""
-    head, layers = stored.head, stored.layers
+    head, layers = snapshot.head, snapshot.layers
     return MapOut(
-        name=stored.name,
-        segments=len(stored),
+        name=snapshot.name,
+        segments=len(snapshot),
         sequence=head.sequence,
-        etag=stored.tag,
+        etag=snapshot.tag,
         bytes=head.bytes,
-        model_id=stored.model_id,
-        frame=stored.frame,
+        model_id=snapshot.model_id,
+        frame=snapshot.frame,
         robots=dict(sorted(layers.robots.items())),
         sources=sources_for(principal, layers.sources),
         time_span=layers.time_span,
@@ -52,12 +52,12 @@ def summary_of(stored: MapSnapshot, principal: Principal) -> MapOut:
 
 def outcome_of(written: WriteResult) -> WrittenOut:
     """Return the result of a write."""
-    stored = written.snapshot
+    snapshot = written.snapshot
     return WrittenOut(
-        map=stored.name,
-        sequence=stored.head.sequence,
-        etag=stored.tag,
-        segments=len(stored),
+        map=snapshot.name,
+        sequence=snapshot.head.sequence,
+        etag=snapshot.tag,
+        segments=len(snapshot),
         changed=written.changed,
         removed=written.removed,
         repeats=written.repeats,

@@ -42,9 +42,9 @@ ContentKey = tuple[str, int, int]
 """Key of a map's content: its uid, its sequence, and the sequence of its base."""
 
 
-def key_of(stored: MapSnapshot) -> ContentKey:
+def key_of(snapshot: MapSnapshot) -> ContentKey:
     """Return the key of a map's content and row numbers."""
-    return stored.head.uid, stored.head.sequence, stored.base_sequence
+    return snapshot.head.uid, snapshot.head.sequence, snapshot.base_sequence
 
 
 @dataclass(frozen=True, slots=True, eq=False)

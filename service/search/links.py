@@ -76,22 +76,22 @@ def _is_copy(one: MapSnapshot, other: MapSnapshot) -> bool:
     return bool(len(times)) and bool(times.min() < times.max())
 
 
-def _names(stored: MapSnapshot) -> set[str]:
+def _names(snapshot: MapSnapshot) -> set[str]:
     """Return the names of maps that the segments may have been written to first."""
-    return {stored.name, *stored.layers.base.sources, *stored.layers.recent.sources}
+    return {snapshot.name, *snapshot.layers.base.sources, *snapshot.layers.recent.sources}
 
 
-def _written_to(stored: MapSnapshot, name: str) -> tuple[UInt32, Int64]:
+def _written_to(snapshot: MapSnapshot, name: str) -> tuple[UInt32, Int64]:
     """Return ids and rows of the segments that were first written to the map of this name."""
-    layers = stored.layers
+    layers = snapshot.layers
     ids, rows = [], []
     for layer, first in ((layers.base, 0), (layers.recent, len(layers.base))):
         if layer.source is None or layer.source_ids is None:
-            here = np.full(len(layer), name == stored.name)
+            here = np.full(len(layer), name == snapshot.name)
             original = layer.ids
         else:
             is_own = layer.source == 0
-            here = is_own if name == stored.name else np.zeros(len(layer), dtype=bool)
+            here = is_own if name == snapshot.name else np.zeros(len(layer), dtype=bool)
             if name in layer.sources:
                 here = here | (layer.source == layer.sources.index(name) + 1)
             original = np.where(is_own, layer.ids, layer.source_ids)

@@ -28,11 +28,11 @@ from service.search.sessions import Session
 class StoredNeighborhood:
     """Segments of a stored map around a position, for guided matching (`MapSegments`)."""
 
-    def __init__(self, codes: Int8, model: Model, stored: MapSnapshot) -> None:
+    def __init__(self, codes: Int8, model: Model, snapshot: MapSnapshot) -> None:
         """Compare with queries of these codes, int8 (q, code bytes), made by the map's model."""
         self._codes = codes
         self._model = model
-        self._layers = stored.layers
+        self._layers = snapshot.layers
 
     def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Return the rows near some places, and their centroids."""
@@ -49,7 +49,7 @@ def map_query(
     codes: Int8,
     centroids: Float64,
     model: Model,
-    stored: MapSnapshot,
+    snapshot: MapSnapshot,
     k: int,
     evidence: Evidence | None = None,
 ) -> MapQuery:
@@ -59,21 +59,21 @@ def map_query(
         codes: codes of the segments around the robot, int8 (q, code bytes).
         centroids: their centroids, float64 (q, 3), meters, in the robot's frame.
         model: model that made the codes and the map.
-        stored: the map, with an index.
+        snapshot: the map, with an index.
         k: largest number of candidates of a segment.
         evidence: result of the robot's earlier requests.
     """
-    nearest = nearest_segments(codes, model, (stored,), k)
-    there = StoredNeighborhood(codes, model, stored)
+    nearest = nearest_segments(codes, model, (snapshot,), k)
+    there = StoredNeighborhood(codes, model, snapshot)
     probabilities = nearest.probabilities
     if probabilities is None:
         queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
         probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
             nearest.rows.shape
         )
-    places = stored.layers.column("centroids", nearest.rows)
+    places = snapshot.layers.column("centroids", nearest.rows)
     candidates = Candidates(centroids, nearest.rows, places, probabilities)
-    return MapQuery(stored.name, model.id, candidates, there, model.confidence, evidence)
+    return MapQuery(snapshot.name, model.id, candidates, there, model.confidence, evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,7 +100,7 @@ class MapLocalization:
     """Localization in one map.
 
     Attributes:
-        stored: the map.
+        snapshot: the map.
         group: index of the model's query.
         segments: index in the request of each of the query's segments, int64 (q,).
         judged: pose hypotheses, after those of all maps were compared.
@@ -108,7 +108,7 @@ class MapLocalization:
         rival: map of `judged.rival`.
     """
 
-    stored: MapSnapshot
+    snapshot: MapSnapshot
     group: int
     segments: Int64
     judged: JointLocalization
@@ -180,10 +180,10 @@ def localize(
         )
         groups.append(group)
         middle = middle_of(group.centroids)
-        middles |= {stored.head.uid: middle for stored in searched}
+        middles |= {snapshot.head.uid: middle for snapshot in searched}
 
-    def evidence(stored: MapSnapshot) -> Evidence | None:
-        return session.evidence(stored, middles[stored.head.uid]) if session else None
+    def evidence(snapshot: MapSnapshot) -> Evidence | None:
+        return session.evidence(snapshot, middles[snapshot.head.uid]) if session else None
 
     def parts(group: ModelQuery) -> list[IndexPart]:
         return index_parts(maps, group.model, group.searched, patterns)
@@ -192,7 +192,7 @@ def localize(
     for each in answers:
         if session and each.is_full:
             hypotheses = each.localization.hypotheses
-            session.remember(each.stored, middles[each.stored.head.uid], hypotheses)
+            session.remember(each.snapshot, middles[each.snapshot.head.uid], hypotheses)
     errors = set.intersection(*({*described.errors} for described in descriptors))
     return LocalizationResult(
         model_id=query.model_id,
@@ -226,9 +226,9 @@ def localize_among(
         evidence: gives the result of the robot's earlier requests in a map.
     """
     past = {
-        (number, place): evidence(stored)
+        (number, place): evidence(snapshot)
         for number, group in enumerate(groups)
-        for place, stored in enumerate(group.searched)
+        for place, snapshot in enumerate(group.searched)
     }
     chosen = _chosen(groups, past, parameters, parts)
     queries = []
@@ -240,7 +240,7 @@ def localize_among(
                 codes=group.codes,
                 centroids=group.centroids,
                 model=group.model,
-                stored=group.searched[place],
+                snapshot=group.searched[place],
                 k=k,
                 evidence=past[number, place],
             )
@@ -253,14 +253,14 @@ def localize_among(
     full = dict(zip(chosen, judged, strict=True))
     answers = []
     for number, group in enumerate(groups):
-        for place, stored in enumerate(group.searched):
+        for place, snapshot in enumerate(group.searched):
             of_map = full.get((number, place))
             if of_map is None:
-                usable = len(group.codes) if len(stored) else 0
+                usable = len(group.codes) if len(snapshot) else 0
                 of_map = JointLocalization(not_searched(usable, parameters, len(chosen)), 0.0)
             answers.append(
                 MapLocalization(
-                    stored=stored,
+                    snapshot=snapshot,
                     group=number,
                     segments=group.segments,
                     judged=of_map,
@@ -294,7 +294,7 @@ def _sort_key(answer: MapLocalization) -> tuple[bool, float, float, str]:
         localization.pose is None,
         -localization.probability,
         -answer.judged.total,
-        answer.stored.name,
+        answer.snapshot.name,
     )
 
 

@@ -46,14 +46,16 @@ class CandidateTable:
         ids = np.zeros(shape, dtype=np.int64)
         centroids = np.zeros((*shape, 3))
         robots = np.full(shape, "", dtype=object)
-        for place, stored in enumerate(nearest.searched):
+        for place, snapshot in enumerate(nearest.searched):
             here = nearest.places == place
-            rows, layers = nearest.rows[here], stored.layers
+            rows, layers = nearest.rows[here], snapshot.layers
             ids[here] = layers.column("ids", rows)
             centroids[here] = layers.column("centroids", rows)
             robots[here] = layers.robot_names(rows)
         probabilities = nearest.probabilities
-        self._maps = [(stored.name, stored.frame, stored.model_id) for stored in nearest.searched]
+        self._maps = [
+            (snapshot.name, snapshot.frame, snapshot.model_id) for snapshot in nearest.searched
+        ]
         self._columns = (
             nearest.places,
             ids,
@@ -190,9 +192,9 @@ def _search_part(
     """Search one part: distances in steps, maps and rows of the k nearest, (q, up to k) each."""
     if part.shared is None:
         place = int(part.places[0])
-        stored = searched[place]
-        assert stored.index is not None
-        distances, rows = stored.index.search(stored.layers, codes, k)
+        snapshot = searched[place]
+        assert snapshot.index is not None
+        distances, rows = snapshot.index.search(snapshot.layers, codes, k)
         return distances, np.full_like(rows, place), rows
     shared = part.shared
     distances, found = shared.index.search(codes, k, part.hidden)
@@ -244,9 +246,9 @@ def _probabilities(
     if model.classifier is None:
         return None
     found = np.empty((*rows.shape, codes.shape[1]), dtype=np.int8)
-    for place, stored in enumerate(searched):
+    for place, snapshot in enumerate(searched):
         here = places == place
-        found[here] = stored.layers.column("codes", rows[here])
+        found[here] = snapshot.layers.column("codes", rows[here])
     queries = np.repeat(codes, rows.shape[1], axis=0)
     stated = model.classifier.probabilities(queries, found.reshape(queries.shape))
     return stated.reshape(rows.shape)

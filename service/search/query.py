@@ -31,13 +31,13 @@ class MapSelection:
     @property
     def maps(self) -> list[MapSnapshot]:
         """Return all maps to search, by name."""
-        maps = [stored for _, group in self.searched for stored in group]
-        return sorted(maps, key=lambda stored: stored.name)
+        maps = [snapshot for _, group in self.searched for snapshot in group]
+        return sorted(maps, key=lambda snapshot: snapshot.name)
 
     @property
     def segments(self) -> int:
         """Return the number of segments of all maps to search."""
-        return sum(len(stored) for _, group in self.searched for stored in group)
+        return sum(len(snapshot) for _, group in self.searched for snapshot in group)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,26 +98,26 @@ def select_maps(
             if its model is not loaded or is not the model of the codes.
     """
     if names is None:
-        chosen = [stored for stored in maps.all() if principal.covers(stored.name)]
+        chosen = [snapshot for snapshot in maps.all() if principal.covers(snapshot.name)]
     else:
         for name in names:
             principal.check_map(name)
         chosen = [maps.get(name) for name in sorted(set(names))]
     groups: dict[str, list[MapSnapshot]] = {}
     skipped = []
-    for stored in chosen:
-        made_by = stored.model_id
-        if stored.index is not None and only in (None, models.find(made_by)):
-            groups.setdefault(made_by, []).append(stored)
+    for snapshot in chosen:
+        made_by = snapshot.model_id
+        if snapshot.index is not None and only in (None, models.find(made_by)):
+            groups.setdefault(made_by, []).append(snapshot)
         elif names is None:
-            skipped.append(stored)
+            skipped.append(snapshot)
         else:
             usable = only.id if only is not None else ", ".join(each.id for each in models.all())
             raise Problem(
                 409,
                 "other-model",
-                f"Map {stored.name!r} was made by model {made_by!r}, but this request can use only "
-                f"{usable}.",
+                f"Map {snapshot.name!r} was made by model {made_by!r}, but this request can use "
+                f"only {usable}.",
             )
     searched = [(models.named(made_by), tuple(group)) for made_by, group in groups.items()]
     # Without a map to search, the segments are checked and described all the same.

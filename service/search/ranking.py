@@ -167,11 +167,11 @@ def _voters(codes: Int8, searched: Sequence[MapSnapshot], part: IndexPart) -> Vo
     shared = part.shared
     if shared is None:
         place = int(part.places[0])
-        stored = searched[place]
-        assert stored.index is not None
-        distances, rows = stored.index.search(stored.layers, codes, OWN)
+        snapshot = searched[place]
+        assert snapshot.index is not None
+        distances, rows = snapshot.index.search(snapshot.layers, codes, OWN)
         queries = np.repeat(np.arange(len(codes)), rows.shape[1])
-        points = centered(stored.layers.column("centroids", rows.ravel()))
+        points = centered(snapshot.layers.column("centroids", rows.ravel()))
         squared = np.asarray(distances.ravel() ** 2, np.float32)
         return Voters(np.full(len(queries), place), queries, points, squared)
     squared, rows = shared.index.rough(codes, min(NEAREST, len(shared.rows)))

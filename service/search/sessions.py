@@ -16,16 +16,16 @@ from service.maps.snapshot import MapSnapshot
 class Session(Protocol):
     """Earlier requests of one robot."""
 
-    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+    def evidence(self, snapshot: MapSnapshot, middle: Float64) -> Evidence | None:
         """Return the evidence of the earlier requests in a map; None if there is none.
 
         Args:
-            stored: the map.
+            snapshot: the map.
             middle: middle of the segments that the robot sees now (`middle_of`), (3,).
         """
 
     def remember(
-        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+        self, snapshot: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
     ) -> None:
         """Add the hypotheses that one request found in a map by itself."""
 
@@ -135,15 +135,15 @@ class RobotSession:
     principal: str
     id: str
 
-    def evidence(self, stored: MapSnapshot, middle: Float64) -> Evidence | None:
+    def evidence(self, snapshot: MapSnapshot, middle: Float64) -> Evidence | None:
         """Return the evidence of the earlier requests in a map; see `Session`."""
-        return self.sessions.evidence(self._key(stored), middle)
+        return self.sessions.evidence(self._key(snapshot), middle)
 
     def remember(
-        self, stored: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
+        self, snapshot: MapSnapshot, middle: Float64, hypotheses: Sequence[Hypothesis]
     ) -> None:
         """Add the hypotheses that one request found in a map by itself."""
-        self.sessions.remember(self._key(stored), middle, hypotheses)
+        self.sessions.remember(self._key(snapshot), middle, hypotheses)
 
-    def _key(self, stored: MapSnapshot) -> SessionKey:
-        return SessionKey(self.principal, self.id, stored.head.uid, stored.frame_since)
+    def _key(self, snapshot: MapSnapshot) -> SessionKey:
+        return SessionKey(self.principal, self.id, snapshot.head.uid, snapshot.frame_since)

@@ -106,12 +106,12 @@ def _response(result: LocalizationResult) -> dict[str, Any]:
 
 def _localization(answer: MapLocalization) -> dict[str, Any]:
     """Return the localization in one map, as a `LocalizationOut`."""
-    found, stored, rival = answer.localization, answer.stored, answer.judged.rival
+    found, snapshot, rival = answer.localization, answer.snapshot, answer.judged.rival
     best, pose = found.best, found.pose
     inliers: list[dict[str, Any]] = []
     if best is not None and pose is not None:
         queries = answer.segments[best.queries]
-        ids = stored.layers.column("ids", best.rows)
+        ids = snapshot.layers.column("ids", best.rows)
         inliers = [
             {"query": query, "id": id_, "residual": residual}
             for query, id_, residual in zip(
@@ -120,8 +120,8 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
         ]
     others = [found.second] if pose is not None else [best, found.second]
     return {
-        "map": stored.name,
-        "frame": stored.frame,
+        "map": snapshot.name,
+        "frame": snapshot.frame,
         "localized": pose is not None,
         "reason": found.reason,
         "detail": found.detail,

@@ -70,7 +70,7 @@ def _search(
         "model_id": result.model_id,
         "queries": Items(len(result), map(_item, result)),
         "dropped_points": result.dropped_points,
-        "searched": [stored.name for stored in result.selection.maps],
+        "searched": [snapshot.name for snapshot in result.selection.maps],
         "skipped": skipped_maps(result.selection),
     }
     content = render(response, answer)

@@ -243,7 +243,7 @@ def test_B13_of_many_maps_few_are_searched_in_full_and_the_right_one_is_found(
     map_query = localization.map_query
 
     def counted(**arguments: Any) -> Any:
-        searched.append(arguments["stored"].name)
+        searched.append(arguments["snapshot"].name)
         return map_query(**arguments)
 
     monkeypatch.setattr(localization, "map_query", counted)
