@@ -147,6 +147,19 @@ def print_outcome(figures: dict[str, Any], baseline: dict[str, Any]) -> None:
     for key in [name for name in names if name in figures]:
         table.add_row(names[key], *(shown(key, each.get(key, "")) for each in (figures, baseline)))
     print_tables(table)
+    if "poses_asked" in figures:
+        typer.echo(poses_in_words(figures))
+
+
+def poses_in_words(figures: dict[str, Any]) -> str:
+    """Summarize robot B's localization in one sentence."""
+    right = figures["poses_right"]
+    error = f" (median error {100 * figures['pose_median_m']:.0f} cm)" if right else ""
+    return (
+        f"Robot B asks for its pose {figures['poses_asked']} times; the answers are: "
+        f"{right} right{error}, {figures['poses_wrong']} wrong, "
+        f"{figures['not_localised']} 'not localized'."
+    )
 
 
 def shown(key: str, value: object) -> str:

@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cli import app
+from cli.demo import poses_in_words
 from demo.meeting import Meeting, PoseAnswer
 from demo.run import DemoResult
 from demo.score import Score
@@ -103,3 +104,22 @@ def test_demo_with_chance_matches_fails(ended: Any, meters: int) -> None:
     status, said = ended(LAID, meters, found=0.01)
     assert status == 1
     assert "hardly better than chance" in said
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "words"),
+    [
+        (53, 0, "53 right (median error 3 cm), 0 wrong, 7"),
+        (0, 53, "0 right, 53 wrong, 7"),
+    ],
+)
+def test_poses_are_summarized_in_one_sentence(right: int, wrong: int, words: str) -> None:
+    figures = {
+        "poses_asked": 60,
+        "poses_right": right,
+        "poses_wrong": wrong,
+        "not_localised": 7,
+        "pose_median_m": 0.031 if right else None,
+    }
+    said = poses_in_words(figures)
+    assert said == f"Robot B asks for its pose 60 times; the answers are: {words} 'not localized'."
