@@ -1,20 +1,18 @@
 """`placecell evaluate`: measures how well extractors recognize the segments of a drive."""
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from cli.common_options import Drive, Every, Models
 from cli.sources import clear_errors, load, parse_scans
-from cli.tables import JsonFile, new_table, print_tables, write_json
+from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
 ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
 
 
 def evaluate(
-    drive: Annotated[
-        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
-    ],
+    drive: Drive,
     scans: Annotated[
         str | None,
         typer.Option(
@@ -23,17 +21,8 @@ def evaluate(
             "(default: all groups)",
         ),
     ] = None,
-    every: Annotated[
-        int | None,
-        typer.Option(
-            min=1,
-            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
-        ),
-    ] = None,
-    model: Annotated[
-        list[str] | None,
-        typer.Option(help="Model name or folder; repeatable. (default: all shipped models)"),
-    ] = None,
+    every: Every = None,
+    model: Models = None,
     json_file: JsonFile = None,
     seed: Annotated[int, typer.Option(help="Random seed for the drawn pairs.")] = 0,
 ) -> None:
@@ -75,8 +64,3 @@ def print_table(report: dict[str, Any]) -> None:
         table.add_row("top1, segments alone", *map(percent, alone))
     table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
     print_tables(table)
-
-
-def percent(value: float | None) -> str:
-    """Format a share as a percentage; None as a dash."""
-    return "-" if value is None else f"{value:.1%}"

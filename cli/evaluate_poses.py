@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cli.common_options import Every, Model
 from cli.sources import clear_errors, show
 from cli.tables import JsonFile, new_table, print_tables, write_json
 
@@ -19,17 +20,8 @@ def evaluate_poses(
             "MAP_DRIVE are map and queries)"
         ),
     ] = None,
-    model: Annotated[
-        str | None,
-        typer.Option(help="Model name or folder. (default: the service's default model)"),
-    ] = None,
-    every: Annotated[
-        int | None,
-        typer.Option(
-            min=1,
-            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
-        ),
-    ] = None,
+    model: Model = None,
+    every: Every = None,
     k: Annotated[int, typer.Option(min=1, help="Number of candidates per segment.")] = 25,
     motion: Annotated[
         str,

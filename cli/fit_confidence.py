@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from cli.common_options import Model
 from cli.sources import clear_errors, show
 from cli.tables import JsonFile, write_json
 
@@ -42,10 +43,7 @@ def fit_confidence(
         ),
     ] = None,
     scans: Annotated[int, typer.Option(min=20, help="Scans per robot and town.")] = 600,
-    model: Annotated[
-        str | None,
-        typer.Option(help="Model name or folder. (default: the service's default model)"),
-    ] = None,
+    model: Model = None,
     output: Annotated[
         Path | None,
         typer.Option(

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cli.common_options import Every
 from cli.sources import clear_errors, load
 from cli.tables import JsonFile, write_json
 
@@ -17,13 +18,7 @@ def prepare(
         Path,
         typer.Option("--output", "-o", help="Folder for the recordings, NAME.safetensors each."),
     ] = Path("data"),
-    every: Annotated[
-        int | None,
-        typer.Option(
-            min=1,
-            help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)",
-        ),
-    ] = None,
+    every: Every = None,
     json_file: JsonFile = None,
 ) -> None:
     """Segment drives, group the segments over time, and write one recording per drive."""

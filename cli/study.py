@@ -6,16 +6,14 @@ from typing import Annotated
 
 import typer
 
+from cli.common_options import Models
 from cli.sources import SOURCE_HELP, clear_errors, source
 from cli.tables import JsonFile, progress_console, write_json
 
 
 def study(
     drive: Annotated[str, typer.Argument(help=SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")],
-    model: Annotated[
-        list[str] | None,
-        typer.Option(help="Model name or folder; repeatable. (default: all shipped models)"),
-    ] = None,
+    model: Models = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for study.json and study.png.")
     ] = Path("out/study"),

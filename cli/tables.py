@@ -65,6 +65,11 @@ def print_tables(*tables: "Table") -> None:
     typer.echo(captured.get(), nl=False)
 
 
+def percent(value: float | None) -> str:
+    """Format a share as a percentage; None as a dash."""
+    return "-" if value is None else f"{value:.1%}"
+
+
 def print_json(content: Any) -> None:
     """Print JSON, with arrays as lists."""
     typer.echo(json.dumps(content, indent=2, default=_plain))

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, write_json
+from cli.common_options import Model
 from cli.sources import clear_errors, show
 from cli.tables import new_table, print_tables
 
@@ -14,10 +15,7 @@ def align(
     town: Annotated[
         Path, typer.Argument(help="Folder that 'placecell town --meters M --pairs N' wrote.")
     ],
-    model: Annotated[
-        str | None,
-        typer.Option(help="Model name or folder. (default: the service's default model)"),
-    ] = None,
+    model: Model = None,
     recording_a: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Recording of the first drive from 'placecell prepare'."),

@@ -6,14 +6,13 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, write_json
+from cli.common_options import Drive, Model
 from cli.sources import clear_errors, load, parse_scans
 from cli.tables import new_table, print_tables
 
 
 def ladder(
-    drive: Annotated[
-        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
-    ],
+    drive: Drive,
     scans: Annotated[
         str,
         typer.Option(
@@ -22,12 +21,7 @@ def ladder(
             "fitted on the others.",
         ),
     ],
-    model: Annotated[
-        str,
-        typer.Option(
-            help="Model name or folder. (default: the service's default model)", show_default=False
-        ),
-    ] = "",
+    model: Model = None,
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,

@@ -7,7 +7,7 @@ import typer
 
 from cli.bench.options import JsonFile, write_json
 from cli.sources import clear_errors, show
-from cli.tables import new_table, print_tables
+from cli.tables import new_table, percent, print_tables
 
 DEFAULT_PYTHON = Path(".venv-peers/bin/python")
 
@@ -122,8 +122,3 @@ def print_rows(report: dict[str, Any]) -> None:
             f"{row['p99_ms']:.0f}",
         )
     print_tables(table)
-
-
-def percent(value: float | None) -> str:
-    """Format a share as a percentage; None as a dash."""
-    return "-" if value is None else f"{value:.1%}"

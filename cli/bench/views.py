@@ -1,31 +1,24 @@
 """`placecell bench views`: measures the value of several stored views of one object."""
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from cli.bench.options import JsonFile, Seed, write_json
+from cli.common_options import Drive, Model
 from cli.sources import clear_errors, load, parse_scans
 from cli.tables import new_table, print_tables
 
 
 def views(
-    drive: Annotated[
-        Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
-    ],
+    drive: Drive,
     scans: Annotated[
         str,
         typer.Option(
             metavar="FIRST:LAST", help="Use the groups that lie wholly within these scans."
         ),
     ],
-    model: Annotated[
-        str,
-        typer.Option(
-            help="Model name or folder. (default: the service's default model)", show_default=False
-        ),
-    ] = "",
+    model: Model = None,
     json_file: JsonFile = None,
     seed: Seed = 7,
 ) -> None:

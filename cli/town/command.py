@@ -7,8 +7,8 @@ from pathlib import Path
 
 import typer
 
-from cli.bench.options import write_json
 from cli.sources import clear_errors, show
+from cli.tables import write_json
 from cli.town import options
 from cli.town.large import pairs_of, planned
 

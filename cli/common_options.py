@@ -1,0 +1,24 @@
+"""Options and arguments that several commands share: drive, captures, models."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Drive = Annotated[
+    Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
+]
+Every = Annotated[
+    int | None,
+    typer.Option(
+        min=1, help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)"
+    ),
+]
+Model = Annotated[
+    str | None,
+    typer.Option(help="Model name or folder. (default: the service's default model)"),
+]
+Models = Annotated[
+    list[str] | None,
+    typer.Option("--model", help="Model name or folder; repeatable. (default: all shipped models)"),
+]
