@@ -153,7 +153,7 @@ class Client(BaseClient):
             description: Query segments, as `describe` returned them.
             segments: Points of the query segments, as for `describe`.
             sensors: Sensor positions, as for `describe`.
-            maps: Names of the maps to search. Default: all maps of the default model.
+            maps: Names of the maps to search. Default: all maps of loaded models.
             k: Largest number of candidates per query.
 
         Returns:
@@ -184,7 +184,7 @@ class Client(BaseClient):
             description: Query segments, as `describe` returned them.
             segments: Points of the query segments, as for `describe`.
             sensors: Sensor positions, as for `describe`.
-            maps: Names of the maps to search. Default: all maps of the default model.
+            maps: Names of the maps to search. Default: all maps of loaded models.
             k: Largest number of candidates per segment.
             motion: Degrees of freedom of the pose: `yaw` (x, y, z, yaw; both frames are level) or
                 `se3` (all six).

@@ -73,7 +73,7 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Skipped:
-    """A map that was not searched, because its descriptors are from another model.
+    """Map that was not searched: its model is not loaded or not the requested one.
 
     Attributes:
         map: Name of the map.
@@ -93,7 +93,7 @@ class Matches:
         queries: Candidates of query i; empty if the query could not be used.
         errors: Queries that could not be used, by index.
         searched: Names of the searched maps.
-        skipped: Maps of other models, which were not searched.
+        skipped: Maps that were not searched, because of their model.
         dropped_points: Number of points that were not finite and were left out.
     """
 

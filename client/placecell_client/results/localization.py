@@ -153,7 +153,7 @@ class Localizations:
         model_id: Id of the model whose codes were compared.
         maps: Localization in each map, most probable first.
         errors: Segments that could not be used, by index.
-        skipped: Maps of other models, which were not searched.
+        skipped: Maps that were not searched, because of their model.
         dropped_points: Number of points that were not finite and were left out.
     """
 
