@@ -197,7 +197,7 @@ def test_B9_push_sends_a_large_map_file_in_parts(tmp_path: Path, yard: CompactMa
     limit = {"PLACECELL_LIMITS__MAP_BYTES": "4000"}
     with running_service(tmp_path / "data", environment=limit) as address:
         at = ("--url", address)
-        # A push that was cut after two parts.
+        # Simulate a push that was interrupted after two parts.
         digest = hashlib.sha256(data).hexdigest()
         for offset in (0, 4_000):
             part = data[offset : offset + 4_000]

@@ -62,7 +62,7 @@ def test_alignment_is_parsed_into_typed_values(make: Make) -> None:
     found = make(lambda _: httpx.Response(200, json=ALIGNED)).align_maps("yard", "hall", pairs=True)
     assert (found.map, found.etag, found.frame) == ("yard", "e-3", "f")
     assert (found.other, found.other_etag, found.other_frame) == ("hall", "h-1", "g")
-    # A turn of 73.7 degrees: cosine 0.28, sine 0.96.
+    # Rotation by 73.7 degrees: cosine 0.28, sine 0.96.
     np.testing.assert_allclose(found.pose.apply([1.0, 0, 0]), [10.28, 20.96, 1])
     assert (found.reason, found.detail) == (None, "")
     assert found.covariance.shape == (4, 4)
@@ -168,7 +168,7 @@ def test_align_and_merge_have_their_own_timeout_of_minutes(
         waited.append(request.headers["Placecell-Timeout"])
         return httpx.Response(400)
 
-    # An attempt that is given up early would be begun from the start, and given up again.
+    # An attempt with a shorter limit would start again and never finish.
     hurried = make(answer, timeout=2.0, retries=Retries(longest_attempt=1.0))
     for more in ({}, {"timeout": 900.0}):
         with pytest.raises(ServiceError):

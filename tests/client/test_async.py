@@ -176,7 +176,7 @@ def test_option_compress_sends_maps_as_gzip() -> None:
         if large:
             assert sent[0].headers["Content-Encoding"] == "gzip"
             assert gzip.decompress(sent[0].content) == data
-            # No time in it: the same map tomorrow is the same upload.
+            # The gzip header holds no time, so equal maps are equal uploads.
             assert sent[0].content[4:8] == bytes(4)
         else:
             assert "Content-Encoding" not in sent[0].headers

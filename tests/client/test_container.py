@@ -152,7 +152,7 @@ def test_columns_of_a_wrong_type_are_refused(kind: Kind, name: str, dtype: type)
 @pytest.mark.parametrize(
     ("name", "shape"),
     [
-        ("frame_positions", (2, 1, 1)),  # would be broadcast to all pairs of segments
+        ("frame_positions", (2, 1, 1)),  # NumPy would broadcast it to all pairs of segments
         ("frame_positions", (2,)),
         ("frame_positions", (2, 4)),
         ("frame_positions", ()),

@@ -15,7 +15,7 @@ ERROR = {"type": "urn:x", "title": "Too few points", "detail": "4 points"}
 
 
 def client_of(answer: Handler) -> Client:
-    # JSON, for these tests look into bodies; test_client_wire looks into both encodings.
+    # These tests read the bodies, so they use JSON; test_encoding covers both encodings.
     return client_fakes.client_of(answer, encoding="json")
 
 
@@ -106,7 +106,7 @@ def test_maps_are_sent_as_files() -> None:
     with client_of(answer) as client:
         summary = client.put_map("yard", given)
         assert summary.time_span == (0, 1)
-        assert summary.sources == {}  # the answer of a service that does not tell
+        assert summary.sources == {}  # the answer of an older service
         assert client.get_map_file("yard") == encode(given)
         assert encode(client.get_map("yard")) == encode(decode(encode(given)))
 

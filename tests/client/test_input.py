@@ -191,7 +191,7 @@ def test_B3_wrong_codes_and_centroids_are_refused() -> None:
 def test_B15_large_float32_coordinates_warn_and_float64_lose_nothing(encoding: Encoding) -> None:
     with pytest.warns(PrecisionWarning, match="Subtract an origin"):
         segments_of([(CLOUD + UTM).astype(np.float32)], UTM, encoding)
-    with pytest.warns(PrecisionWarning):  # the digits were lost before
+    with pytest.warns(PrecisionWarning):  # float32 has lost the digits before the call
         segments_of([(CLOUD + UTM).astype(np.float32).astype(np.float64)], UTM, encoding)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

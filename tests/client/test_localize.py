@@ -40,7 +40,7 @@ def test_localize_sends_codes_with_centroids() -> None:
 
     with client_of(answer, encoding="json") as client:
         found = client.localize(DESCRIBED, maps=["yard"], session="ann-7")
-    # By the description's own indices: the first could not be used.
+    # Indices are those of the description; its first segment could not be used.
     assert found.maps[0].inliers.queries.tolist() == [2]
     assert found.maps[0].inliers.ids.tolist() == [9]
     assert found.maps[0].inliers.residuals.tolist() == [0.25]
@@ -73,7 +73,7 @@ def test_localized_robot_has_a_pose() -> None:
     assert best is found.maps[0]
     assert best.pose is not None
     assert (best.map, best.frame, best.probability, best.score) == ("yard", "f", 0.97, 7.5)
-    # A turn of 73.7 degrees: cosine 0.28, sine 0.96.
+    # Rotation by 73.7 degrees: cosine 0.28, sine 0.96.
     expected = np.array([[0.28, -0.96, 0, 10], [0.96, 0.28, 0, 20], [0, 0, 1, 1], [0, 0, 0, 1]])
     np.testing.assert_allclose(best.pose.matrix, expected, atol=1e-12)
     np.testing.assert_allclose(best.pose.apply([1.0, 0, 0]), [10.28, 20.96, 1])

@@ -57,7 +57,7 @@ def test_equal_maps_are_equal_files() -> None:
     one = random_map(segments=30, robots=("b", "a", "unused"))
     one = replace(one, robot=(one.robot % 2).astype(np.uint16))
     rows = np.random.default_rng(1).permutation(30)
-    tables = np.array([4, 2, 0, 1, 3, 4])  # another order, and a frame twice
+    tables = np.array([4, 2, 0, 1, 3, 4])  # another order, with a duplicate capture
     other = replace(
         one,
         codes=one.codes[rows],
@@ -161,7 +161,7 @@ def test_provenance_without_segments_is_decoded() -> None:
         (("points",), 2, 1),
         (("views",), 4, 1),
         (("seen",), 4, 1),
-        (PROVENANCE, 6, 3),  # the names are one more
+        (PROVENANCE, 6, 3),  # the source names are a third entry
     ],
 )
 def test_optional_column_has_the_documented_size(
@@ -216,7 +216,7 @@ def test_at_most_48_bytes_a_segment() -> None:
 
 
 def test_file_bytes_equal_those_of_the_first_release() -> None:
-    # Fixed values, no random ones: maps stored today must be readable for ever.
+    # Fixed values: maps stored today must stay readable.
     given_map = CompactMap(
         model_id="m-0",
         preprocessing="1",

@@ -134,7 +134,7 @@ def test_pull_continues_with_the_missing_page(make: Callable[..., Any]) -> None:
     service.fails = [0, 403]
     with pytest.raises(ServiceError):
         make(service).pull(copy)
-    # Whole, as it was.
+    # The copy keeps its whole version.
     assert (copy.content, copy.etag) == (OLD, "e-1")
     service.asked.clear()
     assert make(service).pull(copy) is copy
@@ -156,7 +156,7 @@ def test_pull_restarts_when_the_service_dropped_the_version(make: Callable[..., 
     with pytest.raises(ServiceError) as raised:
         make(service).pull("yard")
     assert raised.value.status == 410
-    # Nor is a service followed for ever that knows nothing of its own cursors.
+    # A service that always refuses its own cursors ends the pull, too.
     service.knows = {"0"}
     service.fails = [0, 410] * 20
     with pytest.raises(ServiceError):

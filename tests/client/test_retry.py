@@ -132,7 +132,7 @@ def test_wait_after_very_many_attempts_is_finite() -> None:
     ],
 )
 def test_retry_after_is_the_shortest_wait(make: Make, value: str, seconds: float) -> None:
-    # The date is the service's; the robot's clock need not be right.
+    # The date is relative to the service's clock; the robot's clock may be wrong.
     time = Time()
     service = Service(after(value, Date="Wed, 21 Oct 2026 07:28:00 GMT"), OK)
     make(service, time).info()
@@ -253,7 +253,7 @@ def test_repeated_delete_with_404_succeeds(make: Make) -> None:
     make(Service(httpx.ReadTimeout("lost"), unknown)).delete_map("yard", "e-3")
     make(Service(httpx.ReadTimeout("lost"), busy(429), unknown)).delete_map("yard", "e-3")
     for before in ([], [httpx.ConnectError("refused")], [busy(429)]):
-        # No DELETE has come to the service before this one.
+        # The service has received no DELETE before this one.
         with pytest.raises(ServiceError) as raised:
             make(Service(*before, unknown)).delete_map("yard", "e-3")
         assert raised.value.status == 404

@@ -140,7 +140,7 @@ def test_the_timeout_ends_the_call(kind: str, fault: str) -> None:
     with serving(fault) as server:
         started = time.monotonic()
         with pytest.raises(httpx.TimeoutException):
-            # More than the sockets' buffers hold.
+            # The body is larger than the buffers of the sockets.
             call(kind, server.address, "put_map", "yard", LARGE * 16, timeout=0.3)
         assert time.monotonic() - started < PATIENCE
 

@@ -49,7 +49,7 @@ def proxy_of(url: httpx.URL) -> str | None:
                 proxy = httpx.URL(proxies[scheme])
             except httpx.InvalidURL:
                 return f"{variable}=(not a URL)"
-            # Without its password.
+            # The password of the proxy is left out.
             return f"{variable}={proxy.copy_with(userinfo=b'')}"
     return None
 
