@@ -397,7 +397,7 @@ def test_config_shows_each_setting_and_its_source(
     file.write_text("prot = 9000\n")
     assert "prot" in run("config", status=1).output
     monkeypatch.setenv("PLACECELL_CONFIG", str(tmp_path / "absent.toml"))
-    assert "no file" in run("config", status=1).output
+    assert "which is not a file" in run("config", status=1).output
 
 
 POSES = {
