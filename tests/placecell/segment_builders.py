@@ -1,4 +1,4 @@
-"""What the tests of `placecell/` share: shapes, drives in memory, drives in KITTI's layouts."""
+"""Builders for tests: shapes, drives in memory and drives in KITTI's layouts."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,17 +15,17 @@ KITTI_TR = (
     "-7.210626507497e-03 8.081198471645e-03 -9.999413164504e-01 -5.403984729748e-02 "
     "9.999738645903e-01 4.859485810390e-04 -7.206933692422e-03 -2.921968648686e-01"
 )
-"""Sensor to left camera, as `calib.txt` of KITTI's odometry sequences 00 to 02 has it."""
+"""Transform from sensor to left camera of KITTI's odometry sequences 00 to 02."""
 
 
 def yaw_matrix(radians: float) -> Float64:
-    """Rotation about z, (3, 3)."""
+    """Return a rotation about z, (3, 3)."""
     c, s = np.cos(radians), np.sin(radians)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, yaw: float = 0.0) -> Float64:
-    """Sensor-to-world transform, (4, 4)."""
+    """Return a sensor-to-world transform, (4, 4)."""
     transform = np.eye(4)
     transform[:3, :3] = yaw_matrix(yaw)
     transform[:3, 3] = x, y, z
@@ -33,12 +33,12 @@ def pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, yaw: float = 0.0) -> Fl
 
 
 def one_segment(points: object, sensor: object = (10.0, 0.0, 0.0)) -> Segments:
-    """A single segment seen from a place."""
+    """Return a single segment seen from a position."""
     return Segments.of([np.asarray(points, np.float32)], np.asarray([sensor], np.float32))
 
 
 def many_segments(sizes: Sequence[int], seed: int = 0) -> Segments:
-    """Random clouds of these sizes around random places, seen from random places."""
+    """Return segments of these sizes at random places, seen from random positions."""
     generator = np.random.default_rng(seed)
     clouds = [
         (generator.normal(size=(size, 3)) * [1.5, 1.0, 0.7] + generator.uniform(-30, 30, 3)).astype(
@@ -50,7 +50,7 @@ def many_segments(sizes: Sequence[int], seed: int = 0) -> Segments:
 
 
 class MemoryDrive(Drive):
-    """A drive that lies in memory; it counts how often each scan is read."""
+    """Drive in memory, which counts how often each scan is read."""
 
     name = "memory"
     layout = "none"
@@ -73,14 +73,14 @@ class MemoryDrive(Drive):
 
 
 def write_scan(file: Path, points: object) -> None:
-    """A Velodyne file: float32 x, y, z, reflectance."""
+    """Write a Velodyne file: float32 x, y, z, reflectance."""
     cloud = np.asarray(points, np.float32).reshape(-1, 3)
     file.parent.mkdir(parents=True, exist_ok=True)
     np.column_stack([cloud, np.zeros(len(cloud))]).astype("<f4").tofile(file)
 
 
 def write_odometry(folder: Path, scans: Sequence[object], poses: Sequence[Float64]) -> Path:
-    """A KITTI odometry sequence; `poses` are the sensor's, written as KITTI's camera poses are."""
+    """Write a KITTI odometry sequence from sensor poses."""
     tr = np.eye(4)
     tr[:3] = np.array(KITTI_TR.split(), dtype=np.float64).reshape(3, 4)
     rows = [(tr @ each @ np.linalg.inv(tr))[:3].ravel() for each in poses]
@@ -97,13 +97,13 @@ IMU_TO_VELO = (
     "R: 1 0 0 0 1 0 0 0 1\n"
     "T: -8.086759e-01 3.195559e-01 -7.997231e-01\n"
 )
-"""With KITTI's own lever arm, and without its rotation of less than a degree."""
+"""Calibration with KITTI's lever arm and without its rotation (less than a degree)."""
 
 
 def write_raw(
     folder: Path, records: Sequence[Sequence[float]], numbers: Sequence[int] | None = None
 ) -> Path:
-    """A KITTI raw drive from the first six oxts values: lat, lon (deg), alt, roll, pitch, yaw.
+    """Write a KITTI raw drive from lat, lon (degrees), alt, roll, pitch, yaw.
 
     `numbers`: of the scans that there are; every record has its oxts file and its time stamp.
     """
@@ -124,7 +124,7 @@ def write_raw(
 def box(
     center: Sequence[float], size: Sequence[float], step: float = 0.1, sides: bool = True
 ) -> Float32:
-    """Points on the four sides and the top of an upright box that stands on `center`'s z."""
+    """Return points on the sides and the top of an upright box with its bottom at `center`."""
     (x, y, z), (a, b, c) = center, size
     us, vs, ws = (np.arange(0.0, length + step / 2, step) for length in (a, b, c))
     top = np.stack(np.meshgrid(us, vs, [c], indexing="ij"), -1).reshape(-1, 3)
@@ -135,7 +135,7 @@ def box(
 
 
 def plane(half: float, step: float = 0.2, slope: float = 0.0, height: float = 0.0) -> Float32:
-    """Points on ground that rises by `slope` along x."""
+    """Return points on ground that rises by `slope` along x."""
     along = np.arange(-half, half + step / 2, step)
     x, y = (axis.ravel() for axis in np.meshgrid(along, along, indexing="ij"))
     return np.stack([x, y, height + slope * x], axis=1).astype(np.float32)

@@ -44,8 +44,8 @@ def test_no_web_no_torch_and_no_neighbors_are_loaded() -> None:
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_nor_would_they_be_later(module: str) -> None:
-    """Imports inside functions as well."""
+def test_no_foreign_import_inside_functions(module: str) -> None:
+    """Imports inside functions count, too."""
     tree = ast.parse((PACKAGE.parent / f"{module.replace('.', '/')}.py").read_text())
     imported = set()
     for node in ast.walk(tree):

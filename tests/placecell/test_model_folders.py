@@ -19,7 +19,7 @@ def test_name_of_a_shipped_model(models: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ["elsewhere", "./group", "a/group", "/somewhere/group"])
-def test_anything_else_is_a_path(models: Path, path: str) -> None:
+def test_other_model_names_are_paths(models: Path, path: str) -> None:
     assert model_folder(path, models) == Path(path)
 
 

@@ -22,7 +22,7 @@ def tiles_of(city: City) -> list[tuple[int, int]]:
 
 
 def down_on(mesh: Mesh, places: Float64) -> Float32:
-    """Height of what a ray from above first hits."""
+    """Return the height of the first hit of a ray from above."""
     origins = np.column_stack([places, np.full(len(places), 50.0)]).astype(np.float32)
     rays = np.tile(np.array([0, 0, -1], np.float32), (len(places), 1))
     return np.float32(50.0) - Scene(mesh).cast(origins, rays)[0]
@@ -45,7 +45,7 @@ def test_tiles_make_up_the_ground_without_gaps(city: City) -> None:
 
 
 def test_streets_are_a_curb_lower_than_what_is_between_them(city: City) -> None:
-    """Where a street of the plan is missing the ground is as high as the blocks."""
+    """The ground of a missing street is as high as the blocks."""
     network = city.network
     heights: dict[bool, list[float]] = {True: [], False: []}
     for column, row in np.ndindex(len(network.plan.easts), len(network.plan.norths)):
@@ -68,7 +68,7 @@ def test_a_tile_follows_from_its_place_alone(city: City) -> None:
     assert len(other.tile(1, 1, 1)) != len(city.tile(1, 1, 1))
 
 
-def test_another_day_other_cars(city: City) -> None:
+def test_other_traffic_seed_gives_other_cars(city: City) -> None:
     assert len(city.tile(1, 1, 1)) != len(city.tile(1, 1, 2))
 
 
@@ -78,7 +78,7 @@ def seen(scenes: Tiles | Scene, pose: Float64) -> Float32:
     return NOISELESS.scan(scene, sweep, pose, np.random.default_rng(0))
 
 
-def test_the_sensor_sees_what_it_would_if_all_were_built(city: City) -> None:
+def test_tiles_show_the_same_as_the_whole_town(city: City) -> None:
     whole = Scene(Mesh.joined(city.tile(*tile, 1) for tile in tiles_of(city)))
     tiles = city.scenes(1, NOISELESS.max_range)
     route = city.route(city.planner.every_street())
@@ -91,7 +91,7 @@ def test_the_sensor_sees_what_it_would_if_all_were_built(city: City) -> None:
 
 
 def test_only_what_is_near_is_built() -> None:
-    """Of twenty kilometers of streets a few blocks."""
+    """A few blocks of twenty kilometers of streets are built."""
     city = City.build(seed=3, meters=20_000.0)
     tiles = city.scenes(1, reach=60.0)
     place = city.route([(0, 0), (0, 1)] if city.network.joins((0, 0), (0, 1)) else [(0, 0), (1, 0)])
@@ -102,8 +102,8 @@ def test_only_what_is_near_is_built() -> None:
     assert tiles.built() == built
 
 
-def test_what_is_far_is_not_in_the_scene() -> None:
-    """Two tiles: one in reach, one beyond it by a meter."""
+def test_far_tiles_are_not_in_the_scene() -> None:
+    """One tile is in reach, the other 1 m out of reach."""
     asked = []
 
     def build(column: int, row: int) -> Mesh:
@@ -118,7 +118,7 @@ def test_what_is_far_is_not_in_the_scene() -> None:
 
 
 def houses(city: City, design: int) -> list[Mesh]:
-    """The houses in streets of a design, each turned back into its own frame's heading."""
+    """Return the houses in streets of a design, each rotated to its own frame."""
     return [
         thing.mesh
         for column, row in tiles_of(city)
@@ -145,7 +145,7 @@ def test_rows_of_identical_houses_stand_in_different_streets() -> None:
 
 
 def test_the_ends_of_gaps_are_planted(city: City) -> None:
-    """A street that is missing would else show the bare ground between two rows of houses."""
+    """The gap of a missing street has objects at its ends."""
     from town.streets.gap import gap_ends
 
     network = city.network
@@ -179,8 +179,8 @@ def test_a_route_keeps_to_the_streets(city: City) -> None:
         city.route([(0, 0), (1, 1)])
 
 
-def test_the_small_town_is_as_it_was() -> None:
-    """Models were trained in it: neither its numbers nor their order may change."""
+def test_the_small_town_is_unchanged() -> None:
+    """Models were trained in it: neither its random numbers nor their order may change."""
     town = Town.build(seed=7)
     mesh = town.mesh(1)
     assert (len(town.objects), len(town.ground), len(mesh)) == (1039, 56_100, 559_458)

@@ -66,7 +66,7 @@ def test_the_reader_finds_the_true_poses(folder: Path, route: Route) -> None:
 
 
 def test_the_camera_is_not_the_sensor(folder: Path) -> None:
-    """Or else the reader's way from the camera to the sensor would go untested."""
+    """The reader's transform from camera to sensor is not the identity."""
     camera = np.loadtxt(folder / "poses.txt").reshape(-1, 3, 4)
     moved = camera[-1, :, 3] - camera[0, :, 3]
     assert abs(moved[2]) > 5 * abs(moved[1])  # the camera's z is ahead, its y down
@@ -109,7 +109,7 @@ def test_a_broken_origin_names_the_file(tmp_path: Path, text: str | None, said: 
 
 @pytest.mark.parametrize("scan", [0, SCANS - 1])
 def test_the_road_is_at_its_height(folder: Path, town: Town, route: Route, scan: int) -> None:
-    """Along the way ahead and behind nothing stands, and the ground is where it should be."""
+    """The road ahead and behind is free, and its height is right."""
     points = in_town(folder, scan)
     lane = route.lane()[::4]
     beside = np.linalg.norm(points[:, None, :2] - lane[None], axis=2).min(axis=1)
@@ -140,14 +140,18 @@ def test_points_are_within_the_limits(folder: Path) -> None:
         assert 0 < records[:, 3].min() <= records[:, 3].max() <= 1
 
 
-def test_same_seeds_same_bytes(folder: Path, town: Town, route: Route, tmp_path: Path) -> None:
+def test_same_seeds_give_the_same_bytes(
+    folder: Path, town: Town, route: Route, tmp_path: Path
+) -> None:
     town_again = Town.build(seed=5, streets=(2, 2))
     again = write(tmp_path / "again", town_again, replace(route, terrain=town_again.terrain))
     assert files(again) == files(folder)
     assert len(files(again)) == SCANS + 4
 
 
-def test_other_noise_other_points(folder: Path, town: Town, route: Route, tmp_path: Path) -> None:
+def test_other_noise_seed_gives_other_points(
+    folder: Path, town: Town, route: Route, tmp_path: Path
+) -> None:
     other = write(tmp_path / "other", town, route, noise=2)
     differing = {name for name, content in files(other).items() if files(folder)[name] != content}
     assert differing == {f"velodyne/{scan:06d}.bin" for scan in range(SCANS)}

@@ -21,7 +21,7 @@ def scan(lidar: Lidar, mesh: Mesh, seed: int = 0) -> Float32:
 
 @pytest.fixture(scope="module")
 def room() -> Mesh:
-    """10 m ahead, 20 m behind, 5 m to either side, bright; closed above and below."""
+    """Return a closed bright room: 10 m ahead, 20 m behind, 5 m to both sides."""
     return box((-20.0, -5.0, -2.0), (30.0, 10.0, 8.0), reflectance=0.8)
 
 
@@ -74,19 +74,19 @@ def test_resolution_quantizes_ranges(room: Mesh) -> None:
         (replace(NOISELESS, max_range=30.0), 0.8, 30.0),
     ],
 )
-def test_how_far_it_sees(lidar: Lidar, reflectance: float, farthest: float) -> None:
+def test_range_depends_on_reflectance(lidar: Lidar, reflectance: float, farthest: float) -> None:
     plain = box((-200.0, -200.0, -3.0), (400.0, 400.0, 1.27), reflectance)
     flat = replace(lidar, elevations=tuple(np.linspace(-5.0, -0.5, 64)))
     ranges = np.linalg.norm(scan(flat, plain)[:, :3], axis=1)
     assert 0.9 * farthest < ranges.max() <= farthest + 1e-3
 
 
-def test_nothing_is_seen_where_nothing_is() -> None:
+def test_empty_scene_has_no_returns() -> None:
     assert scan(NOISELESS, box((-500.0, 0.0, 0.0), (1.0, 1.0, 1.0), 1.0)).shape == (0, 4)
 
 
 def test_a_moving_sensor_is_deskewed(room: Mesh) -> None:
-    """Fired on the move and turning, the points still lie on the walls, as seen from mid-sweep."""
+    """Points of a moving and rotating sensor are on the walls, in the mid-sweep frame."""
     times = NOISELESS.sweep_times()
     sweep = still(NOISELESS)
     cosine, sine = np.cos(0.2 * times), np.sin(0.2 * times)
@@ -111,7 +111,7 @@ def test_the_nearer_of_two_things_hides_the_farther(room: Mesh) -> None:
 
 @pytest.mark.parametrize(("rain", "farthest"), [(0.0, 50.0), (10.0, 21.36), (50.0, 12.93)])
 def test_rain_shortens_sight(rain: float, farthest: float) -> None:
-    """By hand: (50 m / r)^2 = exp(2 * 0.01 * rain^0.6 * r), which r = farthest solves."""
+    """The range r solves (50 m / r)^2 = exp(2 * 0.01 * rain^0.6 * r)."""
     plain = box((-200.0, -200.0, -3.0), (400.0, 400.0, 1.27), 0.1)
     lidar = replace(NOISELESS, rain=rain, elevations=tuple(np.linspace(-20.0, -0.5, 64)))
     ranges = np.linalg.norm(scan(lidar, plain)[:, :3], axis=1)

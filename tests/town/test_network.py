@@ -10,7 +10,7 @@ def network() -> Network:
     return Network.draw(seed=7, meters=3000.0)
 
 
-def test_same_seed_same_network(network: Network) -> None:
+def test_same_seed_gives_the_same_network(network: Network) -> None:
     again = Network.draw(seed=7, meters=3000.0)
     assert np.array_equal(again.streets, network.streets)
     assert np.array_equal(again.designs, network.designs)
@@ -19,7 +19,7 @@ def test_same_seed_same_network(network: Network) -> None:
 
 
 @pytest.mark.parametrize("meters", [1.0, 700.0, 3000.0, 20_000.0])
-def test_it_is_as_large_as_asked(meters: float) -> None:
+def test_network_has_the_requested_length(meters: float) -> None:
     drawn = Network.draw(seed=1, meters=meters)
     assert meters <= drawn.meters() < max(meters + 100.0, 700.0)
 
@@ -31,7 +31,7 @@ def test_impossible_sizes_are_refused(meters: float) -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_there_are_no_dead_ends_and_it_hangs_together(seed: int) -> None:
+def test_network_is_connected_without_dead_ends(seed: int) -> None:
     drawn = Network.draw(seed=seed, meters=2000.0)
     degrees = np.bincount(drawn.streets.ravel())
     assert degrees.min() >= 2
@@ -53,7 +53,7 @@ def test_thinning_stops_where_a_street_would_be_cut_off() -> None:
     assert kept.tolist() == list(range(7))
 
 
-def test_thinning_keeps_the_meters_that_are_wanted() -> None:
+def test_thinning_keeps_the_requested_length() -> None:
     grid = np.array(
         [(3 * i + j, 3 * i + j + 1) for i in range(3) for j in range(2)]
         + [(3 * i + j, 3 * i + j + 3) for i in range(2) for j in range(3)]

@@ -6,7 +6,7 @@ from town.sensing.odometry import Odometry
 
 
 def straight(meters: int) -> Float64:
-    """A meter a scan along a heading, uphill, rolled."""
+    """Return poses 1 m apart along a heading, uphill, with roll."""
     poses = np.tile(np.eye(4), (meters + 1, 1, 1))
     poses[:, :3, :3] = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]
     tilt = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
@@ -15,7 +15,7 @@ def straight(meters: int) -> Float64:
     return poses
 
 
-def test_without_errors_it_is_the_truth() -> None:
+def test_odometry_without_errors_is_exact() -> None:
     true = straight(50)
     assert Odometry(0.0, 0.0).poses(true, seed=3) == pytest.approx(true, abs=1e-12)
 
@@ -27,7 +27,7 @@ def test_the_first_pose_is_true_and_the_truth_is_left_alone() -> None:
     assert np.array_equal(true, straight(50))
 
 
-def test_a_scale_alone_stretches_the_way() -> None:
+def test_scale_error_stretches_the_path() -> None:
     true = straight(50)
     believed = Odometry(0.0, 0.1).poses(true, seed=3)
     steps = np.linalg.norm(np.diff(believed[:, :3, 3], axis=0), axis=1)
@@ -58,8 +58,8 @@ def test_gravity_is_known() -> None:
     )
 
 
-def test_each_step_is_as_it_was_felt() -> None:
-    """The steps are those of the truth, seen from the pose before, but for the scale."""
+def test_each_step_has_the_true_relative_motion() -> None:
+    """Relative poses are the true ones, except for the scale."""
     true = straight(30)
     believed = Odometry(3.0, 0.0).poses(true, seed=5)
 
@@ -72,6 +72,6 @@ def test_each_step_is_as_it_was_felt() -> None:
 
 
 @pytest.mark.parametrize(("yaw", "scale"), [(-0.1, 0.0), (0.0, -0.1), (np.nan, 0.0), (0.0, 0.5)])
-def test_what_is_no_deviation_is_refused(yaw: float, scale: float) -> None:
+def test_invalid_deviations_are_refused(yaw: float, scale: float) -> None:
     with pytest.raises(ValueError, match="Invalid drift"):
         Odometry(yaw, scale)

@@ -68,7 +68,7 @@ def test_maps_without_overlap_are_far_apart(
         assert pair.overlap == 0.0
 
 
-def test_every_second_one_of_those_looks_alike(
+def test_half_of_the_pairs_without_overlap_are_similar(
     city: City,
     drives: tuple[Traversal, Traversal],
     pairs: tuple[list[StretchPair], list[StretchPair]],
@@ -86,7 +86,7 @@ def test_every_second_one_of_those_looks_alike(
     assert np.mean([pair.look_alike for pair in others]) < 0.2
 
 
-def test_the_truth_takes_one_map_to_the_other(
+def test_true_transform_aligns_the_maps(
     drives: tuple[Traversal, Traversal], pairs: tuple[list[StretchPair], list[StretchPair]]
 ) -> None:
     a, b = drives
@@ -103,14 +103,14 @@ def test_the_truth_takes_one_map_to_the_other(
     assert np.median(shifts) > 1000.0
 
 
-def test_same_seed_same_pairs(city: City, drives: tuple[Traversal, Traversal]) -> None:
+def test_same_seed_gives_the_same_pairs(city: City, drives: tuple[Traversal, Traversal]) -> None:
     one, other = (draw_pairs(city, *drives, 2, METERS, seed=5)[1][0] for _ in range(2))
     assert one.as_dict() == other.as_dict()
     another = draw_pairs(city, *drives, 2, METERS, seed=6)[1][0]
     assert another.as_dict() != one.as_dict()
 
 
-def test_what_cannot_be_found_is_said(city: City, drives: tuple[Traversal, Traversal]) -> None:
+def test_impossible_pairs_are_refused(city: City, drives: tuple[Traversal, Traversal]) -> None:
     a, b = drives
     with pytest.raises(ValueError, match="expected at least 1"):
         draw_pairs(city, a, b, 0, METERS)

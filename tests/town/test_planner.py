@@ -87,13 +87,13 @@ def test_a_loop_has_laps(planner: Planner) -> None:
         ([(0, 0), (0, 1), (0, 0)], "turns on the spot at"),
     ],
 )
-def test_what_is_no_way_is_refused(planner: Planner, way: Way, message: str) -> None:
+def test_invalid_paths_are_refused(planner: Planner, way: Way, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         planner.arcs_of(way)
 
 
 def shortest(pairs: list[int], distance: Float64) -> float:
-    """The least that joins all of these up in pairs, by trying all."""
+    """Return the smallest total distance of a pairing, by trying all."""
     if not pairs:
         return 0.0
     first, *rest = pairs
@@ -127,14 +127,14 @@ def check_round(streets: Int64, lengths: Float64) -> None:
 
 
 def test_a_square_with_a_diagonal() -> None:
-    """Both ends of the diagonal are odd: it is taken twice if it is shorter than two sides."""
+    """Both ends of the diagonal are odd: it is used twice if it is shorter than two sides."""
     streets = np.array([[0, 1], [1, 2], [2, 3], [0, 3], [0, 2]])
     for diagonal in (1.4, 2.6):
         check_round(streets, np.array([1.0, 1.1, 1.2, 1.3, diagonal]))
 
 
 def test_an_even_network_is_taken_once() -> None:
-    """Two triangles that meet in a crossing."""
+    """Two triangles have a common crossing."""
     streets = np.array([[0, 1], [1, 2], [0, 2], [2, 3], [3, 4], [2, 4]])
     assert sorted(arc % 6 for arc in postman(streets, np.ones(6))) == list(range(6))
     check_round(streets, np.ones(6))
@@ -142,6 +142,6 @@ def test_an_even_network_is_taken_once() -> None:
 
 @given(seed=st.integers(0, 10_000), meters=st.floats(1.0, 1500.0))
 @settings(max_examples=40, deadline=None)
-def test_the_round_is_the_shortest_there_is(seed: int, meters: float) -> None:
+def test_tour_is_the_shortest(seed: int, meters: float) -> None:
     network = Network.draw(seed, meters)
     check_round(network.streets, network.lengths)

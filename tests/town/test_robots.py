@@ -57,7 +57,7 @@ def test_robots_meet_head_on(drives: tuple[Path, Path]) -> None:
     assert heading.max() < -0.9
 
 
-def test_a_frame_holds_as_many_segments_as_a_real_street(
+def test_capture_has_as_many_segments_as_a_real_street(
     recordings: tuple[Recording, Recording],
 ) -> None:
     for recording in recordings:
@@ -82,7 +82,7 @@ def test_robots_see_the_same_segments(
     assert np.mean(distance < 1.5) > np.mean(by_chance < 1.5) + 0.2
 
 
-def test_progress_is_told_and_drives_are_protected(
+def test_progress_is_shown_and_drives_are_not_overwritten(
     drives: tuple[Path, Path], tmp_path: Path
 ) -> None:
     told = []
@@ -115,7 +115,7 @@ def test_every_second_robot_drives_the_other_way(fleet: list[Path]) -> None:
     assert other == pytest.approx(back, abs=1e-6)
 
 
-def test_no_two_robots_see_the_same(fleet: list[Path]) -> None:
+def test_robots_have_different_scans(fleet: list[Path]) -> None:
     one, third = ((fleet[index] / "velodyne" / "000000.bin").read_bytes() for index in (0, 2))
     assert one != third
 
@@ -130,7 +130,7 @@ def test_odometry_stands_beside_the_truth(fleet: list[Path]) -> None:
     assert one != third
 
 
-def test_nothing_is_driven_before_all_can_be(tmp_path: Path) -> None:
+def test_all_drives_are_checked_before_the_first(tmp_path: Path) -> None:
     city = City.build(seed=3, meters=600.0)
     route = city.route(city.planner.every_street())
     (tmp_path / "robot_b").mkdir()

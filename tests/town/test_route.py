@@ -13,7 +13,7 @@ def town() -> Town:
 
 @pytest.fixture(scope="module")
 def route(town: Town) -> Route:
-    """Straight on, then left, then right."""
+    """Return a route: straight, left, right."""
     return Route.through(town.plan, town.terrain, [(0, 0), (1, 0), (1, 1), (2, 1)])
 
 

@@ -19,13 +19,13 @@ def places(town: Town, kind: str, seed: int) -> Float64:
     )
 
 
-def test_same_seed_same_town(town: Town) -> None:
+def test_same_seed_gives_the_same_town(town: Town) -> None:
     again = Town.build(seed=3, streets=(3, 2))
     assert (again.mesh(1).triangles == town.mesh(1).triangles).all()
     assert (again.mesh(1).reflectance == town.mesh(1).reflectance).all()
 
 
-def test_other_seed_other_town(town: Town) -> None:
+def test_other_seed_gives_another_town(town: Town) -> None:
     other = Town.build(seed=4, streets=(3, 2))
     assert not np.array_equal(other.plan.easts, town.plan.easts)
     assert len(other.mesh(1)) != len(town.mesh(1))
@@ -57,7 +57,7 @@ def test_no_two_houses_are_alike(town: Town) -> None:
 
 
 def test_houses_on_one_side_are_apart(town: Town) -> None:
-    """Facades must not grow into one segment: the gap is wider than the growing radius."""
+    """The gap between facades is wider than the growing radius, so they are separate segments."""
     houses = [thing.mesh.triangles.reshape(-1, 3)[:, :2] for thing in town.objects
               if thing.kind == "house"]  # fmt: skip
     for one, other in pairwise(houses):

@@ -1,4 +1,4 @@
-"""Tokens stop Python code and compiled loops."""
+"""Cancellation of Python code and compiled loops."""
 
 import threading
 import time
@@ -14,7 +14,7 @@ from placecell.core.types import Int32, Int64
 
 @numba.njit(nogil=True)  # type: ignore[misc, unused-ignore]
 def _spin(flag: Int32, begun: Int64) -> None:
-    """Loop without an end of its own; nothing in it tells the compiler that the flag changes."""
+    """Loop until cancelled; the compiler cannot know that the flag changes."""
     rounds = 0
     while not is_cancelled(flag):
         rounds += 1
@@ -33,7 +33,7 @@ def test_compiled_loop_ends_when_cancelled() -> None:
     assert not thread.is_alive()
 
 
-def test_check_raises_once_cancelled() -> None:
+def test_check_raises_after_cancellation() -> None:
     token = CancelToken()
     token.check()
     token.cancel()

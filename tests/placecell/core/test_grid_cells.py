@@ -1,4 +1,4 @@
-"""Cells: what is near is found, wherever the points are."""
+"""Grid cells find near points at any coordinates."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from placecell.core.grid_cells import neighboring
 
 @pytest.mark.parametrize("offset", [0.0, 5.0, -3.2e6, 9e7])
 @pytest.mark.parametrize("radius", [0.3, 0.5, 10.0])
-def test_A1_all_within_the_radius_are_in_neighboring_cells(offset: float, radius: float) -> None:
+def test_A1_points_within_the_radius_are_in_neighboring_cells(offset: float, radius: float) -> None:
     random = np.random.default_rng(0)
     points = random.uniform(-3, 3, (200, 3)) * radius + offset
     points[100:] = points[:100] + random.choice([-radius, 0, radius], (100, 3)) * (1, 0, 0)

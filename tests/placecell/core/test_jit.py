@@ -1,4 +1,4 @@
-"""The cache of compiled code is optional: whatever is wrong with it, the code is compiled."""
+"""The cache of compiled code is optional: a broken cache never prevents compilation."""
 
 import errno
 import importlib.util
@@ -69,7 +69,7 @@ def files(tmp_path: Path) -> dict[str, Path]:
 
 
 class Foreign:
-    """A class that the reader of the file does not have."""
+    """Class that the reader of the file does not know."""
 
 
 def _cut(file: Path) -> None:

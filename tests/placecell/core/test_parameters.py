@@ -7,7 +7,7 @@ from placecell.core.parameters import PROTOCOL_V1, Parameters
 
 
 def test_protocol_v1() -> None:
-    """The protocol under which figures are compared: a change here makes another protocol."""
+    """Any change of these values makes another protocol."""
     assert PROTOCOL_V1.as_dict() == {
         "protocol": "v1",
         "frame_step": 2,
@@ -33,7 +33,7 @@ def test_protocol_v1() -> None:
     ("scans", "every", "step"),
     [(99, None, 1), (100, None, 2), (501, None, 2), (10, 3, 3), (501, 1, 1)],
 )
-def test_frames_of_a_drive(scans: int, every: int | None, step: int) -> None:
+def test_captures_of_a_drive(scans: int, every: int | None, step: int) -> None:
     assert PROTOCOL_V1.for_drive(scans, every) == dataclasses.replace(PROTOCOL_V1, frame_step=step)
 
 

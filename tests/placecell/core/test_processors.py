@@ -1,4 +1,4 @@
-"""Cores that a process may use, as its control groups say."""
+"""Available cores of a process by its control groups and affinity."""
 
 from pathlib import Path
 from typing import Any

@@ -25,7 +25,7 @@ def same(a: Segments, b: Segments) -> bool:
     )
 
 
-def test_columns_by_hand(segments: Segments) -> None:
+def test_columns_match_values_by_hand(segments: Segments) -> None:
     assert len(segments) == 3
     assert segments.points.shape == (6, 3)
     assert segments.ends.tolist() == [2, 3, 6]
@@ -34,13 +34,13 @@ def test_columns_by_hand(segments: Segments) -> None:
     assert segments.owners.tolist() == [0, 0, 1, 2, 2, 2]
 
 
-def test_types_whatever_is_given() -> None:
+def test_any_input_type_gives_the_documented_types() -> None:
     made = Segments.of([cloud.astype(np.float64) for cloud in CLOUDS], SENSORS.astype(np.float64))
     types = [str(column.dtype) for column in (made.points, made.ends, made.sensors)]
     assert types == ["float32", "int64", "float32"]
 
 
-def test_cloud_is_what_was_put_in(segments: Segments) -> None:
+def test_cloud_returns_the_input_points(segments: Segments) -> None:
     for index, cloud in enumerate(CLOUDS):
         assert np.array_equal(segments.cloud(index), cloud)
 
@@ -70,7 +70,7 @@ def test_take_in_the_order_asked_for(segments: Segments, indices: list[int]) -> 
     assert same(taken, expected)
 
 
-def test_take_from_many() -> None:
+def test_take_from_many_segments_keeps_points() -> None:
     segments = many_segments(list(range(1, 60)))
     order = np.random.default_rng(0).permutation(len(segments))[:40]
     taken = segments.take(order)
@@ -84,11 +84,11 @@ def test_concatenate_undoes_take(segments: Segments) -> None:
     assert same(Segments.concatenate(parts), segments)
 
 
-def test_concatenate_nothing() -> None:
+def test_concatenate_without_parts_is_empty() -> None:
     assert len(Segments.concatenate([])) == 0
 
 
-def test_empty() -> None:
+def test_empty_segments_have_no_rows() -> None:
     empty = Segments.of([], np.zeros((0, 3)))
     assert len(empty) == 0
     assert empty.points.shape == empty.sensors.shape == empty.centroids().shape == (0, 3)
@@ -99,7 +99,7 @@ def test_empty() -> None:
     assert len(empty.take([])) == 0
 
 
-def test_take_refuses_a_mask_which_would_be_read_as_indices_0_and_1() -> None:
+def test_take_refuses_a_mask() -> None:
     two = Segments.of([np.ones((3, 3), np.float32), np.zeros((2, 3), np.float32)], np.ones((2, 3)))
     with pytest.raises(TypeError, match="mask"):
         two.take(np.array([True, False]))

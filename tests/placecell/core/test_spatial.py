@@ -1,4 +1,4 @@
-"""Points that lie near each other, or within a box."""
+"""Points near each other, or within a box."""
 
 import numpy as np
 from hypothesis import given
@@ -23,7 +23,7 @@ def test_near_pairs_are_those_within_three_meters() -> None:
     ]
 
 
-def test_where_pairs_are_too_many_fewer_points_are_compared() -> None:
+def test_too_many_pairs_compare_fewer_points() -> None:
     a = np.random.default_rng(2).uniform(0, 1, (300, 3))
     here, there = near_pairs(a, a, 3.0, 500)
     # 90,000 otherwise; each with each of what is left.
@@ -32,7 +32,7 @@ def test_where_pairs_are_too_many_fewer_points_are_compared() -> None:
     assert np.unique(here)[[0, -1]].tolist() == [0, 299]
 
 
-def test_no_points_are_near_none() -> None:
+def test_empty_points_have_no_pairs() -> None:
     nothing, some = np.zeros((0, 3)), np.zeros((2, 3))
     for a, b in ((nothing, some), (some, nothing), (nothing, nothing)):
         here, there = near_pairs(a, b, 3.0, 10)
@@ -62,7 +62,7 @@ def test_within_cells_about_places_that_are_far_apart() -> None:
     extent=st.sampled_from([1.0, 100.0, 260.0, 5_000.0, 1e5]),
     meters=st.sampled_from([0.5, 1.5, 20.0]),
 )
-def test_within_has_all_that_is_near_and_little_else(
+def test_within_returns_all_near_points_and_few_others(
     seed: int, extent: float, meters: float
 ) -> None:
     random = np.random.default_rng(seed)

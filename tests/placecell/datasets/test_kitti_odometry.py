@@ -25,7 +25,7 @@ def refused(folder: Path, file: str) -> str:
 
 
 def replace_line(file: Path, number: int, line: str | None) -> None:
-    """Another line in its place; None takes it away."""
+    """Replace a line; None removes it."""
     lines = file.read_text().splitlines()
     lines[number : number + 1] = [] if line is None else [line]
     file.write_text("\n".join(lines) + "\n")
@@ -48,7 +48,7 @@ def test_poses_are_the_sensors_not_the_cameras(folder: Path) -> None:
 
 
 def test_camera_poses_by_hand(tmp_path: Path) -> None:
-    """Camera and sensor at one place; the camera looks along the sensor's x: z is ahead, y down."""
+    """Camera and sensor are at one place; the camera looks along the sensor's x."""
     folder = write_odometry(tmp_path / "07", SCANS[:2], POSES[:2])
     (folder / "calib.txt").write_text("Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n")
     # 5 m ahead, 2 m to the right, 1 m up, and turned to the left by 90 degrees:
@@ -73,7 +73,7 @@ def test_tr_of_identity_leaves_the_poses_alone(folder: Path) -> None:
     assert open_drive(folder).poses[:, :3] == pytest.approx(rows)
 
 
-def test_missing_tr_says_what_is_missing_and_how_to_give_it(folder: Path) -> None:
+def test_missing_tr_is_refused_with_advice(folder: Path) -> None:
     replace_line(folder / "calib.txt", 1, None)
     message = refused(folder, "calib.txt")
     assert "has no 'Tr'" in message
@@ -147,7 +147,7 @@ def test_poses_beside_the_sequences(folder: Path) -> None:
     assert str(beside) in str(caught.value)
 
 
-def test_poses_of_its_own_come_first(folder: Path) -> None:
+def test_poses_in_the_folder_take_precedence(folder: Path) -> None:
     beside = folder.parent.parent / "poses" / "00.txt"
     beside.parent.mkdir()
     beside.write_text("nonsense\n")
@@ -197,7 +197,7 @@ def test_file_instead_of_a_folder(folder: Path) -> None:
     assert "no such folder" in refused(folder / "poses.txt", "")
 
 
-def test_unknown_folder_is_told_what_is_known(tmp_path: Path) -> None:
+def test_unknown_folder_error_lists_the_layouts(tmp_path: Path) -> None:
     message = refused(tmp_path, "")
     for layout in ("KITTI odometry", "velodyne/*.bin", "KITTI raw", "oxts/data/*.txt"):
         assert layout in message

@@ -18,13 +18,13 @@ def record(
     east: float = 0.0, north: float = 0.0, up: float = 0.0, yaw: float = 0.0, roll: float = 0.0,
     pitch: float = 0.0,
 ) -> Record:  # fmt: skip
-    """What oxts says so many meters from the start."""
+    """Return an oxts record at a distance from the start, meters."""
     longitude = LONGITUDE + east / (METERS_A_DEGREE * math.cos(math.radians(LATITUDE)))
     return LATITUDE + north / METERS_A_DEGREE, longitude, ALTITUDE + up, roll, pitch, yaw
 
 
 def unit_at_the_sensor(folder: Path) -> None:
-    """A calibration without a lever arm."""
+    """Write a calibration without a lever arm."""
     (folder / "calib_imu_to_velo.txt").write_text("R: 1 0 0 0 1 0 0 0 1\nT: 0 0 0\n")
 
 
@@ -61,7 +61,7 @@ def test_poses_as_constructed(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("heading", [0.0, 0.7, math.pi / 2, -2.0])
 def test_world_is_the_sensors_frame_at_the_first_scan(tmp_path: Path, heading: float) -> None:
-    """Whichever way the car heads, driving on is +x."""
+    """Driving ahead is +x for any heading."""
     records = [
         record(s * math.cos(heading), s * math.sin(heading), yaw=heading) for s in (0.0, 5.0, 9.0)
     ]
@@ -70,7 +70,7 @@ def test_world_is_the_sensors_frame_at_the_first_scan(tmp_path: Path, heading: f
 
 
 def test_lever_arm_between_unit_and_sensor_counts(tmp_path: Path) -> None:
-    """Turned in place by 90 degrees: the sensor, 0.81 m ahead of the unit, goes round it."""
+    """A rotation by 90 degrees moves the sensor, 0.81 m ahead of the unit, around it."""
     drive = open_drive(write_raw(tmp_path / "drive", [record(), record(yaw=math.pi / 2)]))
     sensor = np.array([0.8086759, -0.3195559, 0.7997231])  # minus T: seen from the unit
     x, y, z = yaw_matrix(math.pi / 2) @ sensor - sensor
@@ -78,7 +78,7 @@ def test_lever_arm_between_unit_and_sensor_counts(tmp_path: Path) -> None:
 
 
 def test_sensor_mounted_turned(tmp_path: Path) -> None:
-    """The sensor's x is the unit's left: driving ahead, it moves along its -y."""
+    """The sensor's x is the unit's left, so driving ahead is the sensor's -y."""
     folder = write_raw(tmp_path / "drive", [record(), record(4.0)])
     (folder / "calib_imu_to_velo.txt").write_text("R: 0 1 0 -1 0 0 0 0 1\nT: 0 0 0\n")
     assert open_drive(folder).poses[1] == pytest.approx(pose(0, -4), abs=1e-3)
@@ -122,7 +122,7 @@ def test_calibration_of_the_date(folder: Path) -> None:
     assert len(open_drive(folder)) == 6
 
 
-def test_missing_calibration_says_where_it_comes_from(folder: Path) -> None:
+def test_missing_calibration_error_names_its_source(folder: Path) -> None:
     (folder / "calib_imu_to_velo.txt").unlink()
     message = refused(folder, "calib_imu_to_velo.txt")
     assert str(folder.parent) in message

@@ -1,4 +1,4 @@
-"""B4: scans without a header are read as what they hold, or refused."""
+"""B4: the layout of scans without a header is found from their content, or they are refused."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +16,7 @@ REAL = Path(placecell.__file__).resolve().parents[2] / "shared" / "real"
 
 
 def turning_scan(beams: int, steps: int, seed: int) -> Float32:
-    """A scan of walls, a street and dropouts at 0, beam after beam: x, y, z, reflectance."""
+    """Return a scan of walls, a street and dropouts at 0, beam by beam: x, y, z, reflectance."""
     random = np.random.default_rng(seed)
     azimuth = np.tile(np.linspace(-np.pi, np.pi, steps, endpoint=False), beams)
     elevation = np.repeat(np.radians(np.linspace(-24, 2, beams)), steps)
@@ -86,7 +86,7 @@ KINDS: dict[str, tuple[Callable[[Float32], object], int, str]] = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_B4_columns_and_type_are_told_by_content(
+def test_B4_columns_and_type_are_found_from_content(
     kind: str, scans: list[Float32], tmp_path: Path
 ) -> None:
     change, columns, dtype = KINDS[kind]
@@ -110,7 +110,7 @@ def test_B4_columns_and_type_are_told_by_content(
     ],
     ids=["columns", "3 columns", "big-endian", "int16", "mm", "map frame", "ring first"],
 )
-def test_B4_what_is_not_sure_is_refused_with_what_was_found(
+def test_B4_uncertain_layout_is_refused_with_the_findings(
     change: Callable[[Float32], object], said: str, scans: list[Float32], tmp_path: Path
 ) -> None:
     with pytest.raises(DriveError) as caught:
@@ -120,7 +120,7 @@ def test_B4_what_is_not_sure_is_refused_with_what_was_found(
 
 
 @pytest.mark.slow
-def test_B4_what_is_stated_is_used(scans: list[Float32], tmp_path: Path) -> None:
+def test_B4_stated_layout_is_used(scans: list[Float32], tmp_path: Path) -> None:
     files = written(
         tmp_path, scans, lambda s: f4(ring(s), s).astype("<f8").T * [[1], *[[1000]] * 4]
     )
@@ -134,12 +134,12 @@ def test_B4_what_is_stated_is_used(scans: list[Float32], tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("text", ["2", "x,y", "x,y,z,z", "x,y,z,,i", "65"])
-def test_B4_columns_that_cannot_be_are_refused(text: str) -> None:
+def test_B4_impossible_columns_are_refused(text: str) -> None:
     with pytest.raises(ValueError, match="--columns"):
         parse_columns(text)
 
 
-def test_B4_few_points_are_as_kitti_has_them_if_they_fit(tmp_path: Path) -> None:
+def test_B4_few_points_get_the_kitti_layout_if_it_fits(tmp_path: Path) -> None:
     few = [turning_scan(4, 3, seed) for seed in range(2)]
     assert len(found(written(tmp_path, few, lambda s: s)).columns) == 4
     with pytest.raises(DriveError, match=r"fit 5 columns of float32.*too few"):
@@ -174,7 +174,7 @@ def test_B4_six_real_points_of_five_columns_are_not_sure() -> None:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A drive of six scans in KITTI's own layout."""
+    """Write a drive of six scans in KITTI's layout."""
     points = [turning_scan(16, 60, seed)[:, :3] for seed in range(6)]
     return write_odometry(tmp_path / "drive", points, [pose(x) for x in range(6)])
 
@@ -219,9 +219,7 @@ def test_B10_a_drive_of_mostly_bad_scans_is_refused_at_once(folder: Path) -> Non
         open_drive(folder)
 
 
-def test_B10_a_scan_without_content_is_no_sign_of_having_been_seen(
-    folder: Path, tmp_path: Path
-) -> None:
+def test_B10_a_scan_without_content_does_not_count_as_seen(folder: Path, tmp_path: Path) -> None:
     points = [turning_scan(16, 60, seed)[:, :3] for seed in range(3)]
     other = write_odometry(tmp_path / "other", points, [pose(x) for x in range(3)])
     (folder / "velodyne" / "000001.bin").write_bytes(b"")
@@ -242,7 +240,7 @@ def test_B4_B16_times_in_other_units_are_named(
         assert np.diff(open_drive(folder).times) == pytest.approx(0.1)
 
 
-def test_B4_poses_in_millimeters_are_doubted(folder: Path) -> None:
+def test_B4_poses_in_millimeters_are_refused(folder: Path) -> None:
     rows = np.loadtxt(folder / "poses.txt")
     rows[:, 3::4] *= 1000
     np.savetxt(folder / "poses.txt", rows)

@@ -79,7 +79,7 @@ def test_standing_things_coincide_over_the_scans(drive: Drive) -> None:
     assert np.median(distances) < 0.1
 
 
-def test_segments_a_frame(recording: Recording) -> None:
+def test_segments_per_capture_are_plausible(recording: Recording) -> None:
     _, counts = np.unique(recording.captures, return_counts=True)
     # 37 from the first scan alone, 46 from two, 52 to 60 from there on.
     assert len(counts) == 10
@@ -88,7 +88,7 @@ def test_segments_a_frame(recording: Recording) -> None:
     assert counts.max() <= 100
 
 
-def test_groups_over_the_frames(recording: Recording) -> None:
+def test_groups_persist_over_captures(recording: Recording) -> None:
     # Most of what one frame has, the next has too.
     for frame in range(4, 10):
         before, now = (set(recording.groups[recording.captures == f]) for f in (frame - 1, frame))

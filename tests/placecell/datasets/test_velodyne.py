@@ -100,7 +100,7 @@ def test_broken_table(tmp_path: Path, text: str, message: str) -> None:
         read_table(tmp_path / "t.txt", 2, "pairs")
 
 
-def test_table_of_bytes(tmp_path: Path) -> None:
+def test_binary_table_is_refused(tmp_path: Path) -> None:
     (tmp_path / "t.txt").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(DriveError, match=r"t\.txt: cannot be read"):
         read_table(tmp_path / "t.txt", 2, "pairs")

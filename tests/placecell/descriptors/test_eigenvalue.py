@@ -19,7 +19,7 @@ def features(points: object) -> dict[str, float]:
 
 
 def corners(a: float, b: float, c: float) -> list[list[float]]:
-    """Of a box: the variances along its axes are a^2, b^2 and c^2."""
+    """Return corners of a box with variances a^2, b^2 and c^2 along its axes."""
     return [[x, y, z] for x in (-a, a) for y in (-b, b) for z in (-c, c)]
 
 
@@ -47,7 +47,7 @@ def test_eigenvalues_are_variances_largest_first() -> None:
 
 
 def test_blob_of_3_to_1_to_02_is_linear() -> None:
-    """An earlier system gave -21 here where it should have given 0.894.
+    """The linearity is 0.889; an earlier system gave -21 instead of 0.894.
 
     The blob's deviations are 3 : 1 : 0.2, so its variances are 9 : 1 : 0.04 and its linearity is
     (9 - 1) / 9 = 0.889: 0.894 is that within the noise of one sample of a few hundred points. (Of

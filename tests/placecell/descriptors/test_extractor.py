@@ -20,7 +20,7 @@ SIZES = [5, 100, 700, 3000, 60]
 
 
 def toy_network(file: Path) -> None:
-    """descriptor = [voxels occupied in each of the 38 slices along x, extents]."""
+    """Write a network whose descriptor is the occupied voxels of each of 38 slices, and extents."""
     axes = numpy_helper.from_array(np.array([2, 3], np.int64), "axes")
     graph = helper.make_graph(
         [

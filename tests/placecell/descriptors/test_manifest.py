@@ -77,7 +77,7 @@ def test_id_begins_with_the_name() -> None:
         {"standardization": {"mean": [1.0], "deviation": [2.0]}},
     ],
 )
-def test_id_changes_with_what_decides_a_descriptor(change: dict[str, Any]) -> None:
+def test_id_changes_with_everything_that_determines_descriptors(change: dict[str, Any]) -> None:
     assert replace(MANIFEST, **change).model_id != MANIFEST.model_id
 
 
@@ -90,7 +90,7 @@ def test_id_changes_with_what_decides_a_descriptor(change: dict[str, Any]) -> No
         {"files": {PAIR_FILE: "0" * 64}},
     ],
 )
-def test_id_does_not_change_with_what_was_measured(change: dict[str, Any]) -> None:
+def test_id_ignores_measured_figures(change: dict[str, Any]) -> None:
     assert replace(MANIFEST, **change).model_id == MANIFEST.model_id
 
 
@@ -148,7 +148,7 @@ def test_folder_without_manifest(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "text", ["", "{", "[]", "null", '"text"', "3", "{}", '{"model_id": "x"}', "\x00"]
 )
-def test_something_else_called_manifest(tmp_path: Path, text: str) -> None:
+def test_other_json_as_manifest_is_refused(tmp_path: Path, text: str) -> None:
     (tmp_path / "manifest.json").write_text(text)
     with pytest.raises(ModelError, match=r"manifest\.json: not a model's manifest"):
         Manifest.load(tmp_path)

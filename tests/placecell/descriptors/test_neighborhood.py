@@ -1,4 +1,4 @@
-"""What stands around a segment: counted by hand, and what it does not depend on."""
+"""Neighborhood histograms: values by hand, and invariances."""
 
 import subprocess
 import sys
@@ -37,7 +37,7 @@ def street(seed: int = 0, count: int = 12) -> Segments:
     return scene([cloud.astype(np.float32) for cloud in clouds])
 
 
-def test_by_hand() -> None:
+def test_values_match_those_by_hand() -> None:
     # Around the first, at its centroid's height or above: one voxel a meter east; two voxels, four
     # meters west, in one sector. Below: one voxel, four meters west. One is too far to count.
     segments = scene(
@@ -79,7 +79,7 @@ def test_a_segment_alone_has_no_neighborhood() -> None:
     assert none.shape == (0, NEIGHBORHOOD_V1.size)
 
 
-def test_frames_do_not_see_one_another() -> None:
+def test_captures_do_not_see_each_other() -> None:
     segments = street()
     captures = np.array([7, 3] * 6)
     found = describe_neighborhood(segments, captures)
@@ -88,7 +88,7 @@ def test_frames_do_not_see_one_another() -> None:
         assert (found[members] == describe_neighborhood(segments.take(members))).all()
 
 
-def test_order_does_not_matter() -> None:
+def test_order_of_segments_makes_no_difference() -> None:
     segments = street()
     order = np.random.default_rng(1).permutation(len(segments))
     shuffled = describe_neighborhood(segments.take(order))
@@ -96,7 +96,7 @@ def test_order_does_not_matter() -> None:
 
 
 @pytest.mark.parametrize("degrees", [90, 37, 180])
-def test_north_hardly_matters(degrees: float) -> None:
+def test_rotation_changes_little(degrees: float) -> None:
     segments = street()
     angle = np.radians(degrees)
     turn = np.array(
@@ -114,7 +114,7 @@ def test_north_hardly_matters(degrees: float) -> None:
     assert min(own) > max(others)
 
 
-def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
+def test_nan_and_unreachable_voxels_are_ignored() -> None:
     just_short = np.nextafter(np.float32(5), np.float32(0))
     found = describe_neighborhood(
         scene(
@@ -138,7 +138,7 @@ def test_what_is_no_number_or_just_out_of_reach_harms_nothing() -> None:
 
 
 def all_pairs(segments: Segments, parameters: NeighborhoodParameters) -> np.ndarray:
-    """Reference: each voxel compared with each centroid."""
+    """Compare each voxel with each centroid, as a reference."""
     voxels, owners = voxels_by_owner(segments, parameters.voxel)
     rings, reach = parameters.ring_of_meter(), parameters.rings[-1]
     logarithms = np.log1p(np.arange(len(voxels) + 1))
@@ -194,7 +194,7 @@ def test_A4_cells_give_what_all_pairs_give_bit_for_bit(segments: Segments) -> No
 
 
 def colliding(count: int) -> np.ndarray:
-    """Return voxels, (count, 3), that the former unseeded hash put into one slot."""
+    """Return voxels, (count, 3), which the former unseeded hash put into one slot."""
     slots = 1
     while slots < 2 * count:
         slots *= 2

@@ -24,7 +24,7 @@ def test_points_are_about_the_centroid_with_the_robot_on_positive_x() -> None:
 
 
 @pytest.mark.parametrize("side", [0, 90, 180, 270])
-def test_surface_seen_from_each_side_ends_up_alike(side: int) -> None:
+def test_one_surface_from_each_side_is_oriented_alike(side: int) -> None:
     # The robot always looks at the hook's same side: world and robot turn about the centroid.
     turn = yaw_matrix(np.radians(side))
     points = (HOOK - CENTROID) @ turn.T
@@ -79,7 +79,7 @@ def test_heights_are_about_the_centroid_and_otherwise_untouched() -> None:
 
 
 @pytest.mark.parametrize("above", [0.0, 10.0, -10.0])
-def test_robot_straight_above_or_below_leaves_the_segment_as_it_lies(above: float) -> None:
+def test_sensor_above_or_below_leaves_the_segment_unrotated(above: float) -> None:
     segment = one_segment(HOOK, CENTROID + [0.0, 0.0, above])
     assert sensor_bearings(segment).tolist() == [0.0]
     assert orient(segment) == pytest.approx(HOOK - CENTROID, abs=1e-6)
@@ -127,7 +127,7 @@ def test_centroid_is_the_mean_in_double_precision() -> None:
     assert centroid == pytest.approx(points.astype(np.float64).mean(axis=0), abs=1e-9)
 
 
-def test_points_that_must_not_be_written_or_do_not_lie_in_order() -> None:
+def test_read_only_and_strided_points_are_accepted() -> None:
     segments = many_segments([40, 60])
     fixed = segments.points.copy()
     fixed.flags.writeable = False
@@ -137,7 +137,7 @@ def test_points_that_must_not_be_written_or_do_not_lie_in_order() -> None:
         assert np.array_equal(orient(other), orient(segments))
 
 
-def test_compiles_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiles_without_a_writable_cache(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("numba.core.caching.CacheImpl._locator_classes", [])
 
     @compiled

@@ -87,7 +87,7 @@ def test_every_code_in_use_has_its_own_levels(per_byte: int) -> None:
 
 
 @pytest.mark.parametrize("per_byte", [1, 2, 3, 4])
-def test_any_byte_from_elsewhere_is_some_level(per_byte: int) -> None:
+def test_any_byte_decodes_to_a_level(per_byte: int) -> None:
     quantizer = Quantizer(step=1.0, per_byte=per_byte)
     levels = quantizer.levels(np.arange(256, dtype=np.uint8).view(np.int8)[None])
     assert np.abs(levels.astype(int)).max() <= quantizer.highest
@@ -101,12 +101,12 @@ def test_four_dimensions_share_a_byte() -> None:
     assert quantizer.levels(codes).tolist() == [[1, -1, 3, -3]]
 
 
-def test_a_byte_does_not_hold_five() -> None:
+def test_five_dimensions_per_byte_are_refused() -> None:
     with pytest.raises(ValueError, match="dimensions per byte 5"):
         Quantizer(step=1.0, per_byte=5)
 
 
-def test_manifests_of_bytes_say_what_they_always_said() -> None:
+def test_manifest_of_one_dimension_per_byte_is_unchanged() -> None:
     assert Quantizer(0.5).as_dict() == {"step": 0.5}
     assert Quantizer(**Quantizer(0.5, 3).as_dict()) == Quantizer(0.5, 3)  # type: ignore[arg-type]
 

@@ -13,7 +13,7 @@ from tests.placecell.segment_builders import box, many_segments, one_segment
 
 
 def slow_grid(aligned: Float32, parameters: Parameters = PROTOCOL_V1) -> UInt8:
-    """Point by point, in Python's own numbers."""
+    """Compute the grid point by point with Python numbers, as a reference."""
     grid = np.zeros(parameters.grid, np.uint8)
     points = [[float(value) for value in point] for point in aligned]
     middle = [(min(axis) + max(axis)) / 2 for axis in zip(*points, strict=True)]
@@ -28,7 +28,7 @@ def slow_grid(aligned: Float32, parameters: Parameters = PROTOCOL_V1) -> UInt8:
 
 
 def line_along_x(*xs: float) -> Segments:
-    """Points on the x axis, seen from far ahead, so that alignment turns nothing."""
+    """Return points on the x axis, seen from far ahead, so that orientation does not rotate."""
     return one_segment([[x, 0.0, 0.0] for x in xs], sensor=(1000.0, 0.0, 0.0))
 
 
@@ -56,7 +56,7 @@ def test_single_point_is_in_the_middle() -> None:
     assert extents.tolist() == [[0.0, 0.0, 0.0]]
 
 
-def test_box_is_centered_whatever_its_centroid() -> None:
+def test_box_is_centered_for_any_centroid() -> None:
     # 30 points at one end and one at the other: the grid is centered on the box, not on the mean.
     occupancy, _ = voxelize(line_along_x(*[0.0] * 30, 2.1), PROTOCOL_V1)
     # The ends lie 1.05 m = 5.25 voxels from the middle, which is the border of voxels 18 and 19.

@@ -1,4 +1,4 @@
-"""Made-up maps, and robots somewhere in them."""
+"""Synthetic maps and robots in them."""
 
 from dataclasses import dataclass, replace
 
@@ -11,20 +11,20 @@ from placecell.localization import Candidates, Pose
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A robot's view, what each segment may be, and where the robot truly is."""
+    """Segments of a robot, their candidates and the true pose."""
 
     candidates: Candidates
     map: Float64
     pose: Pose
 
     def seen_from(self, move: Pose) -> "Scene":
-        """The same view, in another frame of the robot's."""
+        """Return the scene with another robot frame."""
         back = move.inverse()
         centroids = move.apply(self.candidates.centroids)
         return Scene(replace(self.candidates, centroids=centroids), self.map, self.pose.after(back))
 
     def in_map(self, move: Pose) -> "Scene":
-        """The same map, in another frame of the map's."""
+        """Return the scene with another map frame."""
         places = self.candidates.places
         moved = move.apply(places.reshape(-1, 3)).reshape(places.shape)
         return Scene(
@@ -33,7 +33,7 @@ class Scene:
 
 
 def take(given: Candidates, order: Int64) -> Candidates:
-    """These queries, in this order."""
+    """Return the queries at these indices, in this order."""
     return Candidates(
         given.centroids[order],
         given.rows[order],
@@ -43,7 +43,7 @@ def take(given: Candidates, order: Int64) -> Candidates:
 
 
 def concatenate(one: Candidates, other: Candidates) -> Candidates:
-    """The queries of both."""
+    """Concatenate the queries of two scenes."""
     return Candidates(
         np.concatenate([one.centroids, other.centroids]),
         np.concatenate([one.rows, other.rows]),
@@ -61,7 +61,7 @@ def any_rotation(random: np.random.Generator, reach: float = 500.0) -> Pose:
 
 
 def street(random: np.random.Generator, length: float, count: int) -> Float64:
-    """Segments along both sides of a street, centroids (count, 3)."""
+    """Return centroids (count, 3) of segments along both sides of a street."""
     along = random.uniform(0, length, count)
     across = random.choice([-1, 1], count) * random.uniform(4, 12, count)
     return np.stack([along, across, random.uniform(0, 4, count)], axis=1)
@@ -77,7 +77,7 @@ def scene(
     rows: int = 2_000,
     pose: Pose | None = None,
 ) -> Scene:
-    """A view of a part of a map.
+    """Return a scene: a robot in a part of a map.
 
     Args:
         found: share of the segments that have their own row among the candidates.
@@ -101,7 +101,7 @@ def scene(
 def scene_of(
     centroids: Float64, rows: Float64, chosen: Int64, pose: Pose, random: np.random.Generator
 ) -> Scene:
-    """A view whose segments have these candidates, the first of them the likeliest."""
+    """Return a scene with these candidates, the first of each being the most probable."""
     n, k = chosen.shape
     # No row is a candidate twice.
     for query in range(n):

@@ -29,27 +29,27 @@ def search(graph: Bool, weights: Float64 | None = None, left: Bool | None = None
 SQUARE_AND_TRIANGLE = [*itertools.combinations(range(4), 2), (3, 4), (4, 5), (5, 6), (4, 6)]
 
 
-def test_the_larger_of_two() -> None:
+def test_larger_of_two_cliques_is_found() -> None:
     assert search(graph_of(7, SQUARE_AND_TRIANGLE)) == [0, 1, 2, 3]
 
 
-def test_the_heavier_of_two() -> None:
+def test_heavier_of_two_cliques_is_found() -> None:
     weights = np.array([1, 1, 1, 1, 3, 3, 3.0])
     assert search(graph_of(7, SQUARE_AND_TRIANGLE), weights) == [4, 5, 6]
 
 
-def test_what_is_gone_is_in_none() -> None:
+def test_removed_vertices_are_in_no_clique() -> None:
     left = np.array([True, True, False, False, True, True, True])
     assert search(graph_of(7, SQUARE_AND_TRIANGLE), left=left) == [4, 5, 6]
 
 
 @pytest.mark.parametrize("size", [0, 1, 5])
-def test_without_edges_there_is_none(size: int) -> None:
+def test_without_edges_there_is_no_clique(size: int) -> None:
     assert search(graph_of(size, [])) == []
 
 
 @given(st.integers(0, 10_000), st.integers(2, 11), st.floats(0.1, 0.9))
-def test_it_is_a_clique_that_nothing_can_join(seed: int, size: int, density: float) -> None:
+def test_found_clique_is_maximal(seed: int, size: int, density: float) -> None:
     random = np.random.default_rng(seed)
     upper = np.triu(random.uniform(size=(size, size)) < density, 1)
     graph, weights = upper | upper.T, random.uniform(0.1, 1, size)
@@ -73,7 +73,7 @@ def test_a_planted_clique_is_found() -> None:
 
 
 def test_one_query_counts_once_in_the_bound() -> None:
-    """Ten vertices of one query around vertex 0 do not keep the triangle from being found."""
+    """Ten vertices of one query around vertex 0 do not hide the triangle."""
     graph = graph_of(14, [*((0, i) for i in range(1, 11)), (11, 12), (12, 13), (11, 13)])
     queries = np.array([0, *[1] * 10, 2, 3, 4])
     left = np.ones(14, dtype=bool)

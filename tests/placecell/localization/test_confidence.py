@@ -25,12 +25,12 @@ def test_the_logistic_model_by_hand() -> None:
     assert MODEL.probability(np.array([2.0, 3.0])) == pytest.approx(1 / (1 + np.exp(-1.5)))
 
 
-def test_it_is_never_surer_than_what_was_seen() -> None:
+def test_probability_is_at_most_the_highest() -> None:
     assert MODEL.probability(np.array([1e9, 0.0])) == 0.99
     assert MODEL.probability(np.array([-1e9, 0.0])) == pytest.approx(0)
 
 
-def test_many_at_once() -> None:
+def test_many_features_at_once_equal_single_ones() -> None:
     features = np.array([[2.0, 3.0], [0.0, 0.0]])
     alone = [MODEL.probability(each) for each in features]
     assert MODEL.probabilities(features).tolist() == pytest.approx(alone)
@@ -59,7 +59,7 @@ SHIPPED_FILES = sorted(MODELS_FOLDER.glob(f"*/{NAME}"))
 
 
 @pytest.mark.parametrize("file", SHIPPED_FILES, ids=lambda file: file.parent.name)
-def test_what_is_shipped_was_fitted_and_held_against_other_towns(file: Path) -> None:
+def test_shipped_constants_were_fitted_and_validated_on_other_towns(file: Path) -> None:
     content = json.loads(file.read_text())
     assert content["fitted_on"]["cases"] > 1_000
     assert len(content["fitted_on"]["towns"]) > 1

@@ -16,7 +16,7 @@ def pairs(source: Float64, target: Float64) -> Correspondences:
 
 
 def agree(here: list[float], there: list[float], **changes: float | str) -> bool:
-    """Whether the origin and these two points are the same pair, seen in two frames."""
+    """Return whether the origin and these points are consistent in two frames."""
     source, target = np.array([[0.0] * 3, here]), np.array([[0.0] * 3, there])
     parameters = LocalizationParameters(**changes)  # type: ignore[arg-type]
     return bool(consistent(pairs(source, target), parameters)[0, 1])
@@ -48,7 +48,7 @@ def test_without_gravity_distances_in_space_are() -> None:
     assert not agree([0, 0, 10], [11.1, 0, 0], model="se3")
 
 
-def test_nothing_agrees_with_itself_its_query_or_its_place() -> None:
+def test_no_edge_to_itself_its_query_or_its_place() -> None:
     points = np.zeros((3, 3))
     found = Correspondences(
         np.array([0, 0, 1]), np.array([0, 1, 0]), np.arange(3), points, points, np.ones(3), 2

@@ -18,7 +18,7 @@ PARAMETERS = LocalizationParameters()
 def candidates(
     places: Sequence[Sequence[tuple[float, float, float]]], probabilities: list[list[float]]
 ) -> Candidates:
-    """Query i lies at (i, 0, 0); rows of the map are numbered by place, equal ones alike."""
+    """Return candidates; query i is at (i, 0, 0), and equal places have equal rows."""
     targets = np.array(places, dtype=float)
     n, k, _ = targets.shape
     _, rows = np.unique(targets.reshape(-1, 3), axis=0, return_inverse=True)
@@ -35,7 +35,7 @@ def weight(share: float, claims: float = 1.0) -> float:
 
 
 def of_query(found: Correspondences, query: int) -> dict[float, float]:
-    """Weight by the place's x."""
+    """Return the weight of each place by its x."""
     mine = found.queries == query
     return dict(zip(found.target[mine, 0].tolist(), found.weights[mine].tolist(), strict=True))
 
@@ -53,7 +53,7 @@ def test_views_of_one_place_are_one_correspondence() -> None:
     assert of_query(found, 0) == pytest.approx({0.9: weight(0.5), 50.0: weight(0.5)})
 
 
-def test_what_many_queries_claim_weighs_less() -> None:
+def test_place_claimed_by_many_queries_weighs_less() -> None:
     lonely = [(100.0 * i, 0.0, 0.0) for i in (1, 2, 3)]
     places = [[(0.0, 0.0, 0.0), place] for place in lonely]
     found = correspond(candidates(places, [[0.5, 0.5]] * 3), PARAMETERS)
@@ -73,7 +73,7 @@ def test_look_alikes_weigh_less() -> None:
 NAN = float("nan")
 
 
-def test_what_is_no_number_is_left_out() -> None:
+def test_nan_is_ignored() -> None:
     good = [(0.0, 0.0, 0.0), (50.0, 0.0, 0.0)]
     places = [[(NAN, 0.0, 0.0), (50.0, 0.0, 0.0)], good, good]
     given = candidates(places, [[0.5, 0.5], [NAN, 0.5], [0.5, 0.5]])
@@ -107,7 +107,7 @@ def test_arrays_that_do_not_fit_are_refused() -> None:
         replace(good, rows=rows[0])
 
 
-def test_places_take_along_what_is_near() -> None:
+def test_near_rows_belong_to_one_place() -> None:
     points = np.array([[0.0, 0, 0], [0.6, 0, 0], [1.2, 0, 0], [9, 0, 0], [0.0, 0, 0]])
     rows = np.array([7, 3, 5, 1, 7])
     numbers = number_places(rows, points, 1.0)
@@ -131,7 +131,7 @@ def test_the_order_of_queries_makes_no_difference() -> None:
     np.testing.assert_array_equal(one.queries, order[two.queries])
 
 
-def test_of_too_many_candidates_the_likeliest_are_taken() -> None:
+def test_too_many_candidates_keep_the_most_probable() -> None:
     places = [[(10.0 * i, 0.0, 0.0) for i in range(6)]]
     given = candidates(places, [[0.1, 0.9, 0.3, 0.8, 0.2, 0.7]])
     found = correspond(given, LocalizationParameters(most_candidates=3))
@@ -139,7 +139,7 @@ def test_of_too_many_candidates_the_likeliest_are_taken() -> None:
 
 
 def test_a_map_in_one_point_is_one_place() -> None:
-    """Each of its segments is near each other one: there are 50 million pairs of them."""
+    """All segments are near each other, which makes 50 million pairs."""
     points = np.random.default_rng(1).normal(scale=0.01, size=(10_000, 3))
     assert set(number_places(np.arange(10_000), points, 1.0).tolist()) == {0}
 
@@ -163,7 +163,7 @@ def test_places_do_not_depend_on_how_rows_are_numbered() -> None:
 
 
 def numbered_plainly(points: np.ndarray, radius: float) -> list[int]:
-    """Places by the plainest way: each point held against all that began a place."""
+    """Return place numbers by comparing each point with all leaders, as a reference."""
     numbers, leaders = np.zeros(len(points), dtype=np.int64), np.zeros((0, 3))
     for point in np.lexsort(points.T[::-1]):
         near = ((leaders - points[point]) ** 2).sum(axis=1) < radius * radius
@@ -193,7 +193,7 @@ def test_A13_places_are_numbered_as_by_comparing_all(extent: float, kind: str) -
 @pytest.mark.parametrize(
     "direction", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 0, 0)], ids=str
 )
-def test_A13_a_point_is_held_against_few_wherever_they_are(
+def test_A13_each_point_is_compared_with_few(
     direction: tuple[int, int, int],
 ) -> None:
     points = np.outer(np.arange(2_000) * 1.5, direction)
@@ -204,7 +204,7 @@ def test_A13_a_point_is_held_against_few_wherever_they_are(
     assert np.where(around < 0, 0, compared[around]).sum(axis=1).max() <= 30
 
 
-def test_A13_numbering_stops_when_nobody_waits() -> None:
+def test_A13_numbering_stops_when_cancelled() -> None:
     with cancelled_by(CancelToken()) as token:
         token.cancel()
         with pytest.raises(Cancelled):

@@ -15,8 +15,8 @@ def test_a_cross_product_is_a_matrix() -> None:
 
 @pytest.mark.parametrize("model", ["yaw", "se3"])
 @pytest.mark.parametrize("away", [0.0, 1000.0])
-def test_it_is_how_much_poses_scatter(model: str, away: float) -> None:
-    """Registered again and again under new noise, poses scatter as the covariance says."""
+def test_covariance_matches_the_scatter_of_poses(model: str, away: float) -> None:
+    """Poses registered with new noise scatter according to the covariance."""
     random = np.random.default_rng(1)
     parameters = LocalizationParameters(model=model, inflation=1.0)  # type: ignore[arg-type]
     source = street(random, 60.0, 40) + (away, 0, 0)
@@ -43,7 +43,7 @@ def test_it_is_how_much_poses_scatter(model: str, away: float) -> None:
     assert told[0, -1] / np.sqrt(told[0, 0] * told[-1, -1]) == pytest.approx(correlation, abs=0.1)
 
 
-def test_exact_segments_are_not_believed_to_be_so() -> None:
+def test_exact_segments_still_have_a_smallest_covariance() -> None:
     source = street(np.random.default_rng(2), 60.0, 10)
     covariance = covariance_of(
         Pose.of_yaw(0, np.zeros(3)), source, source, LocalizationParameters()
@@ -59,7 +59,7 @@ def test_exact_segments_are_not_believed_to_be_so() -> None:
         np.outer(np.arange(5.0), [0, 0, 1]),  # a pole
     ],
 )
-def test_what_determines_no_yaw_says_so(source: np.ndarray) -> None:
+def test_undetermined_yaw_has_infinite_covariance(source: np.ndarray) -> None:
     identity = Pose.of_yaw(0, np.zeros(3))
     assert np.isinf(
         np.diag(covariance_of(identity, source, source, LocalizationParameters()))
@@ -85,7 +85,7 @@ def test_a_long_street_determines_all(model: str, meters: float) -> None:
     assert covariance[-1, -1] * meters**2 == pytest.approx(0.0012, rel=0.3)
 
 
-def test_overlap_makes_it_larger() -> None:
+def test_inflation_makes_the_covariance_larger() -> None:
     source = street(np.random.default_rng(3), 60.0, 10)
     pose = Pose.of_yaw(0, np.zeros(3))
     plain = covariance_of(pose, source, source, LocalizationParameters(inflation=1.0))

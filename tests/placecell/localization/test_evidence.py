@@ -12,7 +12,7 @@ PARAMETERS = LocalizationParameters(memory=10.0, half_life=3.0, past_weight=0.5,
 
 
 def hypothesis(x: float, score: float, yaw: float = 0.0) -> Hypothesis:
-    """At x meters along the map; its segments lie about the robot."""
+    """Return a hypothesis at x meters along the map, with segments around the robot."""
     source = np.array([[-10.0, 0, 0], [10, 0, 0], [0, 10, 0], [0, -10, 0]])
     numbers = np.arange(4)
     pose = Pose.of_yaw(yaw, np.array([x, 0.0, 0.0]))
@@ -20,12 +20,12 @@ def hypothesis(x: float, score: float, yaw: float = 0.0) -> Hypothesis:
 
 
 def at(x: float) -> Float64:
-    """The middle of what is seen from x meters along the robot's way."""
+    """Return the mean centroid at x meters along the robot's path."""
     return np.array([x, 0.0, 0.0])
 
 
 def driven(history: RequestHistory, start: float, end: float, *found: Hypothesis) -> None:
-    """Five requests, four meters apart, that all found the same; then the robot is at 0."""
+    """Add five requests at distances of 4 m with one result; then the robot is at 0."""
     for number, time in enumerate(np.linspace(start, end, 5)):
         history.add(float(time), at(4.0 * number - 20), found)
 
@@ -56,7 +56,7 @@ def test_requests_add_up_to_a_number_that_is_bounded() -> None:
     assert len(now.past) == len(now.independent) == 4
 
 
-def test_a_robot_that_stands_learns_nothing() -> None:
+def test_a_standing_robot_gains_no_evidence() -> None:
     history = RequestHistory(PARAMETERS)
     history.add(99.7, at(0), [hypothesis(0, 20)])
     now = history.at(100.0, at(2.9))
@@ -68,7 +68,7 @@ def test_a_robot_that_stands_learns_nothing() -> None:
     assert history.at(100.0, at(5)).support(hypothesis(0, 5)) == pytest.approx(10)
 
 
-def test_what_has_no_place_is_no_evidence() -> None:
+def test_request_without_a_place_is_no_evidence() -> None:
     history = RequestHistory(PARAMETERS)
     history.add(100.0, middle_of(np.full((2, 3), np.nan)), [hypothesis(0, 20)])
     assert history.at(100.0, at(0)).support(hypothesis(0, 5)) == 0
@@ -91,8 +91,8 @@ def test_guesses_are_the_best_places_of_the_past_the_latest_first() -> None:
     assert [pose.translation[0] for pose in guesses] == [8, 0]  # 7 m is the place of 8 m
 
 
-def test_what_was_known_before_decides_between_two_places() -> None:
-    """The robot saw where it turned into one of two streets that are alike."""
+def test_earlier_requests_decide_between_two_places() -> None:
+    """The robot saw which of two similar streets it entered."""
     made = look_alikes(2, 60.0)
     assert localize(made.candidates).reason == "ambiguous"
     history = RequestHistory(LocalizationParameters())
@@ -105,8 +105,8 @@ def test_what_was_known_before_decides_between_two_places() -> None:
     assert found.pose.translation == pytest.approx([60, 0, 0], abs=0.3)
 
 
-def test_the_past_alone_is_no_place() -> None:
-    """Nothing of what the robot sees now is where it was before."""
+def test_earlier_requests_alone_give_no_place() -> None:
+    """The current segments do not fit the earlier place."""
     history = RequestHistory(LocalizationParameters())
     history.add(50.0, at(-5), [hypothesis(1e4, 1000.0)])
     made = scene(1)
@@ -118,8 +118,8 @@ def test_the_past_alone_is_no_place() -> None:
     assert localize(noise.candidates, evidence=history.at(50.1, at(0))).pose is None
 
 
-def test_a_place_of_the_past_is_looked_at_again() -> None:
-    """Too few agree to be found among all, but enough where the robot is expected."""
+def test_place_of_an_earlier_request_is_checked_again() -> None:
+    """Few inliers suffice at the expected place."""
     made = scene(3, segments=60, found=0.12, k=25)
     history = RequestHistory(LocalizationParameters())
     source = made.candidates.centroids[:4]

@@ -1,4 +1,4 @@
-"""Properties that hold for any scene, and scenes that are meant to mislead."""
+"""Localization: properties of any scene, and misleading scenes."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ seeds = st.integers(0, 100_000)
 
 
 def off(found: Localization, truth: Pose) -> tuple[float, float]:
-    """Metres and degrees that the pose is off, in the midst of the segments."""
+    """Return the errors of the pose at the segments, meters and degrees."""
     assert found.pose is not None, (found.reason, found.detail)
     assert found.best is not None
     meters, angle = found.pose.difference(truth, found.best.source.mean(axis=0))
@@ -131,13 +131,13 @@ def test_outliers_leave_the_pose_where_it_is(seed: int, outliers: int) -> None:
     assert np.degrees(angle) < 1.5
 
 
-def test_pure_noise_is_no_place() -> None:
+def test_pure_noise_is_not_localized() -> None:
     for seed in range(30):
         assert localize(scene(seed, found=0.0).candidates).reason == "inconsistent"
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_of_a_few_segments_the_pose_is_right_or_none(seed: int) -> None:
+def test_few_segments_give_the_right_pose_or_none(seed: int) -> None:
     made = scene(seed, segments=24, found=0.5)
     assert_right(localize(made.candidates), made.pose)
     for found in (0.1, 0.2):
@@ -150,7 +150,7 @@ def test_of_a_few_segments_the_pose_is_right_or_none(seed: int) -> None:
 
 
 def look_alikes(places: int, spacing: float, seed: int = 0, turned: bool = False) -> Scene:
-    """The same twenty segments stand in so many places; which one the robot sees, nobody knows."""
+    """Return a scene of twenty segments that are at several places alike."""
     random = np.random.default_rng(seed)
     local = street(random, 40.0, 20)
     copies = []
@@ -179,7 +179,7 @@ def test_identical_places_are_ambiguous(places: int, turned: bool) -> None:
 
 
 def houses(landmarks: int) -> Candidates:
-    """Four houses of a street of ten that are all alike, each of five segments, and landmarks."""
+    """Return a scene of four of ten identical houses, five segments each, and landmarks."""
     random = np.random.default_rng(1)
     house = random.uniform(0, 8, (5, 3))
     row = np.concatenate([house + (12.0 * number, 0, 0) for number in range(10)])
@@ -195,13 +195,13 @@ def houses(landmarks: int) -> Candidates:
     return Candidates(seen, chosen, rows[chosen], match_probabilities)
 
 
-def test_in_a_street_of_identical_houses_nobody_knows_which() -> None:
+def test_street_of_identical_houses_is_ambiguous() -> None:
     found = localize(houses(landmarks=0))
     assert found.reason == "ambiguous"
     assert "Another place" in found.detail
 
 
-def test_landmarks_tell_which_of_the_houses() -> None:
+def test_landmarks_resolve_identical_houses() -> None:
     found = localize(houses(landmarks=6))
     assert_right(found, Pose.of_yaw(0, np.zeros(3)))
     assert found.second is not None  # another house is the second best
@@ -210,8 +210,8 @@ def test_landmarks_tell_which_of_the_houses() -> None:
     assert houses_away == pytest.approx(round(houses_away), abs=0.1)
 
 
-def test_one_segment_a_thousand_times_in_the_map() -> None:
-    """All descriptors are equal: any row is as good a candidate as any other."""
+def test_one_segment_a_thousand_times_in_the_map_is_not_localized() -> None:
+    """All descriptors are equal, so all rows are equally good candidates."""
     random = np.random.default_rng(2)
     rows = random.uniform(-200, 200, (1_000, 3)) * (1, 1, 0.01)
     chosen = np.tile(np.arange(25), (40, 1))
@@ -235,18 +235,18 @@ def test_one_segment_a_thousand_times_around_the_robot() -> None:
 
 
 def exact(seen: Float64) -> Candidates:
-    """Segments where the map has them, each with the one candidate that is itself."""
+    """Return a scene of exact segments, each with its own row as the only candidate."""
     rows = np.arange(len(seen))[:, None]
     return Candidates(seen, rows, seen[rows] + 100.0, np.ones(rows.shape))
 
 
-def test_coincident_segments_do_not_tell_the_direction() -> None:
+def test_coincident_segments_do_not_determine_the_rotation() -> None:
     found = localize(exact(np.tile([3.0, 4.0, 1.0], (30, 1))))
     assert found.reason == "inconsistent"
 
 
 def test_a_crowd_in_one_point_ends() -> None:
-    """Everything agrees with everything: the largest graph that there can be."""
+    """All correspondences are consistent: the graph is as large as possible."""
     random = np.random.default_rng(4)
     seen = random.normal(scale=0.01, size=(400, 3))
     rows = 3.0 * np.arange(25)[None] + np.zeros((400, 1))
@@ -256,7 +256,7 @@ def test_a_crowd_in_one_point_ends() -> None:
     assert localize(Candidates(seen, chosen, places, same)).pose is None
 
 
-def test_a_pole_does_not_tell_the_direction() -> None:
+def test_a_pole_does_not_determine_the_rotation() -> None:
     found = localize(exact(np.outer(np.arange(10.0), [0, 0, 1])))
     assert found.reason == "inconsistent"
     assert "do not determine the rotation" in found.detail
@@ -277,7 +277,7 @@ def test_segments_in_a_row_tell_a_yaw_but_no_roll() -> None:
 
 
 @pytest.mark.parametrize("segments", [0, 1, 3])
-def test_too_few_segments_are_told(segments: int) -> None:
+def test_too_few_segments_are_reported(segments: int) -> None:
     found = localize(exact(np.random.default_rng(5).uniform(-20, 20, (segments, 3))))
     assert found.reason == "too-few-segments"
     assert found.best is None
@@ -285,7 +285,7 @@ def test_too_few_segments_are_told(segments: int) -> None:
     assert str(segments) in found.detail
 
 
-def test_what_is_no_number_is_left_out() -> None:
+def test_nan_is_ignored() -> None:
     made = scene(6)
     given = made.candidates
     broken = Candidates(
@@ -319,7 +319,7 @@ def test_far_from_any_origin_nothing_is_lost() -> None:
     assert_right(localize(moved.candidates), moved.pose)
 
 
-def test_nothing_is_changed() -> None:
+def test_inputs_are_not_changed() -> None:
     made = scene(11)
     before = made.candidates.centroids.copy(), made.candidates.places.copy()
     localize(made.candidates)

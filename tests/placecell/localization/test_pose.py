@@ -14,7 +14,7 @@ def test_a_pose_is_its_matrix() -> None:
     np.testing.assert_allclose(Pose.of_matrix(pose.matrix).matrix, pose.matrix)
 
 
-def test_the_way_back_and_two_ways() -> None:
+def test_inverse_and_composition() -> None:
     random = np.random.default_rng(2)
     first, second = any_rotation(random), any_rotation(random)
     np.testing.assert_allclose(first.inverse().after(first).matrix, np.eye(4), atol=1e-9)

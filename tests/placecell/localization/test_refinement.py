@@ -32,7 +32,7 @@ def test_each_query_and_each_place_once_the_nearest() -> None:
     np.testing.assert_allclose(residuals(IDENTITY, found), [0.4, 0.1, 0.2, 5])
 
 
-def test_refinement_gathers_what_agrees_and_leaves_out_what_does_not() -> None:
+def test_refinement_collects_inliers_and_drops_outliers() -> None:
     random = np.random.default_rng(0)
     true = Pose.of_yaw(0.3, np.array([10.0, 20, 1]))
     source = random.uniform(-30, 30, (40, 3))
@@ -47,7 +47,7 @@ def test_refinement_gathers_what_agrees_and_leaves_out_what_does_not() -> None:
     assert np.degrees(angle) < 0.3
 
 
-def test_where_nothing_agrees_nothing_changes() -> None:
+def test_without_inliers_the_pose_is_unchanged() -> None:
     found = pairs([0, 1], [0, 1], np.zeros((2, 3)), np.full((2, 3), 50.0))
     pose, agreeing = refine(IDENTITY, found, LocalizationParameters())
     assert pose is IDENTITY

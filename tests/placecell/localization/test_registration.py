@@ -38,7 +38,7 @@ def test_a_reflection_is_no_motion() -> None:
     assert np.linalg.det(register_se3(source, mirrored, np.ones(6)).rotation) == pytest.approx(1)
 
 
-def test_it_is_the_least_of_weighted_squares() -> None:
+def test_registration_minimizes_weighted_squares() -> None:
     random = np.random.default_rng(1)
     source, target, weights = random.normal(size=(8, 3)), random.normal(size=(8, 3)), np.arange(8.0)
 

@@ -8,7 +8,7 @@ from placecell.localization.voting import most_voted
 
 
 def haystack(right: int, wrong: int, seed: int = 0) -> tuple[Correspondences, np.ndarray]:
-    """Correspondences of one motion among many of none, shuffled; and which are right."""
+    """Return shuffled correspondences of one motion and of none, and which are right."""
     random = np.random.default_rng(seed)
     pose = Pose.of_yaw(2.0, np.array([300.0, -100, 5]))
     source = random.uniform(-40, 40, (right + wrong, 3)) * (1, 1, 0.05)
@@ -23,7 +23,7 @@ def haystack(right: int, wrong: int, seed: int = 0) -> tuple[Correspondences, np
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_what_moves_together_is_kept(seed: int) -> None:
+def test_correspondences_of_one_motion_are_kept(seed: int) -> None:
     found, right = haystack(30, 9_970, seed)
     kept = most_voted(found, LocalizationParameters())
     assert len(kept) == LocalizationParameters().most
@@ -31,13 +31,13 @@ def test_what_moves_together_is_kept(seed: int) -> None:
     assert (np.diff(kept.queries) > 0).all()  # in their old order
 
 
-def test_few_are_all_kept() -> None:
+def test_few_correspondences_are_all_kept() -> None:
     found, _ = haystack(30, 100)
     assert most_voted(found, LocalizationParameters()) is found
 
 
 def test_a_query_counts_once_in_a_cell() -> None:
-    """A thousand places of one query, side by side, are no more than one."""
+    """A thousand adjacent places of one query count as one."""
     found, right = haystack(12, 2_000)
     random = np.random.default_rng(1)
     crowd = Correspondences(

@@ -1,4 +1,4 @@
-"""Made-up streets, and maps of robots that drove along them."""
+"""Synthetic streets and maps of robots that drove along them."""
 
 from dataclasses import dataclass
 
@@ -11,12 +11,12 @@ from placecell.map_alignment import MapAlignment, MapView
 
 DIMENSION = 7
 MATCH = 0.6
-"""Distance of descriptors at which two segments are the same with a probability of 0.6."""
+"""Descriptor distance with a match probability of 0.6."""
 
 
 @dataclass(frozen=True, eq=False)
 class Street:
-    """Things along the x axis.
+    """Landmarks along the x axis.
 
     Attributes:
         places: float64 (n, 3), meters.
@@ -34,7 +34,7 @@ class Street:
 
 @dataclass(frozen=True, eq=False)
 class MadeMap:
-    """A map, and what each of its segments looks like and truly is.
+    """Synthetic map with descriptors and true landmarks.
 
     Attributes:
         view: what alignment knows of it.
@@ -85,7 +85,7 @@ def chance(distances: Float64) -> Float64:
 def street(
     random: np.random.Generator, length: float, gap: float = 3.0, begin: float = 0.0
 ) -> Street:
-    """Things on both sides, one each so many meters, all of which look different."""
+    """Return landmarks on both sides at equal distances, all different."""
     count = int(length / gap)
     places = np.stack(
         [
@@ -108,7 +108,7 @@ def drive(
     blur: float = 0.15,
     missed: float = 0.3,
 ) -> MadeMap:
-    """What a robot maps that drives from one x to another, and looks around each 5 m.
+    """Return the map of a robot that drives from one x to another, with a capture every 5 m.
 
     Args:
         noise: of the centroids, along each axis, meters.
@@ -132,7 +132,7 @@ def drive(
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two maps, and how they truly lie: from b's frame to a's."""
+    """Two maps and the true transform from b's frame to a's."""
 
     a: MadeMap
     b: MadeMap
@@ -144,7 +144,7 @@ class Pair:
 
 
 def pair(seed: int, shared: float = 80.0, **how: float) -> Pair:
-    """Two robots that drove 150 m each, of which they share so many; b's frame is anywhere."""
+    """Return maps of two robots with a shared length of path; b has a random frame."""
     random = np.random.default_rng(seed)
     along = street(random, 400.0, begin=-30.0)
     a = drive(along, 0.0, 150.0, random, **how)
@@ -158,7 +158,7 @@ def a_pose(random: np.random.Generator, reach: float = 3_000.0) -> Pose:
 
 
 def off(found: MapAlignment, truth: Pose) -> tuple[float, float]:
-    """Metres and degrees that the pose is off, in the midst of the overlap."""
+    """Return the errors of the pose at the overlap, meters and degrees."""
     assert found.pose is not None, (found.reason, found.detail)
     assert found.best is not None
     meters, angle = found.pose.difference(truth, found.best.source.mean(axis=0))

@@ -1,4 +1,4 @@
-"""Properties of the alignment of any two maps."""
+"""Map alignment: properties of any two maps."""
 
 import numpy as np
 import pytest
@@ -68,7 +68,7 @@ def test_maps_of_kilometers_are_aligned() -> None:
 @pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(seeds)
-def test_guesses_are_poses_of_submaps(seed: int) -> None:
+def test_submap_poses_are_right(seed: int) -> None:
     made, parameters = pair(seed), AlignmentParameters()
     submaps = cut(made.b.view, parameters)
     guesses = submap_poses(submaps, made.a.view, made.b.view, made.looks, parameters)
@@ -83,7 +83,7 @@ def test_guesses_are_poses_of_submaps(seed: int) -> None:
 @pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds)
-def test_if_either_map_moves_the_pose_moves_along(seed: int) -> None:
+def test_pose_follows_the_frame_of_either_map(seed: int) -> None:
     made, random = pair(seed), np.random.default_rng(seed)
     one, other = a_pose(random, 50_000.0), a_pose(random, 50_000.0)
     moved = Pair(
@@ -124,7 +124,7 @@ def test_the_order_of_the_rows_changes_nothing(seed: int) -> None:
 @pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds)
-def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
+def test_swapped_maps_give_the_inverse(seed: int) -> None:
     made = pair(seed)
     back = aligned(Pair(made.b, made.a, made.truth.inverse()))
     meters, degrees = off(back, pose_of(made).inverse())
@@ -139,7 +139,7 @@ def test_the_other_way_around_it_is_the_inverse(seed: int) -> None:
 
 
 def strange(view: MapView, count: int, random: np.random.Generator) -> MadeMap:
-    """Segments about a map's that look like nothing else."""
+    """Return segments near a map's that match nothing."""
     viewpoints = view.viewpoints[random.integers(0, len(view), count)]
     return MadeMap(
         MapView(viewpoints + random.uniform(-20, 20, (count, 3)) * (1, 1, 0.1), viewpoints),
@@ -151,7 +151,7 @@ def strange(view: MapView, count: int, random: np.random.Generator) -> MadeMap:
 @pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seeds, st.integers(1, 300))
-def test_segments_like_nothing_leave_the_pose_where_it_is(seed: int, count: int) -> None:
+def test_unmatched_segments_do_not_change_the_pose(seed: int, count: int) -> None:
     made, random = pair(seed, 120.0), np.random.default_rng(seed)
     noisy = Pair(
         made.a.with_(strange(made.a.view, count, random)),
@@ -184,11 +184,11 @@ def test_a_tilted_map_is_aligned_with_six_degrees(seed: int) -> None:
     assert found.best.covariance.shape == (6, 6)
 
 
-def test_looks_are_asked_in_rows_of_the_maps() -> None:
+def test_search_gets_rows_of_the_maps() -> None:
     made = pair(3)
 
     class LoopCheck(ByDistance):
-        """Rows are of the maps."""
+        """Search that checks that rows are rows of the maps."""
 
         def match_probabilities(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
             assert (a < len(made.a.view)).all()

@@ -1,4 +1,4 @@
-"""Guesses that agree, against hand-made ones."""
+"""Consensus of submap poses, with values by hand."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ def guess(
     submap: int, x: float, shift: tuple[float, float] = (0.0, 0.0), yaw: float = 0.0,
     score: float = 1.0,
 ) -> SubmapPose:  # fmt: skip
-    """Of a submap at x, that is put a shift from there, turned about its middle, degrees."""
+    """Return a pose of a submap at x, shifted, and rotated about its center by degrees."""
     middle = np.array([x, 0.0, 0.0])
     turn = Pose.of_yaw(np.radians(yaw), np.zeros(3))
     return SubmapPose(
@@ -22,7 +22,7 @@ def guess(
     )
 
 
-def test_two_agree_if_each_puts_the_other_near_where_it_puts_itself() -> None:
+def test_two_poses_agree_if_each_predicts_the_other() -> None:
     base = guess(0, 0.0)
     for other, agrees in [
         (guess(1, 100.0, (2.9, 0.0)), True),
@@ -68,13 +68,13 @@ def test_a_submap_counts_once_by_its_best_guess() -> None:
     assert more == []
 
 
-def test_no_more_sets_than_are_looked_at() -> None:
+def test_number_of_sets_is_limited() -> None:
     many = [guess(n, 0.0, (20.0 * n, 0.0)) for n in range(9)]
     assert len(consensus(many, PARAMETERS)) == PARAMETERS.alignments
     assert consensus([], PARAMETERS) == []
 
 
-def test_a_thousand_guesses_are_sorted_out() -> None:
+def test_a_thousand_poses_are_grouped() -> None:
     random = np.random.default_rng(0)
     wrong = [
         guess(n % 120, 10.0 * (n % 120), tuple(random.uniform(-500, 500, 2)), 360 * random.random())
@@ -87,7 +87,7 @@ def test_a_thousand_guesses_are_sorted_out() -> None:
 
 
 @pytest.mark.parametrize("model", ["yaw", "se3"])
-def test_the_common_pose_is_between_them_by_their_scores(model: str) -> None:
+def test_common_pose_is_weighted_by_score(model: str) -> None:
     parameters = AlignmentParameters(local=LocalizationParameters(model=model))  # type: ignore[arg-type]
     # Two guesses about one place: a shift of 0 with score 3, of 1 m with score 1.
     two = [guess(0, 0.0, score=3.0), guess(0, 0.0, (1.0, 0.0), score=1.0)]

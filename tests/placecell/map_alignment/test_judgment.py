@@ -1,4 +1,4 @@
-"""When maps are aligned, and when they are not and why."""
+"""Judgment of alignments: accepted, or rejected with a reason."""
 
 from dataclasses import replace
 
@@ -37,7 +37,7 @@ def overlap(
     )
 
 
-def test_what_agrees_is_aligned() -> None:
+def test_good_overlap_is_aligned() -> None:
     best = overlap()
     found = judge([best], PARAMETERS)
     assert found.best is best
@@ -60,7 +60,9 @@ def test_what_agrees_is_aligned() -> None:
         (overlap(covariance=np.diag([np.inf] * 4)), "inconsistent", "determine the rotation"),
     ],
 )
-def test_what_does_not_agree_is_not(one: Overlap, reason: str | None, words: str) -> None:
+def test_poor_overlap_is_rejected_with_a_reason(
+    one: Overlap, reason: str | None, words: str
+) -> None:
     found = judge([one], PARAMETERS)
     assert found.reason == reason
     assert words in found.detail
@@ -82,9 +84,7 @@ def test_what_does_not_agree_is_not(one: Overlap, reason: str | None, words: str
         (overlap(shift=3.1, score=49.0), True),
     ],
 )
-def test_another_place_that_is_as_good_makes_it_ambiguous(
-    second: Overlap, is_ambiguous: bool
-) -> None:
+def test_second_place_as_good_is_ambiguous(second: Overlap, is_ambiguous: bool) -> None:
     found = judge([second, overlap()], PARAMETERS)
     assert found.reason == ("ambiguous" if is_ambiguous else None)
     assert found.best is not None
@@ -95,14 +95,14 @@ def test_another_place_that_is_as_good_makes_it_ambiguous(
         assert "Another alignment" in found.detail
 
 
-def test_one_that_is_good_goes_before_one_that_is_only_large() -> None:
+def test_good_overlap_precedes_a_large_one() -> None:
     large, good = overlap(score=60.0, agreement=0.07, shift=99), overlap(score=20.0)
     assert distinct([large, good], PARAMETERS) == [good, large]
     # Whose score still counts against it.
     assert judge([large, good], PARAMETERS).reason == "ambiguous"
 
 
-def test_nothing_is_inconsistent() -> None:
+def test_no_overlap_is_inconsistent() -> None:
     found = judge([], PARAMETERS)
     assert found.reason == "inconsistent"
     assert (found.best, found.second, found.pose) == (None, None, None)
@@ -118,7 +118,7 @@ def test_a_map_turned_on_the_spot_stays_there() -> None:
 
 
 @pytest.mark.parametrize("rows", [0, 1, 11])
-def test_maps_of_few_segments_are_told(rows: int) -> None:
+def test_maps_of_few_segments_are_rejected(rows: int) -> None:
     made, some = pair(0), np.arange(rows)
     for a, b in ((made.a.take(some), made.b), (made.a, made.b.take(some))):
         found = align(a.view, b.view, NoLooks())
@@ -128,13 +128,13 @@ def test_maps_of_few_segments_are_told(rows: int) -> None:
 
 
 class NoLooks(ByDistance):
-    """Nobody looks."""
+    """Search that must not be used."""
 
     def __init__(self) -> None:
         pass
 
 
-def test_what_parameters_ask_for_is_asked_for() -> None:
+def test_parameters_limit_the_search() -> None:
     made = pair(0)
     strict = replace(PARAMETERS, least_score=1e6)
     found = align(made.a.view, made.b.view, made.looks, strict)
@@ -143,7 +143,7 @@ def test_what_parameters_ask_for_is_asked_for() -> None:
     assert len(found.best) >= strict.least_pairs
 
 
-def test_maps_are_held_against_each_other_as_others_say_that_they_lie() -> None:
+def test_fits_as_well_compares_a_pose_with_the_best() -> None:
     two = pair(3)
     a, b, looks = two.a.view, two.b.view, ByDistance(two.a, two.b)
     right = align(a, b, looks).best

@@ -1,4 +1,4 @@
-"""Alignments around loops: which are found out, and where maps come to lie."""
+"""Loop check: rejected alignments and resulting poses."""
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
@@ -17,7 +17,7 @@ WRONG = Pose.of_yaw(2.0, np.array([40.0, -7.0, 0.0]))
 
 
 def frames(count: int, seed: int = 0) -> list[Pose]:
-    """Where maps truly lie, kilometers apart; the first lies at the origin."""
+    """Return true poses of maps, kilometers apart; the first is the identity."""
     random = np.random.default_rng(seed)
     return [Pose.of_yaw(0.0, np.zeros(3)), *(a_pose(random) for _ in range(count - 1))]
 
@@ -64,7 +64,7 @@ def test_a_loop_is_measured() -> None:
     ("meters", "degrees", "closes"),
     [(2.9, 0.0, True), (3.1, 0.0, False), (0.0, 5.9, True), (0.0, 6.1, False)],
 )
-def test_a_loop_may_miss_by_so_much_for_each_alignment(
+def test_loop_tolerance_grows_with_its_alignments(
     meters: float, degrees: float, closes: bool
 ) -> None:
     truth = [Pose.of_yaw(0.0, np.zeros(3))] * 3
@@ -105,7 +105,7 @@ def test_a_wrong_one_is_outvoted_whatever_its_weight() -> None:
 @pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10_000), st.sets(st.integers(0, 14), min_size=1, max_size=2))
-def test_two_wrong_ones_among_six_maps_are_found_out(seed: int, wrong: set[int]) -> None:
+def test_two_wrong_alignments_among_six_maps_are_rejected(seed: int, wrong: set[int]) -> None:
     truth, random = frames(6, seed), np.random.default_rng(seed)
     edges = [
         alignment(
@@ -122,7 +122,7 @@ def test_two_wrong_ones_among_six_maps_are_found_out(seed: int, wrong: set[int])
 
 
 class ByTruth:
-    """Whether maps lie as well by another pose: if it is the true one. Some are not to be told."""
+    """Function that accepts a pose if it is the true one, except for undecidable alignments."""
 
     def __init__(
         self, truth: Sequence[Pose], edges: Sequence[PairwiseAlignment], untold: Iterable[int] = ()
@@ -140,9 +140,7 @@ class ByTruth:
 
 @pytest.mark.parametrize("wrong", [0, 1, 2])
 @pytest.mark.parametrize("turned", [False, True])
-def test_of_a_lone_loop_that_fails_goes_what_lies_as_the_others_say(
-    wrong: int, turned: bool
-) -> None:
+def test_failing_lone_loop_rejects_the_one_that_fits_otherwise(wrong: int, turned: bool) -> None:
     truth = frames(3)
     # The wrong one weighs most, and the alignments may be told from either side.
     pairs = [(0, 1), (1, 2), (0, 2)]
@@ -164,7 +162,7 @@ def test_of_a_lone_loop_that_fails_goes_what_lies_as_the_others_say(
     assert_laid(poses_from(0, edges, checked), truth, range(3))
 
 
-def test_of_a_lone_loop_that_fails_all_go_if_nothing_tells_which_is_wrong() -> None:
+def test_failing_lone_loop_rejects_all_without_evidence() -> None:
     truth = frames(3)
     edges = [alignment(truth, 0, 1), alignment(truth, 1, 2), alignment(truth, 0, 2, error=WRONG)]
     for lies in (ByTruth(truth, edges, untold=[2]), lambda *_: True, lambda index, _: index < 2):
@@ -174,7 +172,7 @@ def test_of_a_lone_loop_that_fails_all_go_if_nothing_tells_which_is_wrong() -> N
     assert sorted(check_loops(edges).rejected) == [0, 1, 2]
 
 
-def test_two_loops_that_share_the_wrong_one_tell_it_without_the_maps() -> None:
+def test_wrong_alignment_shared_by_two_loops_is_rejected() -> None:
     truth = frames(4)
     edges = [
         alignment(truth, 0, 1),
@@ -191,7 +189,7 @@ def test_two_loops_that_share_the_wrong_one_tell_it_without_the_maps() -> None:
     assert_laid(poses_from(0, edges, checked), truth, range(4))
 
 
-def test_two_loops_apart_are_told_one_after_the_other() -> None:
+def test_two_separate_failing_loops_are_both_resolved() -> None:
     truth = frames(5)
     edges = [
         *(alignment(truth, 0, 1), alignment(truth, 1, 2, error=WRONG), alignment(truth, 0, 2)),
@@ -226,7 +224,7 @@ def test_a_long_ring_may_miss_by_more_and_breaks_where_it_is_wrong() -> None:
     assert_laid(poses_from(0, edges, checked), truth, range(9))
 
 
-def test_a_ring_with_a_short_cut_tells_which_half_is_wrong() -> None:
+def test_shortcut_shows_the_wrong_half_of_a_ring() -> None:
     # The short cut 0-3 makes one loop of four maps, right, and one of six, wrong in 5-6.
     truth = frames(8)
     edges = [*ring(truth, wrong=[5]), alignment(truth, 0, 3)]
@@ -236,7 +234,7 @@ def test_a_ring_with_a_short_cut_tells_which_half_is_wrong() -> None:
     assert check_loops(edges, ByTruth(truth, edges)).rejected == (5,)
 
 
-def test_a_bridge_is_trusted_and_called_unproven() -> None:
+def test_alignment_without_a_loop_is_kept_and_unproven() -> None:
     truth = frames(5)
     edges = [*ring(truth[:3]), alignment(truth, 2, 3), alignment(truth, 3, 4, 1.0)]
     checked = check_loops(edges)
@@ -245,7 +243,7 @@ def test_a_bridge_is_trusted_and_called_unproven() -> None:
     assert_laid(poses_from(0, edges, checked), truth, range(5))
 
 
-def test_what_a_loop_proves_goes_before_what_weighs_more() -> None:
+def test_proven_alignment_precedes_a_heavier_one() -> None:
     # Within what a loop may miss, the ways differ; 0-2 was rejected by nobody, but is not proven.
     truth = frames(4)
     slip = Pose.of_yaw(0.0, np.array([0.5, 0.0, 0.0]))
@@ -260,7 +258,7 @@ def test_what_a_loop_proves_goes_before_what_weighs_more() -> None:
     assert_laid(poses_from(0, edges, checked), truth, range(3))
 
 
-def test_only_what_is_connected_is_laid() -> None:
+def test_only_connected_maps_get_a_pose() -> None:
     truth = frames(6)
     edges = [alignment(truth, 1, 0), alignment(truth, 3, 4)]
     checked = check_loops(edges)
@@ -271,7 +269,7 @@ def test_only_what_is_connected_is_laid() -> None:
     assert_laid(poses_from(0, [], nothing), truth, [0])
 
 
-def test_an_alignment_is_told_from_either_side() -> None:
+def test_alignment_has_a_pose_from_either_map() -> None:
     truth = frames(3, seed=4)
     there = alignment(truth, 0, 1)
     back = PairwiseAlignment(1, 0, there.pose.inverse(), there.middle_in(1), there.weight)

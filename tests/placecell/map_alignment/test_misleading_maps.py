@@ -1,4 +1,4 @@
-"""Maps that are meant to mislead, or to take forever: aligned rightly, or not at all."""
+"""Misleading or expensive maps are aligned rightly or not at all."""
 
 import tracemalloc
 
@@ -31,7 +31,7 @@ def aligned(a: MadeMap, b: MadeMap) -> MapAlignment:
 
 
 def houses(count: int, begin: float, pitch: float = 12.0, mirrored: bool = True) -> Street:
-    """The same house so many times, on both sides of the street."""
+    """Return identical houses on both sides of a street."""
     random = np.random.default_rng(99)
     parts = random.uniform((0, 4, 0), (pitch, 12, 4), (6, 3))
     looks = random.normal(size=(6, DIMENSION))
@@ -98,7 +98,7 @@ def test_pure_noise_is_not_aligned(seed: int) -> None:
 def heap(
     count: int, box: tuple[float, ...], looks: Float64 | None = None, seed: int = 0
 ) -> MadeMap:
-    """Segments in a box, seen from its middle; all alike, if looks are given."""
+    """Return segments in a box, seen from its center; all alike if descriptors are given."""
     random = np.random.default_rng(seed)
     middle = np.array(box) * (0.5, 0.5, 0.0)
     looks = random.normal(size=(count, DIMENSION)) if looks is None else looks
@@ -124,7 +124,7 @@ ALIKE = np.ones(DIMENSION)
         (10_000, (1.0, 1.0, 1.0)),
     ],
 )
-def test_one_segment_a_thousand_times_is_nowhere(count: int, box: tuple[float, ...]) -> None:
+def test_one_segment_a_thousand_times_is_not_aligned(count: int, box: tuple[float, ...]) -> None:
     a, b = heap(count, box, ALIKE), heap(count, box, ALIKE, seed=1)
     found = aligned(a, b)
     assert found.reason in {"ambiguous", "inconsistent"}
@@ -138,7 +138,7 @@ def test_one_segment_a_thousand_times_is_nowhere(count: int, box: tuple[float, .
 
 
 @pytest.mark.slow
-def test_what_lies_densely_agrees_by_chance_and_is_told() -> None:
+def test_dense_similar_segments_are_not_aligned() -> None:
     # Of five kinds; wherever one is laid on the other, something of the kind is near.
     random = np.random.default_rng(0)
     kinds = random.normal(size=(5, DIMENSION))
@@ -148,7 +148,7 @@ def test_what_lies_densely_agrees_by_chance_and_is_told() -> None:
     assert aligned(a, b).reason in {"ambiguous", "inconsistent"}
 
 
-def test_on_a_line_the_direction_is_known_or_none_is_told() -> None:
+def test_segments_on_a_line_give_the_right_rotation_or_none() -> None:
     line = heap(400, (100.0, 0.0, 0.0))
     viewpoints = line.view.centroids + (0.0, 0.0, 1.5)
     flat = MadeMap(MapView(line.view.centroids, viewpoints), line.looks, line.things)
@@ -161,7 +161,7 @@ def test_on_a_line_the_direction_is_known_or_none_is_told() -> None:
     assert aligned(upright, upright).reason == "inconsistent"
 
 
-def test_coincident_centroids_are_nowhere() -> None:
+def test_coincident_centroids_are_not_aligned() -> None:
     point = heap(500, (0.0, 0.0, 0.0))
     assert aligned(point, point).reason == "inconsistent"
     made = pair(0)
@@ -170,7 +170,7 @@ def test_coincident_centroids_are_nowhere() -> None:
 
 
 def measured(a: MadeMap, b: MadeMap) -> tuple[MapAlignment, ByDistance, float]:
-    """What is found, the looks that were asked, and the peak of memory, bytes."""
+    """Return the alignment, the used search and the peak of memory, bytes."""
     looks = ByDistance(a, b)
     tracemalloc.start()
     try:
@@ -200,7 +200,7 @@ def test_ten_thousand_segments_in_a_yard_are_aligned() -> None:
 
 
 def drifting(made: MadeMap, random: np.random.Generator) -> MadeMap:
-    """As odometry has it: the heading wanders 0.05 degrees per root meter, and scale is 1% off."""
+    """Return a map with odometry drift: 0.05 degrees per root meter, and a scale error of 1%."""
     order = np.unique(made.view.viewpoints[:, 0])
     steps = np.diff(order, prepend=order[0])
     heading = np.cumsum(random.normal(size=len(order)) * np.radians(0.05) * np.sqrt(steps))
@@ -219,7 +219,7 @@ def drifting(made: MadeMap, random: np.random.Generator) -> MadeMap:
 
 
 def laid_by_truth(a: MadeMap, b: MadeMap, things: Int64) -> Pose:
-    """What lays these things of b on those of a."""
+    """Return the transform from these landmarks of b to those of a."""
     means = [
         np.array([each.view.centroids[each.things == thing].mean(axis=0) for thing in things])
         for each in (b, a)

@@ -1,4 +1,4 @@
-"""The figures of an overlap, counted by hand."""
+"""Figures of an overlap, with values by hand."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -23,7 +23,7 @@ NOWHERE = Pose.of_yaw(0.0, np.zeros(3))
 
 
 class Table:
-    """Looks by a table: how likely rows of a and of b are the same."""
+    """Search by a table of match probabilities of rows of a and b."""
 
     def __init__(self, table: Float64) -> None:
         self._table = table
@@ -42,11 +42,11 @@ def view(
 
 
 def corner(spread: float = 5.0) -> list[tuple[float, ...]]:
-    """Four things that fix a pose."""
+    """Return four landmarks that determine a pose."""
     return [(0, spread, 0), (spread, spread, 1), (spread, -spread, 0), (-spread, -spread, 2)]
 
 
-def test_stands_are_shared_if_the_other_robot_was_near() -> None:
+def test_viewpoints_are_shared_if_the_other_robot_was_near() -> None:
     one = view([(0, 0, 0)] * 3, [(0, 0, 0), (29, 0, 0), (31, 0, 0)])
     other = view([(0, 0, 0)] * 2, [(0, 9, 0), (20, 0, 0)])
     assert near_viewpoints(one, other, PARAMETERS).tolist() == [True, True, False]
@@ -55,7 +55,7 @@ def test_stands_are_shared_if_the_other_robot_was_near() -> None:
     assert part(one.take(np.array([0, 0, 0, 1, 2])), other, PARAMETERS) == pytest.approx(2 / 3)
 
 
-def test_what_is_near_to_where_both_were_both_see() -> None:
+def test_segments_near_common_viewpoints_are_expected_in_both_maps() -> None:
     one = view([(0, 19, 0), (0, 21, 0), (60, 0, 0)], [(0, 0, 0), (0, 0, 0), (60, 0, 0)])
     other = view([(0, 0, 0)], [(5, 0, 0)])
     assert should_be_seen(one, other, PARAMETERS).tolist() == [True, False, False]
@@ -92,7 +92,7 @@ def test_the_figures_of_an_overlap() -> None:
     assert found.covariance.shape == (4, 4)
 
 
-def test_the_agreement_is_that_of_the_map_of_which_it_is_less() -> None:
+def test_agreement_is_the_smaller_of_both_maps() -> None:
     # b saw ten more things where both were.
     a = view(corner(), [(0, 0, 0)] * 4)
     more = [(3.0 * n - 15, 9.0, 0.0) for n in range(10)]
@@ -103,7 +103,7 @@ def test_the_agreement_is_that_of_the_map_of_which_it_is_less() -> None:
     assert found.agreement == pytest.approx(4 / 14)
 
 
-def test_what_lies_off_is_worth_less() -> None:
+def test_larger_residuals_score_less() -> None:
     # Four pairs hold the pose; a fifth is half a meter off, where the kernel is a quarter.
     a = view([*corner(), (0, -5, 0)], [(0, 0, 0)] * 5)
     b = view([*corner(), (0.5, -5, 0)], [(0, 0, 0)] * 5)
@@ -130,7 +130,7 @@ def test_the_pose_is_refined_from_a_meter_off() -> None:
     assert found.agreement == pytest.approx(1.0)
 
 
-def test_maps_that_do_not_meet_have_nothing_in_common() -> None:
+def test_maps_apart_have_no_overlap() -> None:
     a = view(corner(), [(0, 0, 0)] * 4)
     away = Pose.of_yaw(0.0, np.array([500.0, 0.0, 0.0]))
     found = overlap_of(a, a, away, Table(np.eye(4)), PARAMETERS)
@@ -140,7 +140,7 @@ def test_maps_that_do_not_meet_have_nothing_in_common() -> None:
     assert np.isinf(np.diag(found.covariance)).all()
 
 
-def test_things_are_paired_by_the_views_that_look_most_alike() -> None:
+def test_landmarks_are_paired_by_their_most_similar_views() -> None:
     a = view([(0, 0, 0), (0.1, 0, 0), (9, 0, 0)], [(0, 0, 0)] * 3)
     b = view([(0, 0, 0), (0.2, 0, 0)], [(0, 0, 0)] * 2)
     # Of a: thing 0 with rows 0 and 1, thing 1 with row 2. Of b: one thing.
@@ -159,7 +159,7 @@ def test_things_are_paired_by_the_views_that_look_most_alike() -> None:
     np.testing.assert_array_equal(found.target, a.centroids[[0, 2]])
 
 
-def test_of_each_view_one_tree_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_search_tree_is_built_once(monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[Float64] = []
 
     def counted(points: Float64) -> cKDTree:

@@ -1,4 +1,4 @@
-"""Submaps, and what is looked for of them, against what is counted by hand."""
+"""Submaps and their queries, with values by hand."""
 
 from dataclasses import replace
 
@@ -14,12 +14,12 @@ PARAMETERS = AlignmentParameters()
 
 
 def along_x(viewpoints: list[float]) -> MapView:
-    """A segment 2 m to the left of each stand."""
+    """Return a segment 2 m to the left of each viewpoint."""
     places = np.array([[x, 0.0, 0.0] for x in viewpoints]).reshape(-1, 3)
     return MapView(places + (0.0, 2.0, 0.0), places)
 
 
-def test_a_submap_holds_what_was_seen_from_about_one_place() -> None:
+def test_submap_holds_segments_of_near_viewpoints() -> None:
     submaps = cut(along_x([0, 4, 8, 10, 13, 18, 40]), PARAMETERS)
     # A stand begins a submap unless it is less than 10 m from one that did.
     assert [each.rows.tolist() for each in submaps] == [[0, 1, 2, 3], [0, 1, 2, 3, 4, 5], [6]]
@@ -27,17 +27,17 @@ def test_a_submap_holds_what_was_seen_from_about_one_place() -> None:
     assert submaps[0].rows.dtype == np.int64
 
 
-def test_of_a_long_way_submaps_are_taken_evenly() -> None:
+def test_submaps_of_a_long_path_are_evenly_spaced() -> None:
     parameters = replace(PARAMETERS, submaps=3)
     submaps = cut(along_x([10.0 * x for x in range(101)]), parameters)
     np.testing.assert_allclose([each.middle[0] for each in submaps], [5, 500, 995])
 
 
-def test_of_no_stands_there_are_no_submaps() -> None:
+def test_map_without_viewpoints_has_no_submaps() -> None:
     assert cut(along_x([]), PARAMETERS) == []
 
 
-def test_a_robot_that_stood_still_gives_one_submap_of_so_many_rows() -> None:
+def test_standing_robot_gives_one_submap_of_limited_size() -> None:
     (submap,) = cut(along_x([5.0] * 1_000), replace(PARAMETERS, rows=100))
     assert len(submap.rows) == 100
     assert submap.rows[[0, -1]].tolist() == [0, 999]
@@ -46,7 +46,7 @@ def test_a_robot_that_stood_still_gives_one_submap_of_so_many_rows() -> None:
 
 @settings(max_examples=50, deadline=None)
 @given(st.integers(0, 10_000), st.integers(0, 60))
-def test_what_is_spread_is_apart_and_near_all(seed: int, count: int) -> None:
+def test_spread_points_are_apart_and_cover_all(seed: int, count: int) -> None:
     random = np.random.default_rng(seed)
     points = random.uniform(0, 30, (count, 3))
     chosen = points[spread(points, 10.0)]
@@ -60,7 +60,7 @@ def test_what_is_spread_is_apart_and_near_all(seed: int, count: int) -> None:
 
 
 class Listing:
-    """Looks that write down which rows are asked for, and tell rows 2 r and 2 r + 1 of each."""
+    """Search that records the queried rows and returns rows 2 r and 2 r + 1 for each."""
 
     def __init__(self) -> None:
         self.asked: list[int] = []
@@ -74,7 +74,7 @@ class Listing:
         raise NotImplementedError
 
 
-def test_views_of_a_thing_ask_together() -> None:
+def test_views_of_a_landmark_are_one_query() -> None:
     # Three things at x = 0, 10, 20, of six views, two, and one, 0.1 m apart.
     x = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 10.0, 10.1, 20.0]
     view, looks = along_x(x), Listing()
@@ -95,7 +95,7 @@ def test_views_of_a_thing_ask_together() -> None:
     ]
 
 
-def test_of_many_things_some_ask() -> None:
+def test_number_of_landmark_queries_is_limited() -> None:
     looks = Listing()
     other = MapView(np.zeros((200, 3)), np.zeros((200, 3)))
     parameters = replace(PARAMETERS, landmarks=10)

@@ -31,7 +31,7 @@ def test_voxels_gained_and_lost_both_count() -> None:
     assert keep_distinct(grids[[0, 2]], np.array([0, 0]), 50).tolist() == [True, False]
 
 
-def test_only_inside_groups() -> None:
+def test_duplicates_are_found_only_within_groups() -> None:
     same = grid(range(80))
     groups = np.array([0, 1, 0, 2, 1])
     kept = keep_distinct(packed(same, same, same, same, same), groups, 50)

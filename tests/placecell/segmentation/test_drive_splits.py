@@ -69,7 +69,7 @@ def test_jump_over_a_block_still_alternates() -> None:
 
 
 @pytest.mark.parametrize("scans", [1, 2, 20])
-def test_drive_that_stands_still_has_nothing_to_ask_from(scans: int) -> None:
+def test_standing_drive_has_no_query_block(scans: int) -> None:
     drive = drive_along(*[4.0] * scans)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

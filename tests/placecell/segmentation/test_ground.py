@@ -14,7 +14,7 @@ THINGS = {"car": CAR, "wall": WALL, "lorry": LORRY, "tree": TRUNK}
 
 
 def removed(*clouds: Float32) -> list[Bool]:
-    """Which points of each cloud are ground when all lie in one map."""
+    """Return whether each point of each cloud is ground, with all clouds in one map."""
     ground = is_ground(np.concatenate(clouds), PROTOCOL_V1)
     return np.split(ground, np.cumsum([len(cloud) for cloud in clouds])[:-1])
 
@@ -23,18 +23,18 @@ def above(thing: Float32, height: float) -> Bool:
     return thing[:, 2] > height
 
 
-def test_flat_ground_goes() -> None:
+def test_flat_ground_is_removed() -> None:
     assert is_ground(plane(20), PROTOCOL_V1).all()
 
 
 @pytest.mark.parametrize("slope", [0.05, 0.15, -0.15])
-def test_sloped_ground_goes(slope: float) -> None:
+def test_sloped_ground_is_removed(slope: float) -> None:
     assert is_ground(plane(20, slope=slope), PROTOCOL_V1).all()
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.15])
 @pytest.mark.parametrize("thing", THINGS)
-def test_things_stay_and_the_ground_below_them_goes(thing: str, slope: float) -> None:
+def test_objects_stay_and_the_ground_below_them_is_removed(thing: str, slope: float) -> None:
     x, y = 3.2, -2.1
     cloud = box((x, y, 0.0), THINGS[thing])
     cloud[:, 2] += slope * cloud[:, 0]

@@ -6,7 +6,7 @@ from placecell.segmentation.grouping import Grouper, nearest_pairs
 
 
 def at(*xs: float) -> Float64:
-    """Centroids on the x axis."""
+    """Return centroids on the x axis."""
     return np.array([[x, 0.0, 0.0] for x in xs]).reshape(-1, 3)
 
 
@@ -29,14 +29,14 @@ def test_group_follows_a_drifting_centroid() -> None:
     assert numbers == [[0]] * 8
 
 
-def test_group_ends_when_a_frame_lacks_it() -> None:
+def test_group_ends_at_a_capture_without_it() -> None:
     grouper = Grouper(1.5)
     grouper.add_capture(at(0, 10))
     assert grouper.add_capture(at(10)).tolist() == [1]
     assert grouper.add_capture(at(0, 10)).tolist() == [2, 1]
 
 
-def test_empty_frame_ends_every_group() -> None:
+def test_empty_capture_ends_every_group() -> None:
     grouper = Grouper(1.5)
     assert grouper.add_capture(at(0)).tolist() == [0]
     assert grouper.add_capture(at()).tolist() == []
@@ -70,7 +70,7 @@ def test_nearest_pair_first_even_if_another_loses_its_only_mate() -> None:
     assert pairs(at(0, 1.4), at(1.0, 2.7)) == {1: 0}
 
 
-def test_loser_takes_its_next_nearest() -> None:
+def test_point_without_its_nearest_gets_the_next() -> None:
     assert pairs(at(0, 0.2), at(0.3, -1.0)) == {1: 0, 0: 1}
 
 
@@ -97,6 +97,6 @@ def test_against_slow_reference(seed: int) -> None:
     assert len(expected) > 5
 
 
-def test_ties_do_not_depend_on_anything_but_the_order() -> None:
+def test_ties_are_resolved_by_order() -> None:
     assert pairs(at(0), at(-1, 1)) == {0: 0}
     assert pairs(at(-1, 1), at(0)) == {0: 0}

@@ -85,7 +85,7 @@ def test_range_counts_from_the_sensor_that_saw_it_not_from_the_world() -> None:
 
 
 def markers(scans: int, parameters: Parameters, first: int = 0) -> list[set[int]]:
-    """Which scans feed each frame's map: scan i holds one point at the height of i/2 meters."""
+    """Return the scans of each capture's map: scan i has one point at a height of i/2 meters."""
     drive = MemoryDrive([cloud((5, 0, index / 2)) for index in range(scans)], [pose()] * scans)
     accumulator = Accumulator(drive, parameters, first)
     return [
@@ -94,7 +94,7 @@ def markers(scans: int, parameters: Parameters, first: int = 0) -> list[set[int]
     ]
 
 
-def test_map_holds_the_frames_scan_and_the_nine_before() -> None:
+def test_map_holds_the_captures_scan_and_the_nine_before() -> None:
     fed = markers(25, PROTOCOL_V1)
     assert fed == [set(range(max(0, frame - 9), frame + 1)) for frame in range(25)]
 

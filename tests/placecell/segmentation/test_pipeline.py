@@ -26,12 +26,12 @@ from tests.placecell.segment_builders import (
 SENSOR_HEIGHT = 1.7
 BOXES = [((6.0, 5.0), (2.0, 1.6)), ((14.0, -6.0), (1.5, 2.5)), ((22.0, 6.0), (3.0, 1.2))]
 STANDS = range(5, 9)
-"""The sensor drives 0.8 m a scan, but stays at these scans where it was at the one before."""
+"""Scans at which the sensor does not move; it moves 0.8 m at the others."""
 EVERY_SCAN = PROTOCOL_V1.for_drive(14)
 
 
 def seen_faces(sensor: Float64) -> Float32:
-    """Points on those sides of the boxes that face the sensor, 2 m high, world frame."""
+    """Return points on the sides of the boxes that face the sensor, 2 m high, world frame."""
     heights = np.arange(0.05, 2.0, 0.1)
     faces = []
     for (x, y), (a, b) in BOXES:
@@ -49,7 +49,7 @@ def seen_faces(sensor: Float64) -> Float32:
 
 
 def street() -> tuple[list[Float32], list[Float64]]:
-    """Scans in the sensor's frame, and its poses: the world is the sensor's first frame."""
+    """Return scans in the sensor frame and poses; the world is the first sensor frame."""
     ground = plane(30, step=0.4)
     scans, poses, x = [], [], 0.0
     for index in range(14):
@@ -74,7 +74,7 @@ def recording(drive: Drive) -> Recording:
 
 
 @pytest.mark.slow
-def test_boxes_are_the_segments_of_every_frame(recording: Recording) -> None:
+def test_boxes_are_the_segments_of_every_capture(recording: Recording) -> None:
     captures, counts = np.unique(recording.captures, return_counts=True)
     assert captures.tolist() == list(range(14))
     assert counts.tolist() == [len(BOXES)] * 14
@@ -91,7 +91,7 @@ def test_segments_lie_where_the_boxes_stand(recording: Recording) -> None:
         assert highest[mine, 2] == pytest.approx(1.95 - SENSOR_HEIGHT, abs=0.06)
 
 
-def test_groups_persist_over_the_frames(recording: Recording) -> None:
+def test_groups_persist_over_all_captures(recording: Recording) -> None:
     assert set(recording.groups.tolist()) == {0, 1, 2}
     centroids = recording.segments.centroids()
     for group in range(3):
@@ -140,7 +140,7 @@ def test_sensors_are_where_the_drive_was(recording: Recording, drive: Drive) -> 
     assert recording.segments.sensors == pytest.approx(drive.poses[recording.captures, :3, 3])
 
 
-def test_recording_says_what_it_is_of(recording: Recording, drive: Drive) -> None:
+def test_recording_has_name_and_hashes(recording: Recording, drive: Drive) -> None:
     assert recording.name == "street"
     assert recording.parameters == EVERY_SCAN
     assert recording.scans == 14
@@ -158,7 +158,7 @@ def test_recording_survives_its_file(recording: Recording, tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-def test_made_twice_it_is_the_same(recording: Recording, drive: Drive) -> None:
+def test_recording_twice_gives_equal_recordings(recording: Recording, drive: Drive) -> None:
     again = record(drive, EVERY_SCAN)
     assert np.array_equal(again.segments.points, recording.segments.points)
     assert np.array_equal(again.groups, recording.groups)
@@ -185,7 +185,7 @@ def test_no_scan_outside_the_range_given_feeds_it() -> None:
         assert np.array_equal(one.points, other.points)
 
 
-def test_progress_is_told_of_every_frame(drive: Drive) -> None:
+def test_progress_is_shown_for_every_capture(drive: Drive) -> None:
     told: list[tuple[int, str]] = []
 
     def progress(items: Iterable[int], total: int, what: str) -> Iterable[int]:
@@ -219,7 +219,7 @@ def test_packed_grids_in_batches(batch: int) -> None:
 
 
 def golden_segment() -> Float32:
-    """Two walls at a corner, from whole numbers alone; 56 of the points are outside the grid."""
+    """Return two walls at a corner from integers; 56 of the points are outside the grid."""
     rows = [(i * 7 % 97 / 11, 0.031 * (i % 5), i * 11 % 89 / 23) for i in range(120)]
     rows += [(0.017 * (i % 3), i * 5 % 83 / 19, i * 13 % 71 / 53) for i in range(80)]
     rows += [(0.5, 0.7, -0.037)]
@@ -227,7 +227,7 @@ def golden_segment() -> Float32:
 
 
 def test_golden_input_of_the_network() -> None:
-    """Pins what a model is given, in training as in serving.
+    """The network's input never changes without a new preprocessing version.
 
     If this fails, every model that exists sees another input than it was trained on: change
     PREPROCESSING_VERSION with it, or undo what made it fail.

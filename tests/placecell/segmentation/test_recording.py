@@ -48,7 +48,7 @@ def rewrite(
     header: dict[str, object] | None = None,
     columns: dict[str, np.ndarray | None] | None = None,
 ) -> None:
-    """The same file with other header entries or columns; None takes a column away."""
+    """Rewrite the file with other header entries or columns; None removes a column."""
     tensors = load_file(file) | (columns or {})
     text = json.dumps(header_of(file) | (header or {}))
     kept = {name: column for name, column in tensors.items() if column is not None}
@@ -80,7 +80,7 @@ def test_columns_that_are_views_are_saved_as_they_read(tmp_path: Path) -> None:
     assert np.array_equal(loaded.segments.sensors, whole.segments.sensors)
 
 
-def test_recording_of_nothing(tmp_path: Path) -> None:
+def test_empty_recording_survives_its_file(tmp_path: Path) -> None:
     none = np.zeros(0, dtype=np.int64)
     nothing = replace(
         recording(),
@@ -95,7 +95,7 @@ def test_recording_of_nothing(tmp_path: Path) -> None:
     assert loaded.within(0, 8).shape == (0,)
 
 
-def test_frames_are_told_whether_or_not_a_segment_was_seen() -> None:
+def test_capture_scans_include_those_without_segments() -> None:
     assert [*recording().capture_scans] == [0, 2, 4, 6]
     # What was seen of nothing, and a drive that was cut with another --every.
     every_third = replace(recording(), parameters=Parameters(frame_step=3))
@@ -103,7 +103,7 @@ def test_frames_are_told_whether_or_not_a_segment_was_seen() -> None:
     assert [*replace(recording(), part=range(3, 8)).capture_scans] == [3, 5, 7]
 
 
-def test_a_part_of_a_drive_is_not_written_as_if_it_were_whole(tmp_path: Path) -> None:
+def test_saving_a_part_of_a_drive_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="whole drive"):
         replace(recording(), part=range(3, 8)).save(tmp_path / "a")
     assert not (tmp_path / "a").exists()

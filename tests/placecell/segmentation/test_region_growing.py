@@ -15,7 +15,7 @@ def points(*rows: tuple[float, float, float]) -> Float32:
 
 
 def slow_labels(cloud: Float32, radius: float) -> list[int]:
-    """Every distance there is; labels numbered by each region's first point."""
+    """Label regions by comparing all points, as a reference."""
     linked = cdist(cloud.astype(np.float64), cloud.astype(np.float64)) <= radius
     _, labels = connected_components(linked, directed=False)
     first: dict[int, int] = {}
@@ -90,7 +90,7 @@ def test_no_points() -> None:
 
 
 def clusters(*sizes: int) -> Float32:
-    """Clusters of these sizes, 10 m apart, their points dealt out in turn."""
+    """Return clusters of these sizes, 10 m apart, with interleaved points."""
     rows = [
         (float(10 * cluster), 0.001 * at, 0.0)
         for cluster, size in enumerate(sizes)
