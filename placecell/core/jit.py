@@ -22,8 +22,8 @@ DIGEST_SIZE = hashlib.sha256().digest_size
 
 logger = logging.getLogger("placecell")
 
-_told: set[str] = set()
-_telling = Lock()
+_logged: set[str] = set()
+_log_lock = Lock()
 
 
 def compiled(function: Function) -> Function:
@@ -66,10 +66,10 @@ class CheckedCacheFile(IndexDataCacheFile):
             index = super()._load_index()
         # Unpickling damaged bytes raises nearly anything.
         except Exception as error:
-            tell_once("unreadable", f"{self._index_path}: {error!r:.200}")
+            log_once("unreadable", f"{self._index_path}: {error!r:.200}")
             return {}
         if not isinstance(index, dict):
-            tell_once("unreadable", f"{self._index_path}: not an index")
+            log_once("unreadable", f"{self._index_path}: not an index")
             return {}
         return index
 
@@ -102,7 +102,7 @@ class OptionalCache(FunctionCache):
             return super().load_overload(sig, target_context)
         # The code can be compiled whatever is wrong with the files.
         except Exception as error:
-            tell_once("unreadable", f"{self._name} in {self._cache_path}: {error!r:.200}")
+            log_once("unreadable", f"{self._name} in {self._cache_path}: {error!r:.200}")
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
@@ -111,14 +111,14 @@ class OptionalCache(FunctionCache):
             super().save_overload(sig, data)
         # For example: a full disk, a read-only folder, or a folder in place of the file.
         except Exception as error:
-            tell_once("unwritable", f"{self._name} in {self._cache_path}: {error!r:.200}")
+            log_once("unwritable", f"{self._name} in {self._cache_path}: {error!r:.200}")
 
 
-def tell_once(kind: str, detail: str) -> None:
+def log_once(kind: str, detail: str) -> None:
     """Log each kind of problem once, however many files have it."""
-    with _telling:
-        first = kind not in _told
-        _told.add(kind)
+    with _log_lock:
+        first = kind not in _logged
+        _logged.add(kind)
     logger.log(
         logging.WARNING if first else logging.DEBUG,
         "the cache of compiled code is %s; the code is compiled again: %s",

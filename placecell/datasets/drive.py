@@ -90,10 +90,10 @@ class Drive(ABC):
             self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
         for index, size in enumerate(sizes):
             if size <= 0 or size % self.point_layout.point_bytes:
-                self.skip(index, size_told(size))
+                self.skip(index, size_problem(size))
         self.check_usable(range(len(self)))
         if self.dropouts.skipped:
-            self.options.tell(f"{self.folder}: {self.told(range(len(self)))}")
+            self.options.tell(f"{self.folder}: {self.summary(range(len(self)))}")
 
     def scan(self, index: int) -> Float32:
         """Return the points of a scan, float32 (n, 3), meters, sensor frame; none if unusable.
@@ -138,11 +138,11 @@ class Drive(ABC):
         skipped, _ = self.dropouts.within(scans)
         if 2 * len(skipped) > len(scans):
             raise DriveError(
-                f"{self.folder}: {self.told(scans)}. More than half of the scans cannot be used: "
-                "the folder is incomplete, or the scans have another layout (--columns, --dtype)"
+                f"{self.folder}: {self.summary(scans)}. Over half of the scans cannot be used. "
+                "The folder is incomplete, or the scans have another layout (--columns, --dtype)"
             )
 
-    def told(self, scans: range) -> str:
+    def summary(self, scans: range) -> str:
         """Summarize the skipped scans, with reasons, and the dropped points."""
         skipped, dropped = self.dropouts.within(scans)
         words = []
@@ -184,7 +184,7 @@ def size_of(file: Path) -> int:
         return -1
 
 
-def size_told(size: int) -> str:
+def size_problem(size: int) -> str:
     """Return why a file of this size cannot be used."""
     if size < 0:
         return "missing or not a file"

@@ -139,7 +139,7 @@ def find_layout(files: Sequence[Path], sizes: Sequence[int], options: ScanOption
                 f"of {layout}; the stated layout does not fit"
             )
     else:
-        layout = told_by_content(folder, whole, sampled, METERS[options.unit])
+        layout = layout_from_content(folder, whole, sampled, METERS[options.unit])
     check_unit(folder, layout, sampled)
     return layout
 
@@ -170,7 +170,7 @@ def count_of(sizes: NDArray[np.int_], point_bytes: int) -> str:
     return f"{len(bad)} of {len(sizes)} scans (one of {bad[0]} bytes)"
 
 
-def told_by_content(
+def layout_from_content(
     folder: Path, sizes: NDArray[np.int_], sampled: Sequence[bytes], scale: float
 ) -> PointLayout:
     """Find the layout from file sizes and values.
@@ -199,18 +199,18 @@ def told_by_content(
         if fits_kitti and (best is None or bits[len(NAMES)] - bits[best] < CONTRADICTED):
             return PointLayout(scale=scale)
         raise DriveError(
-            f"{found}: {sizes_told(sizes, fits, dtype)}, and {points} points per scan are too few "
-            f"to infer the layout from values. {STATE_IT}"
+            f"{found}: {fitting_columns(sizes, fits, dtype)}, and {points} points per scan are too "
+            f"few to infer the layout from values. {STATE_IT}"
         )
     if best is None or pooled - bits[best] < MARGIN:
         if is_column_major(values, pooled):
             raise DriveError(
                 f"{found}: the values of one column follow each other, column after column; "
-                f"{sizes_told(sizes, fits, dtype)}. State it with --order columns --columns N"
+                f"{fitting_columns(sizes, fits, dtype)}. State it with --order columns --columns N"
             )
         if fits_kitti:
             return PointLayout(scale=scale)  # Nothing speaks for another layout.
-        raise DriveError(f"{found}: {sizes_told(sizes, fits, dtype)}. {STATE_IT}")
+        raise DriveError(f"{found}: {fitting_columns(sizes, fits, dtype)}. {STATE_IT}")
     if fits_kitti and bits[len(NAMES)] - bits[best] < MARGIN:
         best = len(NAMES)
     told = f"by their values they have {best} columns of {dtype}"
@@ -218,7 +218,7 @@ def told_by_content(
         rest = [each for count, each in bits.items() if count % best]
         if rest and min(rest) - bits[best] < MARGIN:
             raise DriveError(f"{found}; {told}, which is not sure. {STATE_IT}")
-    if wrong := doubt_of_axes(values, best):
+    if wrong := axes_problem(values, best):
         raise DriveError(f"{found}: {told}, but {wrong}. {STATE_IT}")
     names = {3: NAMES[:3], 4: NAMES}.get(
         best, ("x", "y", "z", *(f"column_{number}" for number in range(3, best)))
@@ -226,7 +226,7 @@ def told_by_content(
     return PointLayout(columns=names, dtype=dtype, scale=scale)
 
 
-def sizes_told(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) -> str:
+def fitting_columns(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) -> str:
     """Return which numbers of columns the sizes of all files allow, as text."""
     if not fits:
         return f"their sizes (one is {sizes[0]} bytes) fit no 3 to 10 columns of {dtype}"
@@ -361,7 +361,7 @@ def is_column_major(values: Sequence[Float64], pooled: float) -> bool:
     return pooled - bits_of([np.concatenate(some) for some in stretches]) > 2 * MARGIN
 
 
-def doubt_of_axes(values: Sequence[Float64], count: int) -> str:
+def axes_problem(values: Sequence[Float64], count: int) -> str:
     """Return why the first three columns may not be x, y and z; empty if they may be."""
     table = np.concatenate(
         [each[: len(each) // count * count].reshape(-1, count) for each in values]

@@ -280,7 +280,7 @@ def _against(
     ):
         if reason is None or reason == "ambiguous":
             reason = "inconsistent"
-            detail = f"Map {other!r:.80} fits better. {_told(own.best, rival.hypothesis)}"
+            detail = f"Map {other!r:.80} fits better. {_support_text(own.best, rival.hypothesis)}"
         probability = min(probability, 1 - chance_of_map(-rival.ahead, parameters))
     elif (
         rival is not None
@@ -291,7 +291,7 @@ def _against(
             reason = "ambiguous"
             detail = (
                 f"Map {other!r:.80} fits about as well. "
-                f"{_told(own.best, rival.hypothesis)} {ADVICE}"
+                f"{_support_text(own.best, rival.hypothesis)} {ADVICE}"
             )
         probability = min(probability, 1 / (1 + max(rival.ratio, parameters.ambiguous)))
     elif foreign and reason is None:
@@ -331,7 +331,7 @@ def chance_of_map(ahead: float, parameters: LocalizationParameters) -> float:
     return 1 - 0.5 * odds / (1 + odds)
 
 
-def _told(own: Hypothesis, rival: Hypothesis) -> str:
+def _support_text(own: Hypothesis, rival: Hypothesis) -> str:
     """Return how many segments support each of two maps, as text."""
     assert own.similarity is not None
     assert rival.similarity is not None

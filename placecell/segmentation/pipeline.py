@@ -88,7 +88,7 @@ def record(
     drive.check_usable(read)
     skipped, dropped = drive.dropouts.within(read)
     if skipped or dropped:
-        drive.options.tell(f"{drive.folder}: {drive.told(read)}")
+        drive.options.tell(f"{drive.folder}: {drive.summary(read)}")
     segments = Segments.concatenate(parts)
     del parts  # They are gigabytes for a long drive.
     group = np.concatenate(groups)

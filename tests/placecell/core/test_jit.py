@@ -28,7 +28,7 @@ def double(values):
 
 @pytest.fixture
 def _nothing_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(jit, "_told", set())
+    monkeypatch.setattr(jit, "_logged", set())
 
 
 @pytest.fixture

@@ -215,7 +215,7 @@ def test_B10_a_scan_of_noise_is_skipped(folder: Path) -> None:
 def test_B10_a_drive_of_mostly_bad_scans_is_refused_at_once(folder: Path) -> None:
     for number in range(4):
         (folder / "velodyne" / f"{number:06d}.bin").write_bytes(b"")
-    with pytest.raises(DriveError, match=r"4 of 6 scans skipped.*More than half"):
+    with pytest.raises(DriveError, match=r"4 of 6 scans skipped.*Over half"):
         open_drive(folder)
 
 
