@@ -61,8 +61,8 @@ def agree(
         other_rise: height difference of the map segments, meters.
         level: whether gravity is known, so that heights are kept.
         tolerance: largest difference of the distances, meters.
-        height_tolerance: largest difference of the height differences, meters; and
-        slope: its increase per meter of distance.
+        height_tolerance: largest difference of the height differences, meters.
+        slope: increase of the height tolerance per meter of distance.
     """
     squared, other_squared = here, there
     if not level:
@@ -116,26 +116,26 @@ def count_votes(
 ) -> None:
     """Count for each map the segments that agree about one pose, to rank many maps.
 
-    It stands here, since compiled functions call compiled functions of their own file only.
+    It is in this file, because compiled functions call only compiled functions of their file.
 
     Args:
-        starts: where the candidates of each map begin, int64 (maps + 1,).
+        starts: int64 (maps + 1,), index of each map's first candidate.
         queries: query segment of each candidate, int64 (m,), ascending within a map.
         source: centroids of the query segments, float64 (q, 3), meters.
         target: centroids of the candidates, relative to a point in their map, float32 (m, 3).
         share: share of each map's candidates that is compared.
-        level: as of `agree`; so are the next three.
+        level: see `agree`.
         tolerance: see `agree`.
         height_tolerance: see `agree`.
         slope: see `agree`.
         flag: flag of a `CancelToken`.
-        votes: is filled with 1 plus the most segments that agree with one candidate, int64 (maps,).
+        votes: int64 (maps,), filled with 1 plus the most segments that agree with one candidate.
     """
     for place in range(len(votes)):
         if is_cancelled(flag):
             return
         begin, end = starts[place], starts[place + 1]
-        # Of too many candidates, an evenly chosen part is compared, in the order of the segments.
+        # If there are too many candidates, an even share is compared, ordered by segment.
         step = 1.0 / share
         most = int((end - begin) * share)
         best = 0
