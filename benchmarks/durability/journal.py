@@ -4,7 +4,7 @@ import hashlib
 from collections import Counter
 from dataclasses import dataclass, field
 
-from benchmarks.durability.map_versions import MapVersion, VersionHistory
+from benchmarks.durability.map_versions import VersionFile, VersionHistory
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,9 +107,9 @@ def _is_same(expected: VersionHistory | None, found: VersionHistory | None) -> b
     return found is None if expected is None else expected.is_past(found)
 
 
-def _versions(history: VersionHistory | None) -> tuple[MapVersion, ...]:
+def _versions(history: VersionHistory | None) -> tuple[VersionFile, ...]:
     return history.versions if history is not None else ()
 
 
-def _is_in(version: MapVersion, there: tuple[MapVersion, ...]) -> bool:
+def _is_in(version: VersionFile, there: tuple[VersionFile, ...]) -> bool:
     return any(version.is_version(each) for each in there)

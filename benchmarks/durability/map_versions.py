@@ -6,7 +6,7 @@ from placecell_client import Client, ServiceError
 
 
 @dataclass(frozen=True, slots=True)
-class MapVersion:
+class VersionFile:
     """One version of a map.
 
     Attributes:
@@ -19,7 +19,7 @@ class MapVersion:
     file: bytes = field(repr=False)
     tag: str | None = None
 
-    def is_version(self, found: "MapVersion") -> bool:
+    def is_version(self, found: "VersionFile") -> bool:
         """Return whether a found version is this one."""
         is_tagged = self.tag is None or self.tag == found.tag
         return is_tagged and (self.sequence, self.file) == (found.sequence, found.file)
@@ -29,15 +29,15 @@ class MapVersion:
 class VersionHistory:
     """Available versions of a map, oldest first; at least one."""
 
-    versions: tuple[MapVersion, ...]
+    versions: tuple[VersionFile, ...]
 
     @classmethod
     def begun(cls, file: bytes) -> "VersionHistory":
         """Return the history of a new map."""
-        return cls((MapVersion(1, file),))
+        return cls((VersionFile(1, file),))
 
     @property
-    def newest(self) -> MapVersion:
+    def newest(self) -> VersionFile:
         """Return the newest version."""
         return self.versions[-1]
 
@@ -45,7 +45,7 @@ class VersionHistory:
         """Return the history with another version; the same history if the file is unchanged."""
         if file == self.newest.file:
             return self
-        return VersionHistory((*self.versions, MapVersion(self.newest.sequence + 1, file)))
+        return VersionHistory((*self.versions, VersionFile(self.newest.sequence + 1, file)))
 
     def shortened(self, keep: int) -> "VersionHistory":
         """Return the history with its last `keep` versions only."""
@@ -60,7 +60,7 @@ class VersionHistory:
         return (
             found is not None
             and len(found.versions) == len(self.versions)
-            and all(map(MapVersion.is_version, self.versions, found.versions))
+            and all(map(VersionFile.is_version, self.versions, found.versions))
         )
 
 
@@ -74,7 +74,7 @@ def history_of(client: Client, name: str) -> VersionHistory | None:
         raise
     return VersionHistory(
         tuple(
-            MapVersion(each.sequence, client.get_map_file(name, version=each.sequence), each.etag)
+            VersionFile(each.sequence, client.get_map_file(name, version=each.sequence), each.etag)
             for each in reversed(listed)
         )
     )

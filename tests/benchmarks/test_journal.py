@@ -3,13 +3,13 @@
 import pytest
 
 from benchmarks.durability.journal import Discrepancy, Journal
-from benchmarks.durability.map_versions import MapVersion, VersionHistory
+from benchmarks.durability.map_versions import VersionFile, VersionHistory
 
 
 def history(*files: bytes, first: int = 1) -> VersionHistory:
     """Return a history with these files, as a service returns it."""
     return VersionHistory(
-        tuple(MapVersion(number, file, f"tag-{number}") for number, file in enumerate(files, first))
+        tuple(VersionFile(number, file, f"tag-{number}") for number, file in enumerate(files, first))
     )
 
 
@@ -56,7 +56,7 @@ def test_write_that_changes_nothing_makes_no_version(journal: Journal) -> None:
         (history(b"x", b"b"), 1, 1),
         (history(b"b", first=2), 1, 0),
         (history(b"a", b"b", b"c"), 0, 1),
-        (VersionHistory((MapVersion(1, b"a", "tag-1"), MapVersion(2, b"b", "other"))), 1, 1),
+        (VersionHistory((VersionFile(1, b"a", "tag-1"), VersionFile(2, b"b", "other"))), 1, 1),
     ],
 )
 def test_any_other_history_is_a_discrepancy(
