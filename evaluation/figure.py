@@ -1,4 +1,4 @@
-"""Pictures: axes side by side in a PNG. No torch, so that the benches can draw without it."""
+"""Figures: axes side by side in a PNG. This module needs no torch."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def figure(file: Path, columns: int = 1, size: float = 4.2) -> Iterator[list["Axes"]]:
-    """Axes side by side, saved as PNG at the end; its folder is made where there is none."""
+    """Yield axes side by side; at the end save them as a PNG, and make its folder if needed."""
     import matplotlib as mpl
 
     mpl.use("Agg")

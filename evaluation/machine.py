@@ -18,7 +18,7 @@ def machine() -> dict[str, Any]:
 
 
 def processor_name() -> str:
-    """Return the name of the processor, or its architecture where the system tells no name."""
+    """Return the name of the processor, or its architecture if the name is unknown."""
     information = Path("/proc/cpuinfo")
     if information.exists():
         for line in information.read_text().splitlines():

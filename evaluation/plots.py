@@ -1,4 +1,4 @@
-"""The figures of the experiments' report, named after the paper's."""
+"""Figures of the experiments' report, named after those of the paper."""
 
 from pathlib import Path
 from typing import Any
@@ -14,11 +14,11 @@ CURVES = {
     "siamese": ("accuracy", "validation_accuracy", "accuracy over pairs"),
     "contrastive": ("top1", "validation_top1", "top-1"),
 }
-"""Figure 3 (a) to (c): what the history calls training and validation, and the axis."""
+"""Figure 3 (a) to (c): keys of the training and the validation curve, and label of the axis."""
 
 
 def training_curves(models: Models, network: str, file: Path) -> None:
-    """Figure 3: each method's training, epoch by epoch, one line a seed."""
+    """Draw figure 3: the training of each method by epoch, one line per seed."""
     with figure(file, len(CURVES)) as axes:
         for place, (method, (training, validation, label)) in zip(
             axes, CURVES.items(), strict=True
@@ -31,7 +31,7 @@ def training_curves(models: Models, network: str, file: Path) -> None:
                     (training, "C0", "training"),
                     (validation, "C1", "validation"),
                 ):
-                    # Where no group was large enough, no segment could be held out.
+                    # Without large enough groups no segment was held out for validation.
                     values = [epoch.get(key, np.nan) for epoch in model["history"]]
                     shown = name if model["seed"] == 0 else None
                     place.plot(epochs, values, color=color, label=shown, linewidth=1)
@@ -41,14 +41,14 @@ def training_curves(models: Models, network: str, file: Path) -> None:
 
 
 def roc_curves(models: Models, file: Path) -> None:
-    """Figure 4: how well pairs are told apart."""
+    """Draw figure 4: the ROC curves of the classification of pairs."""
     with figure(file, size=5.5) as (axes,):
         for name, model in models.items():
             if model["seed"] == 0 and not model["ablation"]:
                 rates = list(zip(*model["roc"], strict=True))
                 axes.plot(*rates, label=f"{name}: {model['figures']['pair_auc']:.3f}")
                 forest = list(zip(*model["paper_forest"]["roc"], strict=True))
-                label = f"  by the paper's forest: {model['paper_forest']['auc']:.3f}"
+                label = f"  with the paper's forest: {model['paper_forest']['auc']:.3f}"
                 axes.plot(*forest, "--", color=axes.lines[-1].get_color(), label=label, linewidth=1)
         axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
         axes.set(xlabel="false positive rate", ylabel="true positive rate", title="pairs")
@@ -57,7 +57,7 @@ def roc_curves(models: Models, file: Path) -> None:
 
 
 def candidate_matches(models: Models, file: Path) -> None:
-    """Figure 5: share of segments whose nearest descriptor is of their group."""
+    """Draw figure 5: share of segments whose nearest neighbor is of their group."""
     chosen = {n: m for n, m in models.items() if m["seed"] == 0 and not m["ablation"]}
     with figure(file, size=5.5) as (axes,):
         values = [model["figures"]["top1"] for model in chosen.values()]
@@ -69,7 +69,7 @@ def candidate_matches(models: Models, file: Path) -> None:
 
 
 def distance_distributions(models: Models, names: list[str], file: Path) -> None:
-    """Distances of positive and negative pairs, with and without hard pairs in training."""
+    """Draw the distances of positive and negative pairs, per model."""
     with figure(file, len(names)) as axes:
         for place, name in zip(axes, names, strict=True):
             distances = models[name]["distances"]
@@ -121,13 +121,13 @@ def overfitting(models: Models, network: str, usual: float, file: Path) -> None:
                     color=f"C{index}",
                     label=f"dropout {dropout(model, usual)}, {key.replace('_', ' ')}",
                 )
-        axes.set(xlabel="epoch", ylabel="accuracy over pairs", title="Siamese, regularisation")
+        axes.set(xlabel="epoch", ylabel="accuracy over pairs", title="Siamese, regularization")
         axes.legend(fontsize=8)
         axes.grid(alpha=0.3)
 
 
 def reliability(models: Models, file: Path) -> None:
-    """Stated against true probability of a match, of held-out segments and their nearest."""
+    """Draw the stated against the true match probability of held-out segments."""
     with figure(file, size=5.5) as (axes,):
         axes.plot([0, 1], [0, 1], color="0.7", linestyle=":")
         for name, model in models.items():
@@ -140,13 +140,13 @@ def reliability(models: Models, file: Path) -> None:
 
 
 def studies(curves: dict[str, dict[str, Any]], file: Path) -> None:
-    """What recognition depends on, each model a line; and what storage costs the last of them."""
+    """Draw the curves of the recognition study, one line per model, and storage of the last."""
     panels = {
         "by_points": ("points", "points of the segment"),
-        "by_metres": ("metres", "mates seen from within so many metres left out"),
-        "by_degrees": ("degrees", "mates seen from within so many degrees left out"),
-        "by_occlusion": ("lost", "share of the query cut off"),
-        "by_density": ("lost", "share of the query's points missing"),
+        "by_metres": ("metres", "distance of viewpoints below which mates are left out, m"),
+        "by_degrees": ("degrees", "angle of views below which mates are left out, deg"),
+        "by_occlusion": ("lost", "occluded share of the query"),
+        "by_density": ("lost", "missing share of the query's points"),
     }
     with figure(file, len(panels) + 1, size=3.8) as axes:
         for place, (key, (along, label)) in zip(axes, panels.items(), strict=False):
@@ -159,7 +159,7 @@ def studies(curves: dict[str, dict[str, Any]], file: Path) -> None:
                     markersize=3,
                     label=name,
                 )
-            place.set(xlabel=label, ylabel="top1 of those with a mate", ylim=(0, 1))
+            place.set(xlabel=label, ylabel="top-1 of segments with a mate", ylim=(0, 1))
             place.grid(alpha=0.3)
         axes[0].set_xscale("log")
         axes[0].legend(fontsize=8)
@@ -173,13 +173,18 @@ def studies(curves: dict[str, dict[str, Any]], file: Path) -> None:
                 markersize=3,
                 label=f"{bits} bits",
             )
-        axes[-1].set(xlabel="dimensions", ylabel="top1", title=f"storage: {name}")
+        axes[-1].set(xlabel="dimensions", ylabel="top-1", title=f"storage: {name}")
         axes[-1].legend(fontsize=8)
         axes[-1].grid(alpha=0.3)
 
 
 def accuracy_against_speed(points: list[tuple[str, float, float]], file: Path) -> None:
-    """Of each network, by name: segments a second, and how many of them are recognised."""
+    """Draw accuracy against speed of each network.
+
+    Args:
+        points: name, segments per second and top-1 accuracy of each network.
+        file: PNG file to write.
+    """
     with figure(file, 1) as (axes,):
         for name, rate, accuracy in points:
             axes.plot(rate, accuracy, "o", markersize=5)
@@ -187,5 +192,5 @@ def accuracy_against_speed(points: list[tuple[str, float, float]], file: Path) -
                 name, (rate, accuracy), fontsize=8, textcoords="offset points", xytext=(4, 4)
             )
         axes.set_xscale("log")
-        axes.set(xlabel="segments a second", ylabel="top1, segments alone", title="networks")
+        axes.set(xlabel="segments per second", ylabel="top-1, segments alone", title="networks")
         axes.grid(alpha=0.3)

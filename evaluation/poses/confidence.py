@@ -1,9 +1,9 @@
-"""Fit what a pose's probability follows from: `placecell fit-confidence`.
+"""Fit of the pose probability: `placecell fit-confidence`.
 
-Two robots drive each town, the same streets in opposite directions. Each frame of one is asked in
-the other's map, whole and as a few of its segments; in the map of all towns side by side; and where
-no answer is right: in another town's map, and in the other's map without all that is near, so that
-at best a street is found that looks like this one.
+In each town, two robots drive the same streets in opposite directions. Each capture of one robot is
+localized in the other's map, with all segments and with a few, and in a joined map of all towns.
+It is also localized where no answer is right: in the map of another town, and in the other's map
+without the segments near the robot, where at best a similar street is found.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,26 +25,26 @@ from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
 FEW = (6, 8, 12, 20)
-"""Segments that are drawn of a frame, each in turn."""
+"""Numbers of segments drawn from a capture."""
 
 APART = 3_000.0
-"""Metres between the towns of the joined map."""
+"""Distance between the towns of the joined map, meters."""
 
 NEAR = 80.0
-"""Metres: what is this near to the robot is taken out of a map that it shall not be found in."""
+"""Radius around the robot that is removed from a map without a right answer, meters."""
 
 K = 25
-"""Candidates a segment."""
+"""Candidates per segment."""
 
 QUERIES = 150
-"""Frames that each robot asks in each town, spread evenly: more towns teach more than frames."""
+"""Queries of each robot in each town, spread evenly: more towns teach more than more captures."""
 
 PENALTY = 1.0
-"""Of the squared weights."""
+"""Factor of the squared weights in the loss."""
 
 SIGNS = {name: -1.0 if name == "residual" else 1.0 for name in FEATURES}
-"""More agreement never makes a pose less likely, nor does less of what is left over; else of two
-features that grow together one would be held against the other, to no good on other data."""
+"""Sign of each weight: more agreement and a smaller residual never lower the probability. Without
+this, correlated features could get weights of opposite signs, which do not generalize."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,9 +52,9 @@ class Cases:
     """Best hypotheses of queries.
 
     Attributes:
-        features: float64 (n, features).
-        right: bool (n,).
-        towns: int64 (n,), where each query is from.
+        features: float64 (n, features), features of the hypotheses.
+        right: bool (n,), whether the hypothesis is right.
+        towns: int64 (n,), town of the query.
     """
 
     features: Float64
@@ -65,13 +65,15 @@ class Cases:
 def fit(
     pairs: Sequence[Pair], model: Path, seed: int = 0, *, progress: Progress = silent
 ) -> dict[str, Any]:
-    """Fit the logistic model; the content of `confidence.json`.
+    """Fit the logistic model; return the content of `confidence.json`.
 
-    How well it holds is told of towns that it was not fitted on, each left out in turn.
+    The held-out figures are of towns that the model was not fitted on, each left out in turn.
 
     Args:
-        pairs: two or more towns.
-        model: folder of the extractor.
+        pairs: the robots of two or more towns.
+        model: folder of the model.
+        seed: random seed.
+        progress: wraps the loop.
     """
     with Engine.temporary(model) as engine:
         cases = ask(pairs, engine, seed, progress)
@@ -82,7 +84,7 @@ def fit(
         held_out[here] = logistic(cases.features[rest], cases.right[rest], 1.0).probabilities(
             cases.features[here]
         )
-    # Laplace's rule of succession: of so many that were as sure, so many were wrong.
+    # Laplace's rule of succession limits the highest probability by the wrong sure cases.
     sure = held_out >= 0.99
     highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
     fitted = logistic(cases.features, cases.right, highest)
@@ -108,12 +110,14 @@ def fit(
 
 
 def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
-    """Logistic regression with a small ridge (Hastie et al., *Statistical Learning*, section 4.4).
+    """Fit a logistic regression with a small ridge penalty.
+
+    See Hastie et al., *The Elements of Statistical Learning*, section 4.4.
 
     Args:
         features: float64 (n, features).
         right: bool (n,).
-        highest: probability that is told.
+        highest: highest probability that the model states.
     """
     means, deviations = features.mean(axis=0), features.std(axis=0)
     standard = np.column_stack([(features - means) / deviations, np.ones(len(features))])
@@ -139,7 +143,7 @@ def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
 
 
 def ask(pairs: Sequence[Pair], engine: Engine, seed: int, progress: Progress) -> Cases:
-    """Each robot of each pair in the map of the other, and elsewhere."""
+    """Localize each robot of each pair in the map of the other, and in other maps."""
     random = np.random.default_rng(seed)
     frame = random_frame(seed)
     both = [*pairs, *(pair.swapped() for pair in pairs)]
@@ -148,12 +152,12 @@ def ask(pairs: Sequence[Pair], engine: Engine, seed: int, progress: Progress) ->
     names = [f"map-{index}" for index in range(len(both))]
     for name, compact in zip(names, maps, strict=True):
         engine.put_map(name, compact)
-    # Never both maps of a town: its robot would find its own.
+    # A joined map holds one map per town, because a robot would find its own map.
     for way in range(2):
         half = maps[way * len(pairs) : (way + 1) * len(pairs)]
         engine.put_map(f"joined-{way}", joined(half, shifts))
     features, right, towns = [], [], []
-    for index in progress(range(len(both)), len(both), "asking"):
+    for index in progress(range(len(both)), len(both), "localizing"):
         town, way = index % len(pairs), index // len(pairs)
         elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
         for query in both[index].queries(engine, frame, QUERIES):
@@ -182,13 +186,13 @@ def ask(pairs: Sequence[Pair], engine: Engine, seed: int, progress: Progress) ->
 def parts(
     query: PoseQuery, random: np.random.Generator, sizes: Sequence[int] = FEW
 ) -> Iterator[PoseQuery]:
-    """The same query with a few of its segments."""
+    """Yield the query with some of its segments, for each size."""
     for size in sizes:
         if size < len(query.codes):
             yield query.some(np.sort(random.choice(len(query.codes), size, replace=False)))
 
 
 def near(pose: Pose, truth: Pose, sensor: Float64) -> bool:
-    """Whether a pose is right."""
+    """Return whether a pose is right."""
     meters, angle = pose.difference(truth, sensor)
     return meters <= RIGHT[0] and bool(np.degrees(angle) <= RIGHT[1])

@@ -1,4 +1,4 @@
-"""How well robots find their place: `placecell evaluate-poses`, by the protocol of the docs."""
+"""Evaluation of localization: `placecell evaluate-poses`, by the documented protocol."""
 
 from dataclasses import asdict
 from pathlib import Path
@@ -38,20 +38,23 @@ def evaluate(
     *,
     progress: Progress = silent,
 ) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """Ask for every frame of a drive.
+    """Localize every capture of a drive.
 
     Args:
-        model: its folder.
-        k: candidates a segment.
-        session: whether the requests are of one session, at the times of their scans.
-        most: frames that are asked, spread evenly; all unless given.
-        seed: of the robot's own frame.
+        pair: robot that makes the map, and robot that localizes.
+        model: folder of the model.
+        k: candidates per segment.
+        parameters: parameters of the localization; the defaults unless given.
+        session: whether the queries form one session, at the times of their scans.
+        most: largest number of queries, spread evenly; None: all.
+        seed: random seed of the robot's own frame.
+        progress: wraps the loop.
 
     Returns:
-        the report as `placecell evaluate-poses` writes it, and a row for each query.
+        The report that `placecell evaluate-poses` writes, and a row per query.
 
     Raises:
-        ValueError: a drive gives no segments.
+        ValueError: a drive has no segments.
     """
     parameters = parameters or LocalizationParameters()
     for robot in (pair.mapper, pair.asker):
@@ -64,7 +67,7 @@ def evaluate(
         queries = list(pair.queries(engine, frame, most))
         fullest = max(queries, key=lambda each: len(each.codes))
         manifest = engine.model.manifest
-        # Compile all loops before the time is taken.
+        # A warm-up compiles all loops before the measurement.
         localize_query(engine, fullest, MAP, k, parameters)
         memory = DriveSession(RequestHistory(parameters)) if session else None
         outcomes = []
@@ -107,7 +110,7 @@ JSON_KEYS = {"meters": "metres", "normalized": "normalised"}
 
 
 def row_of(query: PoseQuery, outcome: Outcome) -> dict[str, Any]:
-    """A query and what became of it, as JSON has it: what is infinite or no number is null."""
+    """Return a query and its outcome as a JSON row; infinite and undefined values are null."""
     values = {JSON_KEYS.get(name, name): value for name, value in asdict(outcome).items()}
     return {
         "scan": query.scan,
@@ -120,7 +123,7 @@ def row_of(query: PoseQuery, outcome: Outcome) -> dict[str, Any]:
 
 
 def outcome_of(found: Localization, query: PoseQuery, milliseconds: float) -> Outcome:
-    """Compare with the truth."""
+    """Compare the result of a query with the truth."""
     meters = degrees = np.inf
     normalized = np.nan
     if found.best is not None:
@@ -129,7 +132,7 @@ def outcome_of(found: Localization, query: PoseQuery, milliseconds: float) -> Ou
         degrees = float(np.degrees(angle))
         if found.pose is not None:
             covariance = at_point(found.best.covariance, pose, query.sensor)
-            # Of six degrees of freedom the tilt is left out: the last row is the yaw's either way.
+            # Position and yaw are compared, not the tilt; the last row is the yaw in both models.
             compared = np.ix_([0, 1, 2, -1], [0, 1, 2, -1])
             turn = query.truth.rotation @ pose.rotation.T
             error = np.append(
@@ -150,7 +153,7 @@ def outcome_of(found: Localization, query: PoseQuery, milliseconds: float) -> Ou
 
 
 def draw(report: dict[str, Any], file: Path) -> None:
-    """Precision and recall over the stated probability, and how true it is, as a PNG."""
+    """Plot precision against recall, and the reliability of the stated probability."""
     with figure(file, 2) as (curve, diagram):
         rows = report["precision_recall"]
         recall, precision = ([row[name] for row in rows] for name in ("recall", "precision"))
@@ -163,6 +166,6 @@ def draw(report: dict[str, Any], file: Path) -> None:
             [each["right"] for each in bins],
             [4 + 100 * each["count"] / sum(one["count"] for one in bins) for each in bins],
         )
-        diagram.set(xlabel="stated probability", ylabel="right", title="reliability")
+        diagram.set(xlabel="stated probability", ylabel="share right", title="reliability")
         for axes in (curve, diagram):
             axes.grid(alpha=0.3)

@@ -1,4 +1,4 @@
-"""Queries with known answers: what a robot sees, described, and where it truly is in a map."""
+"""Pose queries: descriptors of the segments around a robot, and its true pose in a map."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -24,22 +24,22 @@ from service.inference.describer import Descriptors
 from service.maps.snapshot import MapSnapshot
 
 MAPPED_METERS = 10.0
-"""A query is within the map if the mapping robot was as near as this."""
+"""Distance to the mapping robot's path within which a query is in the mapped area, meters."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PoseQuery:
-    """What a robot asks at one moment.
+    """Localization query of a robot at one moment.
 
     Attributes:
-        scan: of the asking drive.
-        time: seconds.
-        meters: driven so far.
-        codes: int8 (n, code bytes), of all segments that it sees.
-        centroids: float64 (n, 3), theirs, metres, in the robot's frame.
-        sensor: float64 (3,), where it is, in its own frame.
-        truth: from the robot's frame to the map's.
-        mapped: whether the mapping robot was near by.
+        scan: scan of the drive.
+        time: time of the scan, seconds.
+        meters: distance driven so far, meters.
+        codes: int8 (n, code bytes), codes of all segments around the robot.
+        centroids: float64 (n, 3), their centroids in the robot's frame, meters.
+        sensor: float64 (3,), sensor position in the robot's frame.
+        truth: true transform from the robot's frame to the map's.
+        mapped: whether the query is in the mapped area.
     """
 
     scan: int
@@ -52,17 +52,18 @@ class PoseQuery:
     mapped: bool
 
     def some(self, chosen: Int64) -> Self:
-        """Of these segments alone."""
+        """Return the query with only these segments."""
         return replace(self, codes=self.codes[chosen], centroids=self.centroids[chosen])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pair:
-    """A robot that has made a map, and one that asks where it is.
+    """Two robots: one makes a map, the other localizes in it.
 
     Attributes:
-        mapper, asker: the robots.
-        blocks: whether both are one, on alternate blocks of its way.
+        mapper: robot that makes the map.
+        asker: robot that localizes.
+        blocks: whether both are alternate blocks of one drive.
     """
 
     mapper: Robot
@@ -78,20 +79,24 @@ class Pair:
         prepared: tuple[Path | None, Path | None] = (None, None),
         progress: Progress = silent,
     ) -> Self:
-        """From two drives of a town, or from alternate blocks of one drive.
+        """Make the robots from two drives of a town, or from alternate blocks of one drive.
 
         Args:
-            every: a frame every so many scans, as `Parameters.for_drive`.
-            prepared: recordings of the two drives, where there are any.
+            map_folder: folder of the map's drive.
+            query_folder: folder of the queries' drive; None: alternate blocks of the map's drive.
+            every: scans from one capture to the next, as `Parameters.for_drive`.
+            prepared: recording of each drive; None: segment the drive.
+            progress: wraps the loops.
 
         Raises:
-            ValueError: no common frame of the two is known, a drive stands still, or a recording
-                does not fit.
+            ValueError: the drives have no common frame, a drive is too short for a second block,
+                or a recording is of another drive.
         """
         if query_folder is None:
             if any(prepared):
                 raise ValueError(
-                    "a recording is of a whole drive, but this drive is cut into blocks; give none"
+                    "A recording holds a whole drive, but this drive is split into blocks. Omit "
+                    "the recording."
                 )
             mapper, asker = robots_of_drive(map_folder, progress, every)
             return cls(mapper, asker, blocks=True)
@@ -105,15 +110,16 @@ class Pair:
         return cls(robots[0], robots[1], blocks=False)
 
     def swapped(self) -> Self:
-        """The other way round."""
+        """Return the pair with the roles of the robots swapped."""
         return replace(self, mapper=self.asker, asker=self.mapper)
 
     def queries(self, engine: Engine, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
-        """What the other robot asks, frame by frame, also where it sees no segment.
+        """Yield the query of each capture, also of captures without segments.
 
         Args:
-            frame: from the drive's world to the robot's own frame, which may be any.
-            most: frames that are asked, spread evenly; all unless given.
+            engine: describes the segments.
+            frame: transform from the drive's frame to the robot's own frame.
+            most: largest number of queries, spread evenly; None: all.
         """
         drive = self.asker.drive
         steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
@@ -144,7 +150,7 @@ class Pair:
 
 
 def described(engine: Engine, segments: Segments) -> tuple[Int8, Float64]:
-    """Codes (n, code bytes) and centroids (n, 3) of those segments that can be described."""
+    """Return codes (n, code bytes) and centroids (n, 3) of all segments with a descriptor."""
     if not len(segments):
         return np.zeros((0, engine.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
     found = engine.describe(clouds(segments), segments.sensors)
@@ -193,37 +199,42 @@ def localize_query(
 
 
 def spread(count: int, most: int | None = None) -> Int64:
-    """Indices of so many of `count` items, evenly from the first to the last; all unless given."""
+    """Return `most` indices of `count` items, spread evenly from first to last; None: all."""
     if most is None or most >= count:
         return np.arange(count)
     return np.linspace(0, count - 1, most).round().astype(np.int64)
 
 
 def random_frame(seed: int) -> Pose:
-    """An odometry frame that knows nothing of the map's: any yaw, within a kilometre."""
+    """Return a random odometry frame: any yaw, within one kilometer along each axis."""
     random = np.random.default_rng(seed)
     return Pose.of_yaw(random.uniform(-np.pi, np.pi), random.uniform(-1000, 1000, 3))
 
 
 def origin_of(folder: Path) -> Float64:
-    """From a drive's world to the frame of its town (4, 4).
+    """Read the transform (4, 4) from the frame of a drive to that of its town.
 
     Raises:
-        ValueError: the drive is of no town, so nobody knows where it lies to another; or what
-            tells so cannot be read.
+        ValueError: the drive is of no town, so it has no common frame with another drive; or the
+            file of the transform is unreadable.
     """
     from town import ORIGIN_FILE, read_origin
 
     if not (folder / ORIGIN_FILE).exists():
         raise ValueError(
-            f"{folder}: has no {ORIGIN_FILE}, so it is not known where it lies to another drive; "
-            "give one drive alone, which is cut into blocks"
+            f"{folder} has no {ORIGIN_FILE}, so its transform to another drive is unknown. Give "
+            "one drive only; it is then split into blocks."
         )
     return read_origin(folder)
 
 
 def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:
-    """Maps of one model side by side, each shifted by so many metres (3,); core columns alone."""
+    """Join maps of one model side by side, without optional columns.
+
+    Args:
+        maps: the maps.
+        shifts: float64 (3,) per map, shift of the map, meters.
+    """
     count = sum(map(len, maps))
     frames = np.cumsum([0, *(len(each.frame_times) for each in maps)])
     return replace(

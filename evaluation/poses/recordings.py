@@ -1,4 +1,4 @@
-"""The segments of a whole drive: made now, or prepared before."""
+"""Recordings: the segments of a whole drive, made now or prepared before."""
 
 from pathlib import Path
 
@@ -16,31 +16,33 @@ def recording_of(
     prepared: Path | None = None,
     progress: Progress = silent,
 ) -> Recording:
-    """A drive's segments by protocol v1.
+    """Return the segments of a drive by protocol v1.
 
     Args:
-        every: a frame every so many scans, as `Parameters.for_drive`.
-        prepared: what `placecell prepare` made of this drive; made now unless given.
+        drive: the drive.
+        every: scans from one capture to the next, as `Parameters.for_drive`.
+        prepared: file of `placecell prepare`; None: segment the drive now.
+        progress: wraps the loop.
 
     Raises:
-        ValueError: what is prepared is of another drive, or by other parameters.
+        ValueError: the prepared file is of another drive or has other parameters.
     """
     parameters = PROTOCOL_V1.for_drive(len(drive), every)
     if prepared is None:
         return record(drive, parameters, progress=progress)
     recording = Recording.load(prepared)
     if not is_of(recording, drive):
-        raise ValueError(f"{prepared}: is of another drive than {drive.folder}")
+        raise ValueError(f"{prepared} is not a recording of {drive.folder}. Prepare this drive.")
     if recording.parameters != parameters:
         raise ValueError(
-            f"{prepared}: prepared by other parameters than protocol {parameters.protocol} with "
-            f"--every {parameters.frame_step}; prepare the drive again"
+            f"{prepared} has other parameters than protocol {parameters.protocol} with --every "
+            f"{parameters.frame_step}. Prepare the drive again."
         )
     return recording
 
 
 def is_of(recording: Recording, drive: Drive) -> bool:
-    """Whether a recording was made of a drive; of its scans the first and the last are read."""
+    """Return whether a recording is of a drive; compares the first and the last scan."""
     return (
         recording.scans == len(drive)
         and bool(np.isclose(recording.path_length, drive.path_length()))

@@ -1,4 +1,4 @@
-"""The figures of localisation: how many poses are right, and whether their probabilities are true.
+"""Figures of localization: shares of right poses, and reliability of their probabilities.
 
 A pose is right within 1 m and 3 degrees of the truth, where the robot is. It is wrong but sure if
 its probability is 0.9 or more and it is off by more than 3 m or 10 degrees.
@@ -15,24 +15,26 @@ from placecell.core.types import Bool, Float64
 
 RIGHT = (1.0, 3.0)
 OFF = (3.0, 10.0)
-"""Metres and degrees."""
+"""Tolerances of a right pose, and of one that is not misleading: meters and degrees."""
 
 SURE = 0.9
+"""Probability from which a pose counts as sure."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of a query.
+    """Outcome of a query.
 
     Attributes:
-        reason: why it was not localised; empty if it was.
-        probability: of the best hypothesis, localised or not.
-        metres, degrees: that its pose is off at the sensor; infinite without one.
-        normalized: squared error of position and yaw by the stated covariance, a chi-square of
-            four degrees of freedom were it exact; NaN if it was not localised.
-        milliseconds: from descriptors to the pose.
-        driven: metres on the way so far.
-        mapped: whether the mapping robot was near by.
+        reason: reason for "not localized"; empty if localized.
+        probability: probability of the best hypothesis, localized or not.
+        meters, degrees: pose error of the best hypothesis at the sensor; infinite without one.
+        normalized: squared error of position and yaw over the stated covariance. It follows a
+            chi-square distribution with four degrees of freedom if the covariance is exact. NaN if
+            not localized.
+        milliseconds: time from descriptors to the pose.
+        driven: distance driven so far, meters.
+        mapped: whether the query is in the mapped area.
     """
 
     reason: str
@@ -46,23 +48,23 @@ class Outcome:
 
     @property
     def localized(self) -> bool:
-        """Whether a pose was told."""
+        """Return whether the answer has a pose."""
         return not self.reason
 
     @property
     def right(self) -> bool:
-        """Whether the best hypothesis is right, told or not."""
+        """Return whether the best hypothesis is right, localized or not."""
         return self.meters <= RIGHT[0] and self.degrees <= RIGHT[1]
 
     @property
     def wrong_but_sure(self) -> bool:
-        """Whether the robot was misled."""
+        """Return whether the pose is misleading: sure, but far off."""
         off = self.meters > OFF[0] or self.degrees > OFF[1]
         return self.localized and off and self.probability >= SURE
 
 
 def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
-    """All figures. Shares are of the queries within the map; those beyond it stand apart."""
+    """Return all figures; shares are of queries in the mapped area, others are counted apart."""
     within = [each for each in outcomes if each.mapped]
     beyond = [each for each in outcomes if not each.mapped]
     told = [each for each in within if each.localized]
@@ -85,7 +87,7 @@ def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
 
 
 def shares(outcomes: Sequence[Outcome]) -> dict[str, Any]:
-    """How many were right, wrong and unknown, with 95% bounds (Clopper and Pearson)."""
+    """Return the shares of right, wrong and missing poses, with 95% Clopper-Pearson bounds."""
     counts = {
         "localised_right": sum(each.localized and each.right for each in outcomes),
         "wrong_but_sure": sum(each.wrong_but_sure for each in outcomes),
@@ -101,20 +103,20 @@ def shares(outcomes: Sequence[Outcome]) -> dict[str, Any]:
 
 
 def bounds(count: int, n: int) -> list[float]:
-    """95% bounds of a share, exact."""
+    """Return the exact 95% bounds of a share."""
     low = stats.beta.ppf(0.025, count, n - count + 1) if count else 0.0
     high = stats.beta.ppf(0.975, count + 1, n - count) if count < n else 1.0
     return [round(float(low), 5), round(float(high), 5)]
 
 
 def reasons(outcomes: Sequence[Outcome]) -> dict[str, int]:
-    """How often each reason was told."""
+    """Count each reason for "not localized"."""
     told = sorted(each.reason for each in outcomes if each.reason)
     return {reason: told.count(reason) for reason in dict.fromkeys(told)}
 
 
 def precision_recall(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
-    """Of those told with a probability or more: how many are right, and of all, how many so."""
+    """Return precision and recall of the poses above each probability."""
     rows = []
     for at in (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995):
         told = [each for each in outcomes if each.localized and each.probability >= at]
@@ -131,14 +133,14 @@ def precision_recall(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
 
 
 def reliability(outcomes: Sequence[Outcome]) -> list[dict[str, float]]:
-    """Stated against true probability of the best hypothesis, told or not."""
+    """Return the stated and the true probability of the best hypotheses, localized or not."""
     stated = np.array([each.probability for each in outcomes])
     right = np.array([each.right for each in outcomes], dtype=bool)
     return reliability_of(stated, right)
 
 
 def reliability_of(stated: Float64, right: Bool) -> list[dict[str, float]]:
-    """By tenths, the last of them finer."""
+    """Return mean stated probability, share of right poses, and count, per bin of probability."""
     edges = np.array([*np.arange(0, 1, 0.1), 0.95, 0.99])
     place = np.searchsorted(edges, stated, side="right") - 1
     return [
@@ -152,7 +154,7 @@ def reliability_of(stated: Float64, right: Bool) -> list[dict[str, float]]:
 
 
 def until_localized(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
-    """Metres driven until a pose is right and sure, switched on at each query in turn."""
+    """Return the distance from a start until a right and sure pose, over all queries as starts."""
     good = [each.localized and each.right and each.probability >= SURE for each in outcomes]
     meters = []
     for start, first in enumerate(outcomes):
@@ -167,5 +169,5 @@ def until_localized(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
 
 
 def median(values: Sequence[float], by: float = 1.0) -> float | None:
-    """Rounded; None of nothing."""
+    """Return the rounded median of values divided by `by`; None if there are none."""
     return round(float(np.median(values)) / by, 4) if len(values) else None

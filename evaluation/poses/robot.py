@@ -1,4 +1,4 @@
-"""A robot as the service knows it: it cuts its drive into segments, uploads a map, and asks."""
+"""Robot as a client of the service: segments its drive, builds a map, and matches."""
 
 import time
 from collections.abc import Iterator, Sequence
@@ -44,14 +44,14 @@ class SegmentDescriber(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """A robot that has driven.
+    """A robot with its drive.
 
     Attributes:
-        name: of the robot.
-        drive: what it drove.
+        name: name of the robot.
+        drive: the drive.
         recordings: segments of the drive, or of parts of it.
-        to_common: transform (4, 4) from the drive's world to a frame that all robots share, known
-            for the score alone: the service never sees it.
+        to_common: transform (4, 4) from the drive's frame to a frame that all robots share. Only
+            the score uses it; the service never gets it.
     """
 
     name: str
@@ -60,7 +60,7 @@ class Robot:
     to_common: Float64
 
     def views(self) -> Iterator[tuple[int, Segments, np.ndarray]]:
-        """Each frame's scan, all its segments, if any, and which of them are no duplicates."""
+        """Yield scan and segments of each capture, and which segments are no duplicates."""
         for recording in self.recordings:
             for scan in recording.capture_scans:
                 members = np.flatnonzero(recording.captures == scan)
@@ -68,34 +68,38 @@ class Robot:
 
     @property
     def frames(self) -> list[int]:
-        """Scans that are frames, in the order of `views`."""
+        """Return the scans of all captures, in the order of `views`."""
         return [scan for recording in self.recordings for scan in recording.capture_scans]
 
     def check_segments(self) -> None:
-        """See that the robot saw something.
+        """Check that the drive has segments.
 
         Raises:
-            ValueError: it saw no segments, so that it can neither map nor ask.
+            ValueError: the drive has no segments, so the robot can neither map nor localize.
         """
         if any(len(recording.segments) for recording in self.recordings):
             return
         made_by = self.recordings[0].parameters
         raise ValueError(
-            f"{self.drive.folder}: the drive gives no segments for {self.name}: nothing has "
-            f"{made_by.min_points} points, each within {made_by.growing_radius} m of the next, in "
-            f"the local map of any frame ({made_by.accumulated_scans} scans); take a drive with a "
-            "sensor of more beams, or with scans closer together"
+            f"{self.drive.folder}: the drive has no segments for {self.name}. A segment has at "
+            f"least {made_by.min_points} points, each within {made_by.growing_radius} m of the "
+            f"next, in a local map of {made_by.accumulated_scans} scans. Use a sensor with more "
+            "beams, or scans that are closer together."
         )
 
     def in_common(self, points: Float64) -> Float64:
-        """Points (n, 3) of the drive's world, in the common frame."""
+        """Transform points (n, 3) from the drive's frame into the common frame."""
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
     def build_map(self, client: SegmentDescriber, frame: str) -> CompactMap:
-        """Have the service describe each frame's segments; keep those that are no duplicates.
+        """Build a map of the drive from all segments that are no duplicates.
+
+        Args:
+            client: describes the segments.
+            frame: name of the map's coordinate frame.
 
         Raises:
-            ValueError: there are none.
+            ValueError: the drive has no segments.
         """
         self.check_segments()
         codes, centroids, frame_index = [], [], []
@@ -131,13 +135,13 @@ class Robot:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What the service said of one segment.
+    """Candidates of one segment.
 
     Attributes:
-        centroid: of the query, float64 (3,), meters, common frame.
-        candidates: centroids of the candidates, nearest descriptor first, float64 (k, 3), in the
-            map's frame.
-        robot_position: of the asking robot, float64 (3,), common frame.
+        centroid: float64 (3,), centroid of the query in the common frame, meters.
+        candidates: float64 (k, 3), centroids of the candidates in the map's frame, nearest
+            descriptor first.
+        robot_position: float64 (3,), position of the robot in the common frame.
     """
 
     centroid: Float64
@@ -148,7 +152,7 @@ class Answer:
 def ask(
     robot: Robot, client: Client, maps: Sequence[str], k: int, views: Sequence[tuple[int, Segments]]
 ) -> tuple[list[Answer], list[float]]:
-    """Send each view's segments to /match: the answers, and the milliseconds of each request."""
+    """Match the segments of each view; return the candidates and the time per request, ms."""
     answers, milliseconds = [], []
     for scan, segments in views:
         points = clouds(segments)
@@ -164,5 +168,5 @@ def ask(
 
 
 def clouds(segments: Segments) -> list[np.ndarray]:
-    """Points of each segment, float32 (n, 3)."""
+    """Return the points of each segment, float32 (n, 3)."""
     return [segments.cloud(index) for index in range(len(segments))]

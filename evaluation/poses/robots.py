@@ -1,4 +1,4 @@
-"""Two robots for the demo and the evaluations: of a town, or of one drive."""
+"""Two robots for the demo and the evaluations: from a town, or from one drive."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,7 +13,7 @@ from placecell.segmentation.pipeline import Progress, record
 
 
 def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> tuple[Robot, Robot]:
-    """Two robots that drive the same streets of a synthetic town in opposite directions."""
+    """Return two robots that drive the same streets of a synthetic town in opposite directions."""
     from town import read_origin, two_robots
 
     robots = []
@@ -28,18 +28,22 @@ def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> t
 def robots_of_drive(
     folder: Path, progress: Progress, every: int | None = None
 ) -> tuple[Robot, Robot]:
-    """One drive as two robots: its odd blocks are the map, its even blocks ask.
+    """Split one drive into two robots: odd blocks make the map, even blocks the queries.
 
     Args:
-        every: a frame every so many scans, as `Parameters.for_drive`.
+        folder: folder of the drive.
+        progress: wraps the loops.
+        every: scans from one capture to the next, as `Parameters.for_drive`.
 
     Raises:
-        ValueError: the drive stands still, so that it has no second block.
+        ValueError: the drive is too short for a second block.
     """
     drive = open_drive(folder)
     odd, even = alternate_blocks(drive)
     if not even:
-        raise ValueError(f"{folder}: the drive stands still; there is no second block to ask from")
+        raise ValueError(
+            f"{folder}: the drive is too short for a second block. Use a longer drive."
+        )
     parameters = parameters_of(odd + even, PROTOCOL_V1.for_drive(len(drive), every))
 
     def robot(name: str, blocks: Sequence[range]) -> Robot:

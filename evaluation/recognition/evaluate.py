@@ -1,4 +1,4 @@
-"""`placecell evaluate`: every extractor on a drive, under a named protocol (paper IV-B)."""
+"""Evaluation of recognition on a drive: `placecell evaluate`, by a named protocol (paper IV-B)."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -32,13 +32,13 @@ def measure(
     seed: int,
     neighborhood: Float32 | None = None,
 ) -> dict[str, Any]:
-    """All figures of one model; None where nothing is there to be measured.
+    """Return all figures of one model; a figure that cannot be measured is None.
 
-    Of a model that looks around, `alone` has those of the same segments as if nothing stood there,
-    and as `top1_in_map` those asked alone about a map of segments in their surroundings.
+    For a model with a neighborhood, `alone` has the figures of segments with an empty neighborhood;
+    its `top1_in_map` searches such segments in a map of segments with their neighborhood.
 
-    `pair_auc` and `pair_accuracy` are by `pair_by`, the model's classifier where it has one; those
-    by distance stand beside them in any case.
+    `pair_auc` and `pair_accuracy` are those of `pair_by`: the model's pair classifier, or the
+    distance if it has none. The figures by distance are always given too.
     """
     manifest = extractor.manifest
     codes = manifest.quantizer.encode(extractor.describe(segments, neighborhood))
@@ -80,7 +80,7 @@ def measure(
 
 
 def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
-    """The figures of nearest neighbours, in whole steps: exact, as the service compares them."""
+    """Return the figures of nearest neighbors, with the quantized distance of the service."""
     found = recognition.retrieve(steps, groups)
     too_easy = recognition.seen_within(segments.sensors, recognition.CROSS_VIEW_METERS)
     crossed = recognition.retrieve(steps, groups, too_easy)
@@ -96,7 +96,7 @@ def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, An
 def calibration_error(
     classifier: PairClassifier, codes: Int8, matches: Int64, others: Int64
 ) -> float | None:
-    """How far the stated probabilities of these pairs are off, on average; None of none."""
+    """Return the calibration error of the stated probabilities; None if there are no pairs."""
     pairs = np.concatenate([matches, others])
     if not len(pairs):
         return None
@@ -114,20 +114,21 @@ PAIR_FIGURES = (
 
 
 def mean(values: np.ndarray[Any, Any]) -> float | None:
-    """Share of true values; None of none."""
+    """Return the share of true values; None if there are no values."""
     return float(values.mean()) if len(values) else None
 
 
 Opened = dict[str, tuple[Extractor, PairClassifier | None]]
-"""Models by the name that a report gives them."""
+"""Models by their name in the report."""
 
 
 def open_models(models: Sequence[str] = (), models_folder: Path = MODELS_FOLDER) -> Opened:
-    """Load the models to be measured, the eigenvalue baseline always among them.
+    """Load the models to measure; the eigenvalue baseline is always among them.
 
     Args:
-        models: names in `models/` or paths; all shipped ones unless given. A path is reported
-            under its folder's name, or in full where that is another model's.
+        models: names in `models/`, or paths; all shipped models unless given. The report names a
+            path by its folder, or in full if another model has that name.
+        models_folder: folder of the shipped models.
 
     Raises:
         ModelError: a model cannot be loaded.
@@ -150,30 +151,33 @@ def evaluate(
     """Measure extractors on a recording.
 
     Args:
-        scans: first and last, both included; only groups wholly within are taken in. All unless
-            given.
+        recording: segments of a drive.
+        scans: first and last scan, both included; only groups completely within them count. None:
+            all scans.
+        models: models to measure.
+        seed: random seed of the pairs.
 
     Returns:
-        What `placecell evaluate --json` writes.
+        The report that `placecell evaluate --json` writes.
 
     Raises:
-        ValueError: no segments lie within the scans, or they were cut by other constants.
+        ValueError: the scans hold no segments, or the segmentation had other parameters.
     """
     first, last = scans or (0, recording.scans - 1)
     if not len(recording.segments):
-        raise ValueError(f"{recording.name}: the drive gives no segments at all")
+        raise ValueError(f"{recording.name}: the drive has no segments.")
     constants = replace(recording.parameters, frame_step=PROTOCOL_V1.frame_step)
     if constants != PROTOCOL_V1:
         raise ValueError(
-            f"{recording.name}: was not cut by protocol {PROTOCOL_V1.protocol}, by which figures "
-            "compare; prepare the drive again"
+            f"{recording.name}: the segments are not of protocol {PROTOCOL_V1.protocol}, so their "
+            "figures cannot be compared. Prepare the drive again."
         )
     inside = recording.within(first, last)
     chosen = np.flatnonzero(inside & recording.distinct)
     if not len(chosen):
         raise ValueError(
-            f"{recording.name}: no group lies wholly within scans {first} to {last} "
-            f"(the drive has 0 to {recording.scans - 1})"
+            f"{recording.name}: no group lies completely within scans {first} to {last} "
+            f"(the drive has 0 to {recording.scans - 1})."
         )
     segments, groups = recording.segments.take(chosen), recording.groups[chosen]
     extractors = {}

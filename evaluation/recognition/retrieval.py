@@ -1,4 +1,4 @@
-"""How recognition is measured: the paper's two experiments (IV-B), and one that is harder.
+"""Measures of recognition: the paper's two experiments (IV-B), and a harder one.
 
 Descriptors are measured as stored; `docs/results/recognition.md` defines the figures.
 """
@@ -12,7 +12,7 @@ from scipy.stats import rankdata
 from placecell.core.types import Bool, Float32, Float64, Int64
 
 PAIRS = 20_000
-"""Positive pairs, and as many negative."""
+"""Number of positive pairs, and of negative pairs."""
 
 CROSS_VIEW_METERS = 10.0
 CANDIDATES = 25
@@ -20,13 +20,13 @@ CANDIDATES = 25
 
 @dataclass(frozen=True, slots=True)
 class Retrieval:
-    """Nearest neighbours among all other segments.
+    """Nearest neighbors of each segment among all others. A mate is a segment of the same group.
 
     Attributes:
-        right: bool (segments,): the nearest is of the same group; false without a mate.
-        has_mate: bool (segments,): another segment of the group is there at all.
-        recalled: bool (segments,): one of the same group is among the 25 nearest.
-        nearest: int64 (segments,): the nearest; -1 where there is no other.
+        right: bool (segments,), whether the nearest segment is a mate.
+        has_mate: bool (segments,), whether the segment has a mate.
+        recalled: bool (segments,), whether a mate is among the 25 nearest segments.
+        nearest: int64 (segments,), nearest segment; -1 if there is no other.
     """
 
     right: Bool
@@ -38,10 +38,14 @@ class Retrieval:
 def distance_rows(
     descriptors: Float32, queries: Float32 | None = None, rows: int = 1000
 ) -> Iterator[tuple[Int64, Float32]]:
-    """Squared distances to all, some rows at a time; a segment's to itself is infinite.
+    """Yield the squared distances to all segments, some rows at a time.
+
+    The distance of a segment to itself is infinite.
 
     Args:
-        queries: other descriptors of the same segments, from which the distances are taken.
+        descriptors: float32 (segments, dimension).
+        queries: float32 (segments, dimension), other descriptors of the same segments as queries.
+        rows: number of rows at a time.
     """
     asked = descriptors if queries is None else queries
     asked_squared = np.einsum("ij,ij->i", asked, asked)
@@ -55,11 +59,16 @@ def distance_rows(
 
 
 TooEasy = Callable[[Int64], Bool]
-"""For rows (r,): bool (r, segments), of which of them these would be too easy a match."""
+"""Return for rows (r,) which segments would be too easy matches, bool (r, segments)."""
 
 
 def seen_within(sensors: Float32, meters: float) -> TooEasy:
-    """Views from hardly another place: sensors, (segments, 3), within so many metres."""
+    """Return the rule that views from viewpoints within `meters` of each other are too easy.
+
+    Args:
+        sensors: float32 (segments, 3), sensor positions.
+        meters: distance of the viewpoints, meters.
+    """
 
     def too_easy(rows: Int64) -> Bool:
         offsets = sensors[rows, None] - sensors[None]
@@ -69,7 +78,12 @@ def seen_within(sensors: Float32, meters: float) -> TooEasy:
 
 
 def seen_from_angle(bearings: Float64, degrees: float) -> TooEasy:
-    """Views from hardly another side: bearings of the sensor, (segments,), radians."""
+    """Return the rule that views from sides within `degrees` of each other are too easy.
+
+    Args:
+        bearings: float64 (segments,), bearings of the sensor, radians.
+        degrees: angle between the bearings, degrees.
+    """
 
     def too_easy(rows: Int64) -> Bool:
         turned = bearings[rows, None] - bearings[None]
@@ -84,13 +98,13 @@ def retrieve(
     too_easy: TooEasy | None = None,
     queries: Float32 | None = None,
 ) -> Retrieval:
-    """Look for each segment among the others (paper IV-B, second comparison).
+    """Search each segment among the others (paper IV-B, second comparison).
 
     Args:
         descriptors: float32 (segments, dimension).
-        groups: int64 (segments,).
-        too_easy: mates that are taken out first.
-        queries: float32 (segments, dimension), other descriptors of the same segments to ask with.
+        groups: int64 (segments,), group of each segment.
+        too_easy: rule for mates that are left out.
+        queries: float32 (segments, dimension), other descriptors of the same segments as queries.
     """
     count = len(groups)
     right, has_mate, recalled = (np.zeros(count, dtype=bool) for _ in range(3))
@@ -115,15 +129,15 @@ def retrieve(
 
 
 def top1(descriptors: Float32, groups: Int64) -> float:
-    """Share of segments whose nearest neighbour is of their group; no mate counts as a miss."""
+    """Return the share of segments whose nearest neighbor is a mate; no mate counts as a miss."""
     return float(retrieve(descriptors, groups).right.mean()) if len(groups) else 0.0
 
 
 def draw_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[Int64, Int64]:
-    """Positive and negative pairs: indices, int64 (count, 2) each; empty if there are none.
+    """Draw positive and negative pairs: indices, int64 (count, 2) each; empty if there are none.
 
-    A positive pair is two segments of a group drawn uniformly from those with two or more; a
-    negative one is two segments of different groups.
+    A positive pair is two segments of a group that is drawn uniformly from all groups of two or
+    more. A negative pair is two segments of different groups.
     """
     none = np.zeros((0, 2), dtype=np.int64)
     order = np.argsort(groups, kind="stable")
@@ -147,9 +161,9 @@ def draw_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[
 def nearest_pairs(
     descriptors: Float32, groups: Int64, queries: Int64, candidates: int = CANDIDATES
 ) -> tuple[Int64, Int64]:
-    """Each query with its nearest of all others: matches and non-matches, int64 (n, 2) each.
+    """Return the pairs of each query with its nearest segments, int64 (n, 2): matches and others.
 
-    Together they are as many as queries times candidates, or all there are.
+    Together they are queries times candidates pairs, or fewer if there are fewer segments.
     """
     none = np.zeros((0, 2), dtype=np.int64)
     matches, others = [none], [none]
@@ -169,20 +183,20 @@ def nearest_pairs(
 
 
 def pair_distances(descriptors: Float32, pairs: Int64) -> Float64:
-    """Euclidean distances of pairs, float64 (pairs,)."""
+    """Return the Euclidean distances of pairs, float64 (pairs,)."""
     offsets = descriptors[pairs[:, 0]].astype(np.float64) - descriptors[pairs[:, 1]]
     return np.asarray(np.linalg.norm(offsets, axis=1))
 
 
 def area_under_roc(positive: Float64, negative: Float64) -> float:
-    """Probability that a positive scores above a negative (ties count half)."""
+    """Return the probability that a positive scores above a negative; ties count half."""
     ranks = rankdata(np.concatenate([positive, negative]))[: len(positive)]
     below = ranks.sum() - len(positive) * (len(positive) + 1) / 2
     return float(below / (len(positive) * len(negative)))
 
 
 def best_threshold(positive: Float64, negative: Float64) -> float:
-    """The distance at which calling nearer pairs matches is most often right."""
+    """Return the distance threshold with the highest accuracy, for matches below it."""
     distances = np.concatenate([positive, negative])
     gain = np.concatenate([np.ones(len(positive)), -np.ones(len(negative))])
     order = np.argsort(distances, kind="stable")
@@ -192,18 +206,18 @@ def best_threshold(positive: Float64, negative: Float64) -> float:
 
 
 def accuracy_at(threshold: float, positive: Float64, negative: Float64) -> float:
-    """Share of pairs told right when nearer than the threshold means a match."""
+    """Return the balanced accuracy if pairs nearer than the threshold are matches."""
     return float(((positive <= threshold).mean() + (negative > threshold).mean()) / 2)
 
 
 def expected_calibration_error(
     probability: Float64, matches: Float64, bins: int = 10
 ) -> tuple[float, list[tuple[float, float, int]]]:
-    """How far the stated probabilities are off, and the reliability diagram's points.
+    """Return the expected calibration error, and the points of the reliability diagram.
 
     Returns:
-        the mean of |stated - true| weighted by count; and for each filled bin of equal width the
-        mean stated probability, the share of matches, and the count.
+        The mean of |stated - true|, weighted by count; and per nonempty bin of equal width the mean
+        stated probability, the share of matches, and the count.
     """
     which = np.minimum((probability * bins).astype(int), bins - 1)
     points = []

@@ -1,6 +1,6 @@
-"""What recognition depends on, and what limits it: size, viewpoint, occlusion, density, labels.
+"""Study of recognition by size, viewpoint, occlusion, density and storage, and of its misses.
 
-All on a test drive, of descriptors as they are stored unless said otherwise.
+All figures are of a test drive, with descriptors as stored unless stated otherwise.
 """
 
 from itertools import pairwise
@@ -22,15 +22,15 @@ DEGREES = (0.0, 5.0, 10.0, 20.0, 40.0, 60.0)
 SHARES = (0.0, 0.2, 0.4, 0.6, 0.8)
 DIMENSIONS = (8, 16, 24, 32, 48, 64, 96, 128)
 REACH = {8: 0.9995, 6: 0.998, 5: 0.995, 4: 0.99, 3: 0.96, 2: 0.85}
-"""Share of the values within reach of the levels, by bits of a level."""
+"""Share of the values within the range of the levels, by bits per level."""
 NEAR_PLACE = 1.5
-"""Metres between centroids of segments that stand in one place, whatever group they are of."""
+"""Distance between centroids within which two segments are at one place, meters."""
 
 Curve = list[dict[str, Any]]
 
 
 def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
-    """All curves of one model."""
+    """Return all curves of one model."""
     quantizer = extractor.manifest.quantizer
     described = extractor.describe(test.segments, test.neighborhood)
     stored = quantizer.rounded(described)
@@ -65,13 +65,13 @@ def study(extractor: Extractor, test: TrainingSet) -> dict[str, Any]:
 def share(
     stored: Float32, test: TrainingSet, too_easy: retrieval.TooEasy | None = None
 ) -> dict[str, Any]:
-    """Of the segments that have a mate left, how many find one first; and how many they are."""
+    """Return top-1 of the segments with a mate that is not too easy, and their number."""
     found = retrieval.retrieve(stored, test.groups, too_easy)
     return {"top1": mean(found.right[found.has_mate]), "queries": int(found.has_mate.sum())}
 
 
 def by_points(test: TrainingSet, stored: Float32) -> Curve:
-    """Recognition of small and of large segments."""
+    """Return top-1 by the number of points of the segment."""
     found = retrieval.retrieve(stored, test.groups)
     counts = test.segments.counts
     return [
@@ -87,9 +87,9 @@ def by_points(test: TrainingSet, stored: Float32) -> Curve:
 def altered(
     extractor: Extractor, test: TrainingSet, stored: Float32, change: Augmentation, lost: float
 ) -> dict[str, Any]:
-    """Queries that lost a part of their points, among the others as they are.
+    """Return top-1 of queries that lost some of their points, among unaltered segments.
 
-    What stands around them is as it was: only the segment itself is altered.
+    Only the segment itself is altered, not its neighborhood.
     """
     asked = stored
     if lost:
@@ -101,16 +101,16 @@ def altered(
 
 
 def by_storage(described: Float32, test: TrainingSet) -> Curve:
-    """Fewer dimensions (the principal ones), and fewer bits for each.
+    """Return top-1 with fewer (principal) dimensions, and fewer bits per dimension.
 
-    Axes and steps are the test segments' own: what is lost is lost to rounding alone.
+    Axes and steps are fitted to the test segments, so rounding is the only loss.
     """
     center = described.mean(axis=0)
     axes = np.linalg.svd((described - center).T @ (described - center))[2]
     curve = []
     for dimension in sorted({min(d, described.shape[1]) for d in DIMENSIONS}):
         projected = (described - center) @ axes[:dimension].T
-        # Spread evenly over the dimensions, as few bits want it.
+        # A random rotation spreads the variance evenly, which few bits need.
         turn = np.linalg.qr(np.random.default_rng(0).normal(size=(dimension, dimension)))[0]
         turned = np.asarray(projected @ turn, dtype=np.float32)
         for bits in (32, *REACH):
@@ -128,7 +128,7 @@ def by_storage(described: Float32, test: TrainingSet) -> Curve:
 
 
 def rounded(values: Float32, bits: int) -> Float32:
-    """To uniform steps of so many bits."""
+    """Round values to uniform steps of this number of bits."""
     count = 2**bits
     step = 2 * float(np.quantile(np.abs(values), REACH[bits])) / (count - 1)
     cells = np.floor(values / step).clip(-count // 2, count // 2 - 1)
@@ -136,14 +136,17 @@ def rounded(values: Float32, bits: int) -> Float32:
 
 
 def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, float]:
-    """What the segments that find no mate first are, as shares of all segments.
+    """Return the shares of segments whose nearest segment is not a mate, by reason.
 
-    Each miss counts once, under the first of: `no_mate`, nothing to be found; `near_place`, what
-    was found stands within 1.5 m of the query or a mate, but is of another group: its neighbour, or
-    itself under another label;
-    `wandering`, the group's centroid wanders by more than a metre, for it moves or shows ever other
-    parts of itself; `small`, under 250 points;
-    `other`.
+    Each miss counts once, under the first reason that holds:
+
+    - `no_mate`: the segment has no mate.
+    - `near_place`: the nearest segment is within 1.5 m of the query or a mate, but of another
+      group: a neighbor, or the same object with another label.
+    - `wandering`: the centroids of the group are more than 1 m apart, because the object moves or
+      is seen in changing parts.
+    - `small`: the segment has less than 250 points.
+    - `other`: any other reason.
     """
     found = retrieval.retrieve(stored, test.groups)
     missed = ~found.right
@@ -162,7 +165,7 @@ def misses(stored: Float32, test: TrainingSet, centroids: Float64) -> dict[str, 
 
 
 def in_near_place(groups: Int64, centroids: Float64, nearest: Int64) -> Bool:
-    """Whether what was found stands within 1.5 m of the query or a mate of it."""
+    """Return whether the nearest segment is within 1.5 m of the query or of a mate."""
     same = np.zeros(len(groups), dtype=bool)
     for group in np.unique(groups):
         members = np.flatnonzero(groups == group)
@@ -173,7 +176,7 @@ def in_near_place(groups: Int64, centroids: Float64, nearest: Int64) -> Bool:
 
 
 def wander(test: TrainingSet, centroids: Float64) -> Float64:
-    """Of each segment: how far apart, in metres, its group's centroids lie."""
+    """Return the extent of the centroids of each segment's group, meters."""
     far = np.zeros(len(test.group_sizes()))
     for group in np.unique(test.groups):
         places = centroids[test.groups == group]

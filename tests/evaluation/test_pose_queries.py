@@ -1,4 +1,4 @@
-"""Every frame of the asking drive is a query, as it is for the peers."""
+"""Every capture of the queries' drive is a query, as for the peers."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -36,9 +36,7 @@ def scans_of_peers(asking: list[Stretch], most: int | None = None) -> list[int]:
     return [scan for _, scan, _ in frames_of(asking, most)]
 
 
-def test_two_drives_are_asked_for_the_same_frames_as_the_peers(
-    engine: Engine, tmp_path: Path
-) -> None:
+def test_queries_of_two_drives_are_those_of_the_peers(engine: Engine, tmp_path: Path) -> None:
     mapped = trip(tmp_path / "a", 8, left=range(0))
     asking = trip(tmp_path / "b", 16, left=range(3, 12))
     pair = Pair.of(mapped.folder, asking.folder)
@@ -48,7 +46,7 @@ def test_two_drives_are_asked_for_the_same_frames_as_the_peers(
 
 
 @pytest.mark.parametrize("left", [range(0), range(12, 15), range(19, 33)])
-def test_blocks_are_asked_for_the_same_frames_as_the_peers(
+def test_queries_of_blocks_are_those_of_the_peers(
     engine: Engine, tmp_path: Path, left: range
 ) -> None:
     drive = trip(tmp_path / "a", 40, left)
@@ -58,13 +56,13 @@ def test_blocks_are_asked_for_the_same_frames_as_the_peers(
         assert scans_of(engine, pair, most) == scans_of_peers(peers, most)
 
 
-def test_frames_of_another_step_are_asked(engine: Engine, tmp_path: Path) -> None:
+def test_queries_follow_another_step_between_captures(engine: Engine, tmp_path: Path) -> None:
     drive = trip(tmp_path / "a", 16, left=range(4, 13))
     pair = Pair.of(drive.folder, drive.folder, every=3)
     assert scans_of(engine, pair) == [0, 3, 6, 9, 12, 15]
 
 
-def test_frames_without_segments_are_not_localized(tmp_path: Path) -> None:
+def test_captures_without_segments_are_not_localized(tmp_path: Path) -> None:
     write_eigenvalue_model(tmp_path / "models")
     # Its engine map holds ten scans: those from 13 to 18 show nothing.
     mapped = trip(tmp_path / "a", 8, left=range(0))
@@ -82,7 +80,7 @@ def test_frames_without_segments_are_not_localized(tmp_path: Path) -> None:
     assert sum(reasons.get("too-few-segments", 0) for reasons in told) >= 6
 
 
-def test_one_query_that_sees_nothing_is_an_outcome(tmp_path: Path) -> None:
+def test_query_without_segments_has_an_outcome(tmp_path: Path) -> None:
     write_eigenvalue_model(tmp_path / "models")
     mapped = trip(tmp_path / "a", 8, left=range(0))
     asking = trip(tmp_path / "b", 8, left=range(1))
@@ -94,7 +92,7 @@ def test_one_query_that_sees_nothing_is_an_outcome(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("blind", ["a", "b"])
-def test_a_drive_that_gives_no_segments_is_told_from_the_other(tmp_path: Path, blind: str) -> None:
+def test_error_names_the_drive_without_segments(tmp_path: Path, blind: str) -> None:
     write_eigenvalue_model(tmp_path / "models")
     for name in ("a", "b"):
         trip(tmp_path / name, 6, left=range(6 if name == blind else 0))
@@ -103,14 +101,14 @@ def test_a_drive_that_gives_no_segments_is_told_from_the_other(tmp_path: Path, b
         evaluate(pair, tmp_path / "models" / "tiny")
 
 
-def test_no_map_is_made_of_nothing(engine: Engine, tmp_path: Path) -> None:
+def test_map_of_a_drive_without_segments_is_refused(engine: Engine, tmp_path: Path) -> None:
     trip(tmp_path / "a", 6, left=range(6))
     pair = Pair.of(tmp_path / "a", tmp_path / "a")
     with pytest.raises(ValueError, match="no segments"):
         pair.mapper.build_map(engine, "map")
 
 
-def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: Path) -> None:
+def test_error_names_an_unreadable_origin_file(tmp_path: Path) -> None:
     for name in ("a", "b"):
         trip(tmp_path / name, 2, left=range(0))
     (tmp_path / "b" / "origin.txt").write_text("")
@@ -118,14 +116,16 @@ def test_what_tells_where_a_drive_lies_is_named_if_it_cannot_be_read(tmp_path: P
         Pair.of(tmp_path / "a", tmp_path / "b")
 
 
-def test_the_map_is_near_where_its_robot_saw_nothing(engine: Engine, tmp_path: Path) -> None:
+def test_query_near_captures_without_segments_is_in_the_mapped_area(
+    engine: Engine, tmp_path: Path
+) -> None:
     mapped = trip(tmp_path / "a", 30, left=range(1, 30))
     asking = trip(tmp_path / "b", 30, left=range(0))
     asked = Pair.of(mapped.folder, asking.folder).queries(engine, random_frame(0))
     assert all(query.mapped for query in asked)
 
 
-def test_nothing_is_described_of_no_segment(engine: Engine) -> None:
+def test_description_without_segments_is_empty(engine: Engine) -> None:
     codes, centroids = described(engine, many_segments([]))
     some, _ = described(engine, many_segments([200]))
     assert (codes.shape, codes.dtype) == ((0, some.shape[1]), some.dtype)

@@ -1,4 +1,4 @@
-"""The figures of `evaluate-poses` by hand, and that drives without a common frame are refused."""
+"""Figures of `evaluate-poses` equal those computed by hand; drives need a common frame."""
 
 import json
 from dataclasses import replace
@@ -48,7 +48,7 @@ UNKNOWN = outcome(meters=0.2, probability=0.4, reason="ambiguous")
 LOST = outcome(np.inf, np.inf, 0.0, "inconsistent")
 
 
-def test_what_is_right_wrong_but_sure_and_unknown() -> None:
+def test_outcomes_are_right_wrong_but_sure_or_not_localized() -> None:
     told = shares([RIGHT, ASIDE, OFF, TURNED, DOUBTFUL, UNKNOWN, LOST, RIGHT])
     assert told["queries"] == 8
     assert told["counts"] == {"localised_right": 2, "wrong_but_sure": 2, "not_localised": 2}
@@ -108,7 +108,7 @@ def test_meters_until_localized_from_each_start() -> None:
     assert until_localized([LOST]) == {"median": None, "p95": None, "never": 1}
 
 
-def test_queries_beyond_the_map_stand_apart() -> None:
+def test_queries_beyond_the_map_are_counted_apart() -> None:
     told = report([RIGHT, RIGHT, LOST, outcome(mapped=False), replace(LOST, mapped=False)])
     assert told["queries"] == 3
     assert told["localised_right"] == pytest.approx(2 / 3, abs=1e-5)
@@ -120,7 +120,7 @@ def test_queries_beyond_the_map_stand_apart() -> None:
     assert sum(row["count"] for row in told["reliability"]) == 5
 
 
-def test_an_outcome_is_off_where_the_robot_is() -> None:
+def test_pose_error_is_measured_at_the_sensor() -> None:
     made = scene(1)
     found = localize(made.candidates)
     sensor = made.candidates.centroids.mean(axis=0)
@@ -142,7 +142,7 @@ def test_an_outcome_is_off_where_the_robot_is() -> None:
     [(0.1, 0.2, 0.3, 0.01), (0.1, 0.2, 0.3, 5.0, 7.0, 0.01)],
     ids=["yaw", "se3"],
 )
-def test_an_error_is_held_against_what_is_stated_of_it(deviations: tuple[float, ...]) -> None:
+def test_error_is_normalized_by_the_stated_covariance(deviations: tuple[float, ...]) -> None:
     found = localize(scene(1).candidates)
     assert found.best is not None
     pose, sensor = Pose.of_yaw(0.5, np.array([10.0, 20.0, 0.0])), np.zeros(3)
@@ -159,7 +159,7 @@ def query(truth: Pose, sensor: np.ndarray) -> PoseQuery:
     )
 
 
-def test_a_row_says_where_and_what_as_json_can() -> None:
+def test_row_of_a_query_is_valid_json() -> None:
     truth = Pose.of_yaw(np.pi / 2, np.array([10.0, 0, 0]))
     row = row_of(query(truth, np.array([1.0, 0, 0])), LOST)
     assert (row["scan"], row["segments"], row["position"]) == (8, 1, [10.0, 1.0, 0.0])
@@ -178,7 +178,7 @@ def test_chosen_queries_are_spread_evenly(count: int, most: int) -> None:
     np.testing.assert_array_equal(spread(count), np.arange(count))
 
 
-def test_a_robot_s_own_frame_is_any() -> None:
+def test_random_frame_has_any_yaw_and_position() -> None:
     frames = [random_frame(seed) for seed in range(20)]
     assert np.ptp([frame.yaw for frame in frames]) > 4
     np.testing.assert_array_equal(random_frame(3).matrix, random_frame(3).matrix)

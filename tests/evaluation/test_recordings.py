@@ -1,4 +1,4 @@
-"""A prepared recording stands for its own drive, and for no other."""
+"""Prepared recordings are accepted for their own drive only."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +15,7 @@ from tests.placecell.segment_builders import box, pose, write_odometry
 
 
 def street(folder: Path, scans: int = 6, further: float = 0.0) -> Drive:
-    """A robot passes boxes, which its sensor sees from where it stands."""
+    """Return a drive along boxes, with points in the sensor's frame."""
     boxes = np.concatenate([box((x, 5.0, -1.5), (2, 1, 3)) for x in (0.0, 6.0, 12.0)])
     at = [index + further for index in range(scans)]
     seen = [boxes - np.array([x, 0, 0]) for x in at]
@@ -34,7 +34,7 @@ def prepared(drive: Drive, tmp_path: Path) -> Path:
     return file
 
 
-def test_what_is_prepared_is_what_would_be_made(drive: Drive, prepared: Path) -> None:
+def test_prepared_recording_equals_a_new_one(drive: Drive, prepared: Path) -> None:
     made, read = recording_of(drive), recording_of(drive, prepared=prepared)
     assert len(made.segments) > 0
     np.testing.assert_array_equal(made.segments.points, read.segments.points)
@@ -42,32 +42,32 @@ def test_what_is_prepared_is_what_would_be_made(drive: Drive, prepared: Path) ->
 
 
 @pytest.mark.parametrize(("scans", "further"), [(5, 0.0), (6, 0.5)])
-def test_a_recording_of_another_drive_is_refused(
+def test_recording_of_another_drive_is_refused(
     prepared: Path, tmp_path: Path, scans: int, further: float
 ) -> None:
     other = street(tmp_path / "other", scans, further)
-    with pytest.raises(ValueError, match="another drive"):
+    with pytest.raises(ValueError, match="is not a recording of"):
         recording_of(other, prepared=prepared)
 
 
-def test_a_recording_by_other_parameters_is_refused(
+def test_recording_with_other_parameters_is_refused(
     drive: Drive, prepared: Path, tmp_path: Path
 ) -> None:
     with pytest.raises(ValueError, match="--every 3"):
         recording_of(drive, every=3, prepared=prepared)
     wider = tmp_path / "wider.safetensors"
     record(drive, replace(PROTOCOL_V1.for_drive(len(drive)), growing_radius=0.5)).save(wider)
-    with pytest.raises(ValueError, match="prepare the drive again"):
+    with pytest.raises(ValueError, match="Prepare the drive again"):
         recording_of(drive, prepared=wider)
 
 
-def test_what_is_no_recording_is_refused(drive: Drive, tmp_path: Path) -> None:
+def test_file_that_is_no_recording_is_refused(drive: Drive, tmp_path: Path) -> None:
     file = tmp_path / "text.safetensors"
     file.write_text("no recording")
     with pytest.raises(ValueError, match="not a recording"):
         recording_of(drive, prepared=file)
 
 
-def test_a_drive_in_blocks_takes_no_recording(drive: Drive, prepared: Path) -> None:
+def test_recording_for_a_drive_in_blocks_is_refused(drive: Drive, prepared: Path) -> None:
     with pytest.raises(ValueError, match="blocks"):
         Pair.of(drive.folder, prepared=(prepared, None))

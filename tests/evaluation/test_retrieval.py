@@ -1,4 +1,4 @@
-"""The measures of recognition, recomputed by hand on toy sets."""
+"""Measures of recognition equal those computed by hand on small sets."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_segments_without_a_mate_are_misses_but_do_not_count_with_mate() -> None
     assert found.has_mate.tolist() == [True, True, False]
 
 
-def test_cross_view_takes_near_mates_out_of_the_database() -> None:
+def test_cross_view_leaves_out_near_mates() -> None:
     # Segment 0's nearest is its view from half a metre on; from afar only segment 3 is left,
     # behind a stranger.
     descriptors = np.array([[0.0], [0.1], [1.0], [1.5]], dtype=np.float32)
@@ -59,7 +59,7 @@ def test_cross_view_takes_near_mates_out_of_the_database() -> None:
     assert alone.right.tolist() == [True, True, True]
 
 
-def test_mates_exactly_ten_meters_away_are_taken_out() -> None:
+def test_mates_exactly_ten_meters_away_are_left_out() -> None:
     sensors = np.array([[0, 0, 0], [10, 0, 0]], dtype=np.float32)
     pair = retrieval.retrieve(
         np.zeros((2, 1), np.float32), np.zeros(2, int), retrieval.seen_within(sensors, 10.0)
@@ -76,7 +76,7 @@ def test_recall_looks_at_twenty_five_and_no_more() -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1])
-def test_nothing_to_find_is_no_error(count: int) -> None:
+def test_set_without_mates_raises_no_error(count: int) -> None:
     found = retrieval.retrieve(np.zeros((count, 3), np.float32), np.zeros(count, np.int64))
     assert not found.right.any()
 
@@ -95,7 +95,7 @@ def test_pairs_are_of_one_group_or_of_two_and_never_one_segment() -> None:
     assert len(np.unique(in_first, axis=0)) == 6
 
 
-def test_no_pairs_where_there_are_none() -> None:
+def test_draw_pairs_returns_no_pairs_if_there_are_none() -> None:
     positive, negative = retrieval.draw_pairs(np.array([0, 1]), 10, np.random.default_rng(0))
     assert positive.shape == (0, 2)
     assert len(negative) == 10
@@ -132,7 +132,7 @@ def test_views_from_one_side_are_too_easy_across_north() -> None:
     assert too_easy(np.array([0, 2])).tolist() == [[True, True, False], [False, False, True]]
 
 
-def test_other_descriptors_of_the_same_segments_may_ask() -> None:
+def test_queries_may_be_other_descriptors_of_the_same_segments() -> None:
     descriptors = np.array([[0.0], [1.0], [5.0], [6.0]], dtype=np.float32)
     queries = np.array([[5.2], [0.2], [6.4], [4.0]], dtype=np.float32)
     found = retrieval.retrieve(descriptors, np.array([0, 0, 1, 1]), queries=queries)

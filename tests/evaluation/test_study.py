@@ -1,4 +1,4 @@
-"""The study's curves, where they can be told by hand."""
+"""Curves of the recognition study equal those computed by hand."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def extractor() -> EigenvalueExtractor:
     )
 
 
-def test_all_curves(extractor: EigenvalueExtractor, shapes: TrainingSet) -> None:
+def test_study_has_all_curves(extractor: EigenvalueExtractor, shapes: TrainingSet) -> None:
     found = study.study(extractor, shapes)
     assert found["by_metres"][0]["top1"] == pytest.approx(found["by_degrees"][0]["top1"])
     # Segments of 150 points all.
@@ -57,7 +57,7 @@ def test_misses_are_sorted_once_each(shapes: TrainingSet) -> None:
     assert sorted_misses["small"] == pytest.approx(42 / 48)
 
 
-def test_a_group_that_wanders() -> None:
+def test_group_with_distant_centroids_wanders() -> None:
     centroids = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [5, 5, 5]])
     data = TrainingSet(None, np.array([0, 0, 0, 1]), None)  # type: ignore[arg-type]
     assert study.wander(data, centroids) == pytest.approx([np.sqrt(5)] * 3 + [0])
