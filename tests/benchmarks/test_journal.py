@@ -9,7 +9,9 @@ from benchmarks.durability.map_versions import VersionFile, VersionHistory
 def history(*files: bytes, first: int = 1) -> VersionHistory:
     """Return a history with these files, as a service returns it."""
     return VersionHistory(
-        tuple(VersionFile(number, file, f"tag-{number}") for number, file in enumerate(files, first))
+        tuple(
+            VersionFile(number, file, f"tag-{number}") for number, file in enumerate(files, first)
+        )
     )
 
 

@@ -13,13 +13,13 @@ from placecell.descriptors.manifest import PAIR_FILE, Manifest
 from placecell.descriptors.pair_classifier import PairClassifier
 from placecell.descriptors.quantizer import Quantizer
 from training.export import pair_classifier
-from training.export.pair_classifier import Calibration, HeldOut, Pairs
+from training.export.pair_classifier import DescriptorPairs, HeldOut, PlattScaling
 from training.methods.siamese import MatchNetwork
 
 DIMENSION = 6
 
 
-def toy_pairs(count: int, seed: int, *, curved: bool = False) -> Pairs:
+def toy_pairs(count: int, seed: int, *, curved: bool = False) -> DescriptorPairs:
     """Matches lie close together; curved: only the first dimension counts."""
     random = np.random.default_rng(seed)
     a = random.normal(size=(count, DIMENSION)).astype(np.float32)
@@ -30,14 +30,14 @@ def toy_pairs(count: int, seed: int, *, curved: bool = False) -> Pairs:
         b[is_match, 0] = a[is_match, 0] + 0.05 * b[is_match, 0]
     else:
         b[is_match] = a[is_match] + 0.6 * b[is_match]
-    return Pairs(a, b, matches)
+    return DescriptorPairs(a, b, matches)
 
 
-def swapped(pairs: Pairs) -> Pairs:
+def swapped(pairs: DescriptorPairs) -> DescriptorPairs:
     return replace(pairs, a=pairs.b, b=pairs.a)
 
 
-def run_pair(file: Path, pairs: Pairs) -> np.ndarray:
+def run_pair(file: Path, pairs: DescriptorPairs) -> np.ndarray:
     session = onnxruntime.InferenceSession(file)
     (probability,) = session.run(["probability"], {"a": pairs.a, "b": pairs.b})
     return np.asarray(probability)
@@ -58,7 +58,7 @@ def test_forest_is_symmetric_and_the_papers_is_not() -> None:
 def test_forest_in_onnx_equals_the_one_in_python(tmp_path: Path) -> None:
     training, pairs = toy_pairs(2000, 0), toy_pairs(300, 1)
     forest = pair_classifier.train_forest(training, pair_classifier.symmetric, seed=0)
-    calibration = Calibration(slope=0.7, offset=-0.2)
+    calibration = PlattScaling(slope=0.7, offset=-0.2)
     graph = pair_classifier.forest_graph(forest, calibration, DIMENSION)
     (tmp_path / "pair.onnx").write_bytes(graph.SerializeToString())
     raw = forest.predict_proba(pair_classifier.symmetric(pairs))[:, 1]
@@ -75,7 +75,7 @@ def test_head_in_onnx_equals_torch_on_projected_descriptors(tmp_path: Path) -> N
     axes = np.linalg.qr(random.normal(size=(64, DIMENSION)))[0].astype(np.float32)
     mean = random.normal(size=64).astype(np.float32)
     pairs = toy_pairs(50, 2)
-    graph = pair_classifier.HeadGraph(match, mean, axes, Calibration(1.3, 0.4))
+    graph = pair_classifier.HeadGraph(match, mean, axes, PlattScaling(1.3, 0.4))
     pair_classifier.export_pair(graph, DIMENSION, tmp_path / "pair.onnx")
     with torch.no_grad():
         back = [torch.from_numpy(side @ axes.T + mean) for side in (pairs.a, pairs.b)]
@@ -88,7 +88,7 @@ def test_calibration_recovers_the_true_probability() -> None:
     scores = random.normal(size=40_000)
     true = 1 / (1 + np.exp(-(2.0 * scores - 0.5)))
     matches = (random.random(40_000) < true).astype(np.float64)
-    fitted = Calibration.fit(scores, matches)
+    fitted = PlattScaling.fit(scores, matches)
     assert fitted.slope == pytest.approx(2.0, abs=0.1)
     assert fitted.offset == pytest.approx(-0.5, abs=0.1)
 
@@ -137,9 +137,9 @@ def test_the_probability_is_calibrated_on_what_is_asked_and_the_threshold_on_dra
     # Drawn at random, half of the pairs match; among the nearest, one in ten.
     learnt, fitted, held_out = (toy_pairs(3000, seed) for seed in range(3))
 
-    def mostly_strangers(pairs: Pairs) -> HeldOut:
+    def mostly_strangers(pairs: DescriptorPairs) -> HeldOut:
         kept = (pairs.matches < 0.5) | (np.arange(len(pairs.a)) % 18 == 1)
-        return HeldOut(pairs, Pairs(pairs.a[kept], pairs.b[kept], pairs.matches[kept]))
+        return HeldOut(pairs, DescriptorPairs(pairs.a[kept], pairs.b[kept], pairs.matches[kept]))
 
     asked = mostly_strangers(held_out)
     chosen = pair_classifier.choose(
@@ -154,5 +154,5 @@ def test_the_probability_is_calibrated_on_what_is_asked_and_the_threshold_on_dra
 
 
 def test_calibration_of_a_model_that_never_finds_a_match() -> None:
-    fitted = Calibration.fit(np.linspace(-1, 1, 98), np.zeros(98))
+    fitted = PlattScaling.fit(np.linspace(-1, 1, 98), np.zeros(98))
     assert fitted.apply(np.array([-3.0, 3.0])) == pytest.approx([0.01, 0.01])

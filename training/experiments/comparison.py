@@ -18,7 +18,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.orientation import orient
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from training.data.training_set import TrainingSet
-from training.export.pair_classifier import Pairs, concatenated, train_forest
+from training.export.pair_classifier import DescriptorPairs, concatenated, train_forest
 from training.export.publishing import stored_descriptors
 
 
@@ -71,9 +71,9 @@ def by_paper_forest(
 ) -> tuple[Float64, Float64]:
     """What the paper's forest, learned on the training set, says of drawn pairs of the test set."""
     learned = retrieval.draw_pairs(training.groups, retrieval.PAIRS, np.random.default_rng(0))
-    pairs = Pairs.of(stored_descriptors(extractor, training), *learned)
+    pairs = DescriptorPairs.of(stored_descriptors(extractor, training), *learned)
     forest = train_forest(pairs, concatenated, seed=0)
-    both = Pairs.of(stored, *drawn)
+    both = DescriptorPairs.of(stored, *drawn)
     probability = forest.predict_proba(concatenated(both))[:, 1]
     return probability[both.matches > 0.5], probability[both.matches < 0.5]
 

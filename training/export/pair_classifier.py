@@ -38,7 +38,7 @@ LEAF = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Pairs:
+class DescriptorPairs:
     """Pairs of stored descriptors.
 
     Attributes:
@@ -52,7 +52,7 @@ class Pairs:
     matches: Float64
 
     @classmethod
-    def of(cls, descriptors: Float32, positive: Int64, negative: Int64) -> "Pairs":
+    def of(cls, descriptors: Float32, positive: Int64, negative: Int64) -> "DescriptorPairs":
         """From drawn pairs of indices."""
         pairs = np.concatenate([positive, negative])
         matches = np.repeat([1.0, 0.0], [len(positive), len(negative)])
@@ -72,16 +72,16 @@ class HeldOut:
         nearest: each segment with its nearest in a database; that is what is asked in service.
     """
 
-    drawn: Pairs
-    nearest: Pairs
+    drawn: DescriptorPairs
+    nearest: DescriptorPairs
 
 
-def concatenated(pairs: Pairs) -> Float32:
+def concatenated(pairs: DescriptorPairs) -> Float32:
     """The paper's features: one descriptor after the other, (n, 2 d)."""
     return np.concatenate([pairs.a, pairs.b], axis=1)
 
 
-def symmetric(pairs: Pairs) -> Float32:
+def symmetric(pairs: DescriptorPairs) -> Float32:
     """The distance in each dimension and over all, (n, d + 1): the same for (a, b) and (b, a)."""
     difference = np.abs(pairs.a - pairs.b)
     length = np.sqrt(np.square(difference).sum(axis=1, keepdims=True))
@@ -89,7 +89,7 @@ def symmetric(pairs: Pairs) -> Float32:
 
 
 def train_forest(
-    pairs: Pairs, features: Callable[[Pairs], Float32], seed: int
+    pairs: DescriptorPairs, features: Callable[[DescriptorPairs], Float32], seed: int
 ) -> RandomForestClassifier:
     """A random forest on pair features."""
     forest = RandomForestClassifier(
@@ -105,14 +105,14 @@ def log_odds(probability: Float64) -> Float64:
 
 
 @dataclass(frozen=True, slots=True)
-class Calibration:
+class PlattScaling:
     """Platt scaling: probability = 1 / (1 + exp(-(slope x + offset))) of a raw score x."""
 
     slope: float
     offset: float
 
     @classmethod
-    def fit(cls, scores: Float64, matches: Float64) -> "Calibration":
+    def fit(cls, scores: Float64, matches: Float64) -> "PlattScaling":
         """By logistic regression on pairs that the score was not trained on."""
         if len(np.unique(matches)) == 2:
             fitted = LogisticRegression(C=1e6, max_iter=1000).fit(scores[:, None], matches)
@@ -130,7 +130,7 @@ class Calibration:
 class DistanceGraph(nn.Module):
     """Probability from the plain distance: the control, and what is served if nothing beats it."""
 
-    def __init__(self, calibration: Calibration) -> None:
+    def __init__(self, calibration: PlattScaling) -> None:
         super().__init__()
         self.calibration = calibration
 
@@ -147,7 +147,7 @@ class HeadGraph(nn.Module):
     axes: Tensor
 
     def __init__(
-        self, match: nn.Module, mean: Float32, axes: Float32, calibration: Calibration
+        self, match: nn.Module, mean: Float32, axes: Float32, calibration: PlattScaling
     ) -> None:
         super().__init__()
         self.match = match
@@ -161,7 +161,7 @@ class HeadGraph(nn.Module):
         return logits
 
     @torch.no_grad()
-    def scores(self, pairs: Pairs) -> Float64:
+    def scores(self, pairs: DescriptorPairs) -> Float64:
         """Logits of stored pairs, float64 (n,)."""
         logits = self.eval().logits(torch.from_numpy(pairs.a), torch.from_numpy(pairs.b))
         return logits.numpy().astype(np.float64)
@@ -172,7 +172,7 @@ class HeadGraph(nn.Module):
 
 
 def forest_graph(
-    forest: RandomForestClassifier, calibration: Calibration, dimension: int
+    forest: RandomForestClassifier, calibration: PlattScaling, dimension: int
 ) -> onnx.ModelProto:
     """A symmetric forest with its features before it and its calibration behind it, as ONNX."""
     import skl2onnx
@@ -228,7 +228,7 @@ def forest_graph(
 
 
 def choose(
-    training: Pairs,
+    training: DescriptorPairs,
     calibration: HeldOut,
     selection: HeldOut,
     head: tuple[nn.Module, Float32, Float32] | None,
@@ -250,15 +250,15 @@ def choose(
     """
     forest = train_forest(training, symmetric, seed=0)
 
-    def by_forest(pairs: Pairs) -> Float64:
+    def by_forest(pairs: DescriptorPairs) -> Float64:
         return log_odds(forest.predict_proba(symmetric(pairs))[:, 1])
 
-    scores: dict[str, Callable[[Pairs], Float64]] = {
+    scores: dict[str, Callable[[DescriptorPairs], Float64]] = {
         "distance": lambda pairs: -pairs.distances(),
         "forest": by_forest,
     }
     if head is not None:
-        third_network = HeadGraph(*head, Calibration(1.0, 0.0))
+        third_network = HeadGraph(*head, PlattScaling(1.0, 0.0))
         scores["siamese head"] = third_network.scores
     is_match = selection.drawn.matches > 0.5
 
@@ -268,13 +268,13 @@ def choose(
     compared = {name: auc(score(selection.drawn)) for name, score in scores.items()}
     kind = max(compared, key=lambda name: compared[name])
     score = scores[kind]
-    fitted = Calibration.fit(score(calibration.nearest), calibration.nearest.matches)
+    fitted = PlattScaling.fit(score(calibration.nearest), calibration.nearest.matches)
     dimension = training.a.shape[1]
     if kind == "forest":
         onnx.save(forest_graph(forest, fitted, dimension), file)
     elif kind == "distance":
         # The score is minus the distance; the graph takes the distance itself.
-        export_pair(DistanceGraph(Calibration(-fitted.slope, fitted.offset)), dimension, file)
+        export_pair(DistanceGraph(PlattScaling(-fitted.slope, fitted.offset)), dimension, file)
     else:
         assert head is not None
         export_pair(HeadGraph(*head, fitted), dimension, file)

@@ -217,14 +217,14 @@ def finish(
     folder: Path, manifest: Manifest, data: Data, head: tuple[Any, Float32, Float32] | None
 ) -> Manifest:
     """Add pair classifier and thresholds, measure on the validation groups, as stored; save."""
-    from training.export.pair_classifier import HeldOut, Pairs, choose
+    from training.export.pair_classifier import DescriptorPairs, HeldOut, choose
 
     manifest.save(folder)
     extractor = load_extractor(folder)
 
-    def pairs_of(part: TrainingSet, descriptors: Float32) -> Pairs:
+    def pairs_of(part: TrainingSet, descriptors: Float32) -> DescriptorPairs:
         drawn = retrieval.draw_pairs(part.groups, retrieval.PAIRS, np.random.default_rng(0))
-        return Pairs.of(descriptors, *drawn)
+        return DescriptorPairs.of(descriptors, *drawn)
 
     learned, held_out = (
         stored_descriptors(extractor, part) for part in (data.training, data.validation)
@@ -239,7 +239,7 @@ def finish(
         nearest = retrieval.nearest_pairs(database, groups, queries)
         return HeldOut(
             pairs_of(data.validation.take(queries), held_out[queries]),
-            Pairs.of(database, *nearest),
+            DescriptorPairs.of(database, *nearest),
         )
 
     calibration, selection = map(half, data.validation.halves(0.5, seed=0))

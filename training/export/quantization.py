@@ -35,7 +35,7 @@ def quantize(network: Path, data: TrainingSet, file: Path) -> None:
         quantize_static(
             str(prepared),
             str(file),
-            Calibration(data.take(np.sort(drawn))),
+            CalibrationBatches(data.take(np.sort(drawn))),
             quant_format=QuantFormat.QDQ,
             per_channel=True,
             # Seven bits of weight: processors that add pairs of products in 16 bits would overflow.
@@ -46,7 +46,7 @@ def quantize(network: Path, data: TrainingSet, file: Path) -> None:
         )
 
 
-class Calibration:
+class CalibrationBatches:
     """Inputs of the network, as ONNX Runtime wants to be given them."""
 
     def __init__(self, data: TrainingSet) -> None:
