@@ -23,7 +23,7 @@ class KissMatcherParameters:
     voxel_size: float = 0.3
     """Voxel size, meters; features have radii of 3 and 5 voxels."""
     use_quatro: bool = False
-    """Whether to solve for yaw only (Quatro), instead of any rotation."""
+    """Solve for yaw only (Quatro), instead of any rotation."""
     candidates: int = 1
     """Number of retrieved local maps to try; 0: the whole map at once."""
     least_inliers: int = 5

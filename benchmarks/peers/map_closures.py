@@ -33,7 +33,7 @@ class MapClosuresParameters:
     density_threshold: float = 0.05
     hamming_distance_threshold: int = 50
     level: bool = False
-    """Whether to assume level local maps, as ours are, instead of the plane fit to the ground. The
+    """Assume level local maps, as ours are, instead of the plane fit to the ground. The
     fit needs ten points in a voxel of pixel size, and turns some sparse local maps over."""
     inliers_threshold: int = 5
     """Number of inliers that an accepted closure must exceed."""

@@ -100,7 +100,7 @@ def draw_compression(report: dict[str, Any], file: Path) -> None:
                     [row["bytes"] for row in rows],
                     [row[key] for row in rows],
                     f"{marker}-",
-                    label="product quantisation" if kind else "scalar quantization",
+                    label="product quantization" if kind else "scalar quantization",
                 )
             for row in report["rows"]:
                 if row["shipped"]:
