@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-OWN = ("queries", "right", "wrong but sure", "not localised", "median error", "until localised")
+OWN = ("queries", "right", "wrong but sure", "not localized", "median error", "until localized")
 
 
 def read_reports(folder: Path) -> dict[str, dict[str, Any]]:

@@ -73,7 +73,7 @@ def test_captures_without_segments_are_not_localized(tmp_path: Path) -> None:
     empty = [row for row in rows if not row["segments"]]
     assert [row["scan"] for row in empty] == [*range(13, 19)]
     assert {row["reason"] for row in empty} == {"too-few-segments"}
-    # The mapping robot drove to metre 7, so that metre 16 is within the map, and 18 is not.
+    # The mapping robot drove to meter 7, so that meter 16 is within the map, and 18 is not.
     assert [row["mapped"] for row in empty if row["scan"] != 17] == [True] * 4 + [False]
     assert report["queries"] + report["beyond_the_map"]["queries"] == 24
     told = report["reasons"], report["beyond_the_map"]["reasons"]

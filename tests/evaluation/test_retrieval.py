@@ -41,7 +41,7 @@ def test_segments_without_a_mate_are_misses_but_do_not_count_with_mate() -> None
 
 
 def test_cross_view_leaves_out_near_mates() -> None:
-    # Segment 0's nearest is its view from half a metre on; from afar only segment 3 is left,
+    # Segment 0's nearest is its view from half a meter on; from afar only segment 3 is left,
     # behind a stranger.
     descriptors = np.array([[0.0], [0.1], [1.0], [1.5]], dtype=np.float32)
     groups = np.array([0, 0, 1, 0])

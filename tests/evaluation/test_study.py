@@ -52,7 +52,7 @@ def test_misses_are_sorted_once_each(shapes: TrainingSet) -> None:
     sorted_misses = study.misses(np.zeros((len(shapes), 2), np.float32), shapes, centroids)
     assert sorted_misses["right"] == pytest.approx(6 / 48)
     assert sorted_misses["no_mate"] == 0
-    # What is found stands ten metres or more away, and the boxes stand still.
+    # The found segments are ten meters or more away, and the boxes stand still.
     assert sorted_misses["near_place"] == 0
     assert sorted_misses["small"] == pytest.approx(42 / 48)
 

@@ -75,7 +75,7 @@ def write_onnx_model(models_dir: Path, name: str = "onnx") -> Manifest:
 
 
 def cloud(seed: int, points: int = 200) -> Float64:
-    """Points of a segment, float64 (points, 3), metres, at most some 20 m from the origin."""
+    """Points of a segment, float64 (points, 3), meters, at most some 20 m from the origin."""
     random = np.random.default_rng(seed)
     spread = random.uniform(0.1, 2.0, 3)
     return np.asarray(random.normal(size=(points, 3)) * spread + random.uniform(-8, 8, 3))
@@ -151,7 +151,7 @@ def post_packed(service: Any, path: str, body: Any, accept: str = MSGPACK) -> An
 
 
 async def ask_app(app: Any, body: Any, leave_after: float = 60.0) -> list[dict[str, Any]]:
-    """What an ASGI application sends for a `/describe` whose client goes after so many seconds."""
+    """Return what an application sends for a `/describe` whose client leaves after some seconds."""
     sent: list[dict[str, Any]] = []
     messages = [{"type": "http.request", "body": json.dumps(body).encode(), "more_body": False}]
 

@@ -45,7 +45,7 @@ def seen_at(
 ) -> CompactMap:
     """Return segments of one time: positions along x in meters, and the value of all their codes.
 
-    Seen from there, metres along y; from elsewhere at each time, unless said.
+    The viewpoint is `stand`, meters along y; by default it changes with the time.
     """
     n = len(ids)
     return canonical(

@@ -325,7 +325,7 @@ def test_segments_and_their_codes_give_the_same_pose(service: Any, manifest: Man
     answer = service.post("/localize", json=request_of(clouds)).json()
     (by_segments,) = answer["localizations"]
     assert [each["query"] for each in answer["unusable"]] == [4]
-    # Twenty metres of segments tell the pose; inliers are numbered as the request's segments.
+    # Twenty meters of segments tell the pose; inliers are numbered as the request's segments.
     assert by_segments["localized"], by_segments
     assert {each["query"] for each in by_segments["inliers"]} <= set(good)
     for each in by_segments["inliers"]:
