@@ -63,6 +63,8 @@ from service.warm_up import warm_up
 
 NO_CONDITIONS = Preconditions()
 
+MERGE_FEWER = "Merge fewer or smaller maps at once."
+
 
 class StartError(Exception):
     """Failed start of the engine or the service; the message gives the reason."""
@@ -344,9 +346,7 @@ class Engine:
         check_same_model(here, there)
         model = self.models.named(here.model_id)
         options = parameters or AlignmentParameters()
-        self._check_alignments(
-            [here, there], options, "Align smaller maps, such as parts of these."
-        )
+        self.check_alignments([name, other], "Align smaller maps, such as parts of these.", options)
         a, b = MapSide.of(here), MapSide.of(there)
         found = align_maps(a, b, a.index(model), model, options, current().check)
         return AlignedMaps(a, b, found)
@@ -454,9 +454,7 @@ class Engine:
             Problem: as `Merger.merge`; 413 if it is too much work.
         """
         options = parameters or AlignmentParameters()
-        merged = self.maps.find(name)
-        snapshots = [*([] if merged is None else [merged]), *map(self.maps.get, maps)]
-        self._check_alignments(snapshots, options, "Merge fewer or smaller maps at once.")
+        self.check_alignments([name, *maps], MERGE_FEWER, options)
         merger = Merger(
             writer=self.writer(principal, conditions),
             parameters=options,
@@ -466,9 +464,17 @@ class Engine:
         )
         return merger.merge(name, maps)
 
-    def _check_alignments(
-        self, snapshots: Sequence[MapSnapshot], parameters: AlignmentParameters, remedy: str
+    def check_alignments(
+        self, names: Sequence[str], remedy: str, parameters: AlignmentParameters | None = None
     ) -> None:
-        """Check that the alignments of all pairs are not too much work; 413 if they are."""
-        cost = cost_of_aligning([len(each) for each in snapshots], K, parameters)
+        """Check that the alignments of all pairs of maps are not too much work; 413 if they are.
+
+        Args:
+            names: names of the maps; a name without a map is left out.
+            remedy: what to do instead, for the error.
+            parameters: parameters of the alignments; the default ones unless given.
+        """
+        snapshots = [snapshot for each in names if (snapshot := self.maps.find(each)) is not None]
+        sizes = [len(each) for each in snapshots]
+        cost = cost_of_aligning(sizes, K, parameters or AlignmentParameters())
         check_cost(cost, self.settings.limits.alignment_seconds, remedy)

@@ -18,6 +18,7 @@ from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.problems import Problem, invalid, invalid_value
+from service.engine import MERGE_FEWER
 
 router = APIRouter(tags=["sharing"])
 
@@ -100,6 +101,10 @@ async def merge(write: MapWriteOf) -> JSONResponse:
     state = write.state
     async with write.receive(state.lanes.alignments, (JSON,)) as body:
         asked = await state.run(_read, body, write.name, state, write.principal)
+        # Before the work waits for a thread: the deadline may pass there.
+        for each in asked.maps:
+            state.engine.maps.get(each)
+        state.engine.check_alignments([write.name, *asked.maps], MERGE_FEWER)
         merged = await write.run(
             state.engine.merge_maps,
             write.name,
