@@ -63,6 +63,8 @@ from service.warm_up import warm_up
 
 NO_CONDITIONS = Preconditions()
 
+ALIGN_SMALLER = "Align smaller maps, such as parts of these."
+
 MERGE_FEWER = "Merge fewer or smaller maps at once."
 
 
@@ -346,7 +348,7 @@ class Engine:
         check_same_model(here, there)
         model = self.models.named(here.model_id)
         options = parameters or AlignmentParameters()
-        self.check_alignments([name, other], "Align smaller maps, such as parts of these.", options)
+        self.check_alignments([name, other], ALIGN_SMALLER, options)
         a, b = MapSide.of(here), MapSide.of(there)
         found = align_maps(a, b, a.index(model), model, options, current().check)
         return AlignedMaps(a, b, found)
