@@ -65,17 +65,19 @@ def experiments(
     with clear_errors():
         from training.data.training_set import Source
         from training.experiments.experiments import run_experiments
-        from training.experiments.plan import Plan
+        from training.experiments.plan import ExperimentPlan
         from training.experiments.report import write_report
 
-    plan = Plan(networks=tuple(network or Plan().networks), seeds=seeds, epochs=epochs)
+    plan = ExperimentPlan(
+        networks=tuple(network or ExperimentPlan().networks), seeds=seeds, epochs=epochs
+    )
     if quick:
-        plan = Plan(networks=("fast",), seeds=1, dropouts=(0.0, 0.5), epochs=epochs or 2)
+        plan = ExperimentPlan(networks=("fast",), seeds=1, dropouts=(0.0, 0.5), epochs=epochs or 2)
     folder = output or Path("out/experiments-quick" if quick else "out/experiments")
     words = ["placecell", "experiments", *(f"--train={name(text)}" for text in train or ())]
     words += [f"--test={name(test)}"] if test else []
     words += [f"--network={each}" for each in network or ()]
-    words += [f"--seeds={seeds}"] if seeds != Plan().seeds else []
+    words += [f"--seeds={seeds}"] if seeds != ExperimentPlan().seeds else []
     words += [f"--epochs={epochs}"] if epochs else []
     words += ["--quick"] if quick else []
     command = shlex.join(words)

@@ -1,4 +1,4 @@
-"""The paper's trainings and experiments (sections III and IV): recordings in, models out.
+"""Training of models from recordings, and the paper's experiments (sections III and IV).
 
 Read in the paper's order: `training_set` and `augmentation` (III-A, preprocessing), `networks`
 (III-B, the feature extraction network), `group_based` (III-C), `siamese` (III-D), `contrastive`

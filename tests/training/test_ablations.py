@@ -1,4 +1,4 @@
-"""Ablations: which there are, what they share, and how the report chooses."""
+"""Ablations: variants, shared trainings, and the report's choice of rates."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from training.experiments.ablations_report import best_rates, write_ablations
 from training.methods.metric import LOSSES
 
 
-def test_variants_of_the_neighborhood_share_the_model_s_network() -> None:
+def test_variants_of_the_neighborhood_share_a_network() -> None:
     every = list(variants(epochs=1, seeds=2))
     assert len({(one.part, one.name) for one in every}) == len(every)
     shared = {one.training_name() for one in every if one.part == "surroundings"}
@@ -23,7 +23,7 @@ def row(part: str, name: str, top1: float, validation: float = 0.5) -> dict[str,
     return facts | dict.fromkeys(keys, top1)
 
 
-def test_a_loss_is_judged_at_its_best_rate_on_validation() -> None:
+def test_best_rate_of_a_loss_is_chosen_on_validation() -> None:
     rows = [
         row("loss", "a-b-0.1", 0.9, validation=0.2),
         row("loss", "a-b-0.2", 0.7, validation=0.4),
@@ -43,7 +43,7 @@ def test_report(tmp_path: Path) -> None:
     assert (tmp_path / "ablations-speed.png").stat().st_size > 1000
 
 
-def test_a_figure_that_a_short_drive_does_not_give_stays_empty(tmp_path: Path) -> None:
+def test_missing_figure_of_a_short_drive_stays_empty(tmp_path: Path) -> None:
     rows = [row("model", name, 0.8) | {"cross_view_top1": None} for name in ("seed-0", "seed-1")]
     report = {"rows": rows, "throughput": {}, "command": "placecell x"}
     text = write_ablations(report, tmp_path).read_text()

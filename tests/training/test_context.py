@@ -1,4 +1,4 @@
-"""Context: the projection of the surroundings, its place in the descriptor, and the whole way."""
+"""Context model: projection of the neighborhood, its part of the descriptor, and the export."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -35,7 +35,7 @@ SIZE = NEIGHBORHOOD_V1.size
 
 
 def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
-    """Boxes of many sizes; a group's surroundings are alike, but for much noise in a few places."""
+    """Return boxes of many sizes whose neighborhoods are similar per group, with local noise."""
     random = np.random.default_rng(seed)
     world = np.random.default_rng(99)
     sizes, places = world.uniform(0.6, 4.0, (groups, 3)), world.uniform(0, 1, (groups, SIZE))
@@ -54,14 +54,14 @@ def many_groups(seed: int, groups: int = 60, views: int = 5) -> TrainingSet:
     )
 
 
-def test_projection_looks_where_views_agree() -> None:
+def test_projection_keeps_views_of_a_group_together() -> None:
     data = many_groups(seed=0)
     assert data.neighborhood is not None
     projection = learn_neighborhood(data, ContextRecipe(dimension=8))
     strength = np.abs(projection.axes).mean(axis=1)
     assert strength[:20].mean() < 0.3 * strength[20:].mean()
     assert projection.mean == pytest.approx(data.neighborhood.mean(axis=0), abs=1e-4)
-    # Views of a group, not learned from, lie closer to one another than to other groups'.
+    # New views of a group are closer to one another than to those of other groups.
     fresh = many_groups(seed=1)
     assert fresh.neighborhood is not None
     found = (fresh.neighborhood - projection.mean) @ projection.axes
@@ -71,7 +71,7 @@ def test_projection_looks_where_views_agree() -> None:
     assert (fresh.groups[distances.argmin(axis=1)] == fresh.groups).mean() > 0.9
 
 
-def test_neighborhood_are_learned_from_what_was_recorded() -> None:
+def test_neighborhoods_are_learned_from_real_streets() -> None:
     data = many_groups(seed=0)
     made_up = data.groups >= 40
     recorded = replace(data, synthetic=made_up).recorded()
@@ -79,7 +79,7 @@ def test_neighborhood_are_learned_from_what_was_recorded() -> None:
     assert recorded.neighborhood is not None
     assert data.neighborhood is not None
     assert (recorded.neighborhood == data.neighborhood[~made_up]).all()
-    # Where all is made up, or nobody knows, all of it will do.
+    # If all segments are synthetic, or this is unknown, all of them are used.
     town = replace(data, synthetic=np.ones(len(data), dtype=bool))
     assert town.recorded() is town
     assert data.recorded() is data
@@ -93,7 +93,7 @@ def test_scatter_by_hand() -> None:
     assert centers.tolist() == [[1.0, 0], [5, 4]]
 
 
-def test_groups_count_alike_however_often_seen() -> None:
+def test_groups_have_equal_weight_at_any_size() -> None:
     data = many_groups(seed=0)
     often = data.take(np.concatenate([np.arange(len(data)), *[np.arange(25)] * 40]))
     assert data.neighborhood is not None
@@ -101,16 +101,16 @@ def test_groups_count_alike_however_often_seen() -> None:
     within, centers = scatter(data.neighborhood.astype(np.float64), data.groups)
     again, same = scatter(often.neighborhood.astype(np.float64), often.groups)
     assert same == pytest.approx(centers)
-    # Of five views each, seen 41 times over: no more evidence, but for the unbiased estimate.
+    # Five views of each group, repeated 41 times, add no information but for the unbiased estimate.
     assert np.trace(again) == pytest.approx(np.trace(within), rel=0.03)
 
 
-def test_too_few_groups_are_said() -> None:
+def test_too_few_groups_raise_an_error() -> None:
     with pytest.raises(ValueError, match="longer drive"):
         learn_neighborhood(many_groups(seed=0, groups=6), ContextRecipe(dimension=8))
 
 
-def test_rotation_keeps_distances_and_is_always_the_same() -> None:
+def test_rotation_keeps_distances_and_is_fixed() -> None:
     turn = rotation(64)
     assert turn @ turn.T == pytest.approx(np.eye(64), abs=1e-5)
     assert (turn == rotation(64)).all()
@@ -128,7 +128,7 @@ def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
     return ExportedContext(segment, projection, rotation(2 * dimension)).eval()
 
 
-def test_onnx_equals_torch_and_quantized_nearly_so(tmp_path: Path) -> None:
+def test_onnx_equals_torch_and_8_bits_come_close(tmp_path: Path) -> None:
     data = many_groups(seed=0, groups=20)
     network = exported(data)
     export_onnx(network, PROTOCOL_V1.grid, tmp_path / "full.onnx")
@@ -149,7 +149,7 @@ def test_onnx_equals_torch_and_quantized_nearly_so(tmp_path: Path) -> None:
     assert str(tmp_path).encode() not in content
 
 
-def test_a_query_alone_is_ranked_by_itself() -> None:
+def test_segment_without_neighborhood_is_ranked_by_its_own_part() -> None:
     data = many_groups(seed=0, groups=20)
     network = exported(data)
     occupancy, extents = map(torch.from_numpy, voxelize(data.segments, data.parameters))
@@ -158,7 +158,7 @@ def test_a_query_alone_is_ranked_by_itself() -> None:
         own = network.segment(occupancy, extents).numpy()
         stored = network(occupancy, extents, around).numpy()
         alone = network(occupancy, extents, torch.zeros_like(around)).numpy()
-    # As long as if something stood around; so what is near by itself is near in the map.
+    # The segment's part has the length of a complete descriptor, so its ranking stays the same.
     longer = np.sqrt(1 + 1.2**2)
     assert (np.linalg.norm(alone, axis=1) / np.linalg.norm(own, axis=1)) == pytest.approx(longer)
     squared = np.square(alone[:, None] - stored[None]).sum(axis=2)
@@ -166,7 +166,7 @@ def test_a_query_alone_is_ranked_by_itself() -> None:
     assert squared == pytest.approx(expected, rel=1e-3)
 
 
-def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
+def test_context_training_publishes_a_usable_model(tmp_path: Path) -> None:
     data = many_groups(seed=0)
     training, validation = data.split(0.4, seed=0)
     recipe = ContextRecipe(
@@ -190,7 +190,7 @@ def test_the_whole_way_to_a_model(tmp_path: Path) -> None:
     assert (manifest.dimension, manifest.code_bytes) == (64, 16)
     figures = manifest.figures["validation"]
     assert figures["top1"] > figures["alone"]["top1"]
-    # What the extractor takes for granted is that the segments were seen together.
+    # The extractor assumes that the segments were seen together.
     extractor = load_extractor(tmp_path / "toy")
     together = extractor.describe(data.segments)
     around = describe_neighborhood(data.segments)

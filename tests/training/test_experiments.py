@@ -1,10 +1,10 @@
-"""The experiments: the plan, and the curves that are drawn."""
+"""Experiments: the plan of trainings and the curves of the report."""
 
 import numpy as np
 import pytest
 
 from training.experiments.comparison import roc_curve
-from training.experiments.plan import Plan
+from training.experiments.plan import ExperimentPlan
 
 
 def test_roc_curve_by_hand() -> None:
@@ -15,13 +15,13 @@ def test_roc_curve_by_hand() -> None:
     assert curve[:, 1] == pytest.approx([2 / 3, 1.0, 1.0])
 
 
-def test_the_plan_holds_every_method_on_every_network_and_the_ablations_once() -> None:
-    trainings = list(Plan(seeds=3).trainings())
+def test_plan_has_every_method_and_network_and_each_ablation_once() -> None:
+    trainings = list(ExperimentPlan(seeds=3).trainings())
     names = [training.name for training in trainings]
     assert len(set(names)) == len(names)
     compared = [(t.method, t.network) for t in trainings if not t.ablation]
     for method in ("group", "siamese", "contrastive"):
         assert compared.count((method, "fast")) == 3
         assert compared.count((method, "paper")) == compared.count((method, "paper-reduced")) == 1
-    # Two dropouts beside the recipe's own, and random pairs.
+    # Two dropout rates besides that of the recipe, and random pairs.
     assert sum(bool(training.ablation) for training in trainings) == 3

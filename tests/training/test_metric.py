@@ -1,4 +1,4 @@
-"""Metric learning: each loss learns, and batches hold matches."""
+"""Metric learning: every loss improves recognition, and batches hold matches."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from training.methods.metric import LOSSES, MetricRecipe, draw_batch
 from training.methods.run import Run
 
 
-def test_a_batch_holds_as_many_of_each_group() -> None:
+def test_batch_has_equal_numbers_per_group() -> None:
     groups = np.repeat(np.arange(40), [2, 9] * 20)
     random = np.random.default_rng(0)
     chosen = draw_batch(random.permutation(groups), random)
@@ -20,13 +20,13 @@ def test_a_batch_holds_as_many_of_each_group() -> None:
     drawn = draw_batch(groups, random)
     sizes = np.bincount(groups[drawn], minlength=40)
     assert set(sizes.tolist()) == {0, metric.VIEWS}
-    # Of large groups no segment twice.
+    # No segment of a large group occurs twice.
     large = drawn[groups[drawn] % 2 == 1]
     assert len(np.unique(large)) == len(large)
 
 
 @pytest.mark.parametrize("loss", LOSSES)
-def test_every_loss_learns(loss: str, shapes: TrainingSet, tmp_path: Path) -> None:
+def test_every_loss_improves_recognition(loss: str, shapes: TrainingSet, tmp_path: Path) -> None:
     run = Run(tmp_path, 0)
     many = shapes.take(np.tile(np.arange(len(shapes)), 8))
     recipe = MetricRecipe(loss, epochs=4, sgd=Sgd(learning_rate=0.05))

@@ -1,4 +1,4 @@
-"""The extractor networks and their export."""
+"""Extractor networks and their export."""
 
 from pathlib import Path
 
@@ -21,7 +21,7 @@ from training.methods.networks import (
 )
 
 
-def test_normalization_is_per_voxel_and_never_blows_up() -> None:
+def test_normalization_is_per_voxel_and_bounded() -> None:
     mean = np.array([[[0.5, 0.0]]], dtype=np.float32)
     deviation = np.array([[[0.5, 0.0]]], dtype=np.float32)
     layer = Normalization(mean, deviation)
@@ -31,7 +31,7 @@ def test_normalization_is_per_voxel_and_never_blows_up() -> None:
     assert empty.tolist() == pytest.approx([-1.0, 0.0])
 
 
-def test_statistics_are_those_of_the_training_set(shapes: TrainingSet) -> None:
+def test_statistics_match_the_training_set(shapes: TrainingSet) -> None:
     mean, deviation = normalization_statistics(shapes)
     occupancy, _ = voxelize(shapes.segments, shapes.parameters)
     assert mean == pytest.approx(occupancy.mean(axis=0), abs=1e-6)
@@ -41,7 +41,7 @@ def test_statistics_are_those_of_the_training_set(shapes: TrainingSet) -> None:
 def a_network(name: str, shapes: TrainingSet) -> DescriptorNetwork:
     torch.manual_seed(4)
     network = DescriptorNetwork(name, *normalization_statistics(shapes), dropout=0.3)
-    # Running statistics other than those of a new network, so that parity is put to the test.
+    # Running statistics that differ from those of a new network make the comparison strict.
     network.train()
     with torch.no_grad():
         occupancy, extents = voxelize(shapes.segments, shapes.parameters)
@@ -67,7 +67,7 @@ def test_onnx_equals_torch_for_any_batch(name: str, shapes: TrainingSet, tmp_pat
             )
         assert through_onnx == pytest.approx(through_torch.numpy(), abs=1e-4)
         assert through_onnx == pytest.approx((learned[:count] - mean) @ axes, abs=1e-4)
-    # No path of the exporting machine: it would become part of the model's id.
+    # Paths of the exporting machine would become part of the model's id.
     assert (
         str(Path(__file__).resolve().parents[2]).encode()
         not in (tmp_path / "model.onnx").read_bytes()
@@ -81,7 +81,7 @@ def test_descriptors_have_length_one(shapes: TrainingSet) -> None:
     assert np.linalg.norm(learned, axis=1) == pytest.approx(1.0, abs=1e-5)
 
 
-def test_principal_axes_keep_distances_that_lie_in_them() -> None:
+def test_principal_axes_keep_distances_within_their_span() -> None:
     random = np.random.default_rng(0)
     flat = random.normal(size=(50, 3)) @ random.normal(size=(3, 64))
     mean, axes = principal_axes(flat.astype(np.float32), 3)

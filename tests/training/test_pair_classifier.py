@@ -1,4 +1,4 @@
-"""The secondary classifiers: symmetry, calibration, export, and the choice among them."""
+"""Secondary classifiers: symmetry, calibration, export, and the choice of the best."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -20,7 +20,7 @@ DIMENSION = 6
 
 
 def toy_pairs(count: int, seed: int, *, curved: bool = False) -> DescriptorPairs:
-    """Matches lie close together; curved: only the first dimension counts."""
+    """Return pairs whose matches are close; if curved, only the first dimension counts."""
     random = np.random.default_rng(seed)
     a = random.normal(size=(count, DIMENSION)).astype(np.float32)
     b = random.normal(size=(count, DIMENSION)).astype(np.float32)
@@ -43,7 +43,7 @@ def run_pair(file: Path, pairs: DescriptorPairs) -> np.ndarray:
     return np.asarray(probability)
 
 
-def test_forest_is_symmetric_and_the_papers_is_not() -> None:
+def test_served_forest_is_symmetric_unlike_the_papers() -> None:
     training, pairs = toy_pairs(2000, 0), toy_pairs(200, 1)
     forest = pair_classifier.train_forest(training, pair_classifier.symmetric, seed=0)
     there = forest.predict_proba(pair_classifier.symmetric(pairs))
@@ -55,7 +55,7 @@ def test_forest_is_symmetric_and_the_papers_is_not() -> None:
     assert (there != back).any()
 
 
-def test_forest_in_onnx_equals_the_one_in_python(tmp_path: Path) -> None:
+def test_forest_in_onnx_equals_sklearn(tmp_path: Path) -> None:
     training, pairs = toy_pairs(2000, 0), toy_pairs(300, 1)
     forest = pair_classifier.train_forest(training, pair_classifier.symmetric, seed=0)
     calibration = PlattScaling(slope=0.7, offset=-0.2)
@@ -103,7 +103,9 @@ def test_calibration_error_by_hand() -> None:
 
 
 @pytest.mark.parametrize(("curved", "kind"), [(False, "distance"), (True, "forest")])
-def test_what_loses_to_distance_is_not_served(curved: bool, kind: str, tmp_path: Path) -> None:
+def test_classifier_worse_than_distance_is_not_served(
+    curved: bool, kind: str, tmp_path: Path
+) -> None:
     learnt, fitted, held_out = (toy_pairs(3000, seed, curved=curved) for seed in range(3))
     chosen = pair_classifier.choose(
         learnt, HeldOut(fitted, fitted), HeldOut(held_out, held_out), None, tmp_path / PAIR_FILE
@@ -116,7 +118,7 @@ def test_what_loses_to_distance_is_not_served(curved: bool, kind: str, tmp_path:
     assert chosen["calibration_error"] < 0.1
 
 
-def test_served_classifier_takes_codes_as_stored(tmp_path: Path) -> None:
+def test_served_classifier_accepts_stored_codes(tmp_path: Path) -> None:
     learnt, fitted, held_out = (toy_pairs(2000, seed) for seed in range(3))
     chosen = pair_classifier.choose(
         learnt, HeldOut(fitted, fitted), HeldOut(held_out, held_out), None, tmp_path / PAIR_FILE
@@ -131,10 +133,10 @@ def test_served_classifier_takes_codes_as_stored(tmp_path: Path) -> None:
     assert classifier.probabilities(a[:0], b[:0]).shape == (0,)
 
 
-def test_the_probability_is_calibrated_on_what_is_asked_and_the_threshold_on_drawn_pairs(
+def test_probability_is_calibrated_on_nearest_pairs_and_threshold_on_drawn_pairs(
     tmp_path: Path,
 ) -> None:
-    # Drawn at random, half of the pairs match; among the nearest, one in ten.
+    # Half of the random pairs match, and one in ten of the nearest pairs.
     learnt, fitted, held_out = (toy_pairs(3000, seed) for seed in range(3))
 
     def mostly_strangers(pairs: DescriptorPairs) -> HeldOut:
@@ -153,6 +155,6 @@ def test_the_probability_is_calibrated_on_what_is_asked_and_the_threshold_on_dra
     assert (told == (held_out.matches > 0.5)).mean() > 0.8
 
 
-def test_calibration_of_a_model_that_never_finds_a_match() -> None:
+def test_calibration_without_matches_gives_low_probabilities() -> None:
     fitted = PlattScaling.fit(np.linspace(-1, 1, 98), np.zeros(98))
     assert fitted.apply(np.array([-3.0, 3.0])) == pytest.approx([0.01, 0.01])

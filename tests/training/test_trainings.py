@@ -1,4 +1,4 @@
-"""The three trainings: their losses and samplers by hand, and that each learns."""
+"""Paper's three trainings: losses and samplers by hand, and improvement of recognition."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -31,16 +31,16 @@ def test_contrastive_loss_by_hand() -> None:
 
 
 def test_hard_pairs_on_a_toy_set() -> None:
-    # Two groups on a line: 0 at 0, 1, 9 and 1 at 2, 3; one loner at 20.
+    # Two groups on a line: 0 at 0, 1, 9 and 1 at 2, 3; one segment without a mate at 20.
     descriptors = np.array([[0.0], [1.0], [9.0], [2.0], [3.0], [20.0]], dtype=np.float32)
     groups = np.array([0, 0, 0, 1, 1, 2])
     random = np.random.default_rng(0)
     matches, others = contrastive.hard_pairs(descriptors, groups, 1, random)
-    # The nearest stranger of each, and no match for the loner.
+    # The nearest non-match of each segment, and no match for the segment without a mate.
     assert others.tolist() == [[0, 3], [1, 3], [2, 4], [3, 1], [4, 1], [5, 2]]
     assert set(matches[:, 0].tolist()) == {0, 1, 2, 3, 4}
     assert all(groups[a] == groups[b] and a != b for a, b in matches)
-    # The farther of two mates is drawn more often: with chance 3/4.
+    # The farther of two mates is drawn with probability 3/4.
     drawn = [contrastive.hard_pairs(descriptors, groups, 1, random)[0][0, 1] for _ in range(400)]
     assert np.mean(np.array(drawn) == 2) == pytest.approx(0.75, abs=0.07)
 
@@ -64,7 +64,7 @@ def test_pair_sampler_is_one_to_one_without_duplicates() -> None:
     assert ((groups[pairs[:, 0]] == groups[pairs[:, 1]]) == (labels == 1)).all()
 
 
-def test_random_pairs_prefer_no_mate_and_no_stranger() -> None:
+def test_random_pairs_are_drawn_uniformly() -> None:
     groups = np.array([0, 0, 0, 0, 1, 1, 1])
     random = np.random.default_rng(0)
     drawn = [contrastive.random_pairs(groups, random) for _ in range(600)]
@@ -74,23 +74,35 @@ def test_random_pairs_prefer_no_mate_and_no_stranger() -> None:
     assert np.bincount(strangers)[4:] / 600 == pytest.approx([1 / 3] * 3, abs=0.06)
 
 
-def test_pair_sampler_ends_when_non_matches_run_out() -> None:
+def test_pair_sampler_stops_when_non_matches_run_out() -> None:
     groups = np.array([0] * 10 + [1])  # 45 matches, 10 others
     pairs, labels = siamese.sample_pairs(groups, 4000, np.random.default_rng(0))
     assert labels.sum() == 10
     assert len(pairs) == 20
-    with pytest.raises(ValueError, match="no pairs"):
+    with pytest.raises(ValueError, match="No pairs"):
         siamese.sample_pairs(np.zeros(5, dtype=np.int64), 10, np.random.default_rng(0))
 
 
 @pytest.mark.slow
-def test_a_checkpoint_of_other_data_is_refused(
+def test_checkpoint_of_other_data_is_refused(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = group_based.GroupBasedRecipe(epochs=1, sgd=SMALL)
     group_based.train(shapes, other_views, Run(tmp_path, 0, "these drives"), recipe=recipe)
     with pytest.raises(ValueError, match="other drives"):
         group_based.train(shapes, other_views, Run(tmp_path, 0, "those drives"), recipe=recipe)
+
+
+def test_checkpoint_of_an_earlier_version_asks_to_begin_anew(
+    shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
+) -> None:
+    recipe = group_based.GroupBasedRecipe(epochs=1, sgd=SMALL)
+    group_based.train(shapes, other_views, Run(tmp_path, 0), recipe=recipe)
+    state = torch.load(tmp_path / "checkpoint.pt", weights_only=True)
+    del state["optimizer"]
+    torch.save(state, tmp_path / "checkpoint.pt")
+    with pytest.raises(ValueError, match=r"no state of the optimizer.* Begin anew"):
+        group_based.train(shapes, other_views, Run(tmp_path, 0), recipe=recipe)
 
 
 def test_pair_sampler_stays_one_to_one_when_matches_run_out() -> None:
@@ -107,7 +119,7 @@ def test_third_network_does_not_depend_on_the_order() -> None:
 
 
 @pytest.mark.slow
-def test_group_based_training_learns(
+def test_group_based_training_improves_recognition(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = group_based.GroupBasedRecipe(epochs=8, sgd=SMALL)
@@ -118,7 +130,7 @@ def test_group_based_training_learns(
 
 
 @pytest.mark.slow
-def test_siamese_training_learns(
+def test_siamese_training_improves_recognition(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = siamese.SiameseRecipe(epochs=4, pairs=200, sgd=SMALL)
@@ -128,7 +140,7 @@ def test_siamese_training_learns(
 
 
 @pytest.mark.slow
-def test_contrastive_training_learns(
+def test_contrastive_training_improves_recognition(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = contrastive.ContrastiveRecipe(epochs=8, sgd=SMALL)
@@ -137,7 +149,7 @@ def test_contrastive_training_learns(
 
 
 @pytest.mark.slow
-def test_a_resumed_run_ends_as_one_that_was_never_stopped(
+def test_resumed_run_equals_an_uninterrupted_run(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = group_based.GroupBasedRecipe(epochs=3, sgd=SMALL)
@@ -169,7 +181,7 @@ def test_small_groups_are_left_out() -> None:
     assert data.without_small_groups(3).groups.tolist() == [0, 0, 0]
 
 
-def test_held_out_segments_leave_each_group_three_to_learn_from(shapes: TrainingSet) -> None:
+def test_held_out_segments_leave_three_per_group(shapes: TrainingSet) -> None:
     held_out = group_based.held_out_segments(shapes, 0.1, np.random.default_rng(0))
     assert len(held_out) == 5  # a tenth of 48, rounded up
     assert len(set(held_out.tolist())) == 5
@@ -178,7 +190,7 @@ def test_held_out_segments_leave_each_group_three_to_learn_from(shapes: Training
     assert (left == 3).all()
 
 
-def test_recordings_cut_otherwise_are_not_mixed_and_no_scan_is_taken_twice() -> None:
+def test_different_parameters_and_shared_scans_are_refused() -> None:
     recording = Recording(
         name="toy",
         parameters=PROTOCOL_V1,
@@ -196,7 +208,7 @@ def test_recordings_cut_otherwise_are_not_mixed_and_no_scan_is_taken_twice() -> 
         scan_hashes=tuple("ijklmnop"),
     )
     whole = Source(recording, 0, recording.scans - 1)
-    with pytest.raises(ValueError, match="different constants"):
+    with pytest.raises(ValueError, match="different parameters"):
         TrainingSet.of([whole, Source(other, 0, other.scans - 1)])
     with pytest.raises(ValueError, match="shares scans"):
         TrainingSet.of([whole, Source(recording, 0, 0)])
@@ -209,7 +221,7 @@ def test_split_keeps_groups_whole(shapes: TrainingSet) -> None:
     assert (validation.group_sizes() == 6).all()
 
 
-def test_augmentation_loses_points_but_never_a_segment(shapes: TrainingSet) -> None:
+def test_augmentation_drops_points_but_no_segment(shapes: TrainingSet) -> None:
     harsh = Augmentation(cut_share=1.0, cut_most=1.0, drop_most=1.0)
     occupancy, _ = harsh.copies(shapes.segments, shapes.parameters, np.random.default_rng(0))
     assert (occupancy.reshape(len(shapes), -1).sum(axis=1) >= 1).all()

@@ -1,6 +1,6 @@
-"""Augmentation: what the same segment might have looked like (paper III-A: rotated copies).
+"""Augmentation: altered copies of segments (paper III-A: rotated copies).
 
-Beyond the paper's rotations: cuts and missing points, for occlusion and sparser views.
+Beyond the paper's rotations, copies lose parts and points, as under occlusion and in sparser views.
 """
 
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from placecell.descriptors.voxels import voxelize
 
 @dataclass(frozen=True, slots=True)
 class Augmentation:
-    """How far a copy may differ from the segment.
+    """Augmentation: largest differences between a copy and its segment.
 
     Attributes:
-        yaw: largest turn about z, either way, radians.
-        cut_share: how many of the copies lose what lies beyond a random vertical plane.
-        cut_most: the largest share of the segment's length, in the cut's direction, that it takes.
-        drop_most: the largest share of points that go missing at random.
+        yaw: largest rotation about z in either direction, radians.
+        cut_share: share of the copies that lose all points beyond a random vertical plane, 0 to 1.
+        cut_most: largest share of the segment's length, along the cut's direction, that is lost.
+        drop_most: largest share of points that are dropped at random, 0 to 1.
     """
 
     yaw: float = np.radians(20.0)
@@ -32,17 +32,19 @@ class Augmentation:
     def copies(
         self, segments: Segments, parameters: Parameters, random: np.random.Generator
     ) -> tuple[UInt8, Float32]:
-        """One altered copy of each segment, as the network's input (see `voxelize`)."""
+        """Return an altered copy of each segment as input of the network; see `voxelize`."""
         altered = self.segments(segments, random)
         return voxelize(altered, parameters, random.uniform(-self.yaw, self.yaw, len(segments)))
 
     def segments(
         self, segments: Segments, random: np.random.Generator, *, exactly: bool = False
     ) -> Segments:
-        """The same segments with fewer points.
+        """Return the segments with fewer points.
 
         Args:
-            exactly: each loses what it may lose at most.
+            segments: segments to alter.
+            random: random generator.
+            exactly: True if each segment loses the largest allowed share.
         """
         keep = self._keep(segments, random, exactly)
         counts = np.add.reduceat(keep, segments.starts, dtype=np.int64)
@@ -51,7 +53,7 @@ class Augmentation:
     def _keep(self, segments: Segments, random: np.random.Generator, exactly: bool) -> Bool:
         count = len(segments)
         counts = segments.counts
-        # A cut takes the points beyond a share of the way along a random horizontal direction.
+        # A cut removes the points beyond some share of the length along a horizontal direction.
         bearing = random.uniform(0, 2 * np.pi, count)
         direction = np.stack([np.cos(bearing), np.sin(bearing)], axis=1)
         along = np.einsum("ij,ij->i", segments.points[:, :2], np.repeat(direction, counts, axis=0))
@@ -67,6 +69,6 @@ class Augmentation:
         keep = (along <= np.repeat(limit, counts)) & (
             random.random(len(along)) < np.repeat(stays, counts)
         )
-        # Never an empty segment: its first point stays.
+        # The first point always stays, so that no segment becomes empty.
         keep[segments.starts] = True
         return np.asarray(keep)

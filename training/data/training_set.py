@@ -1,4 +1,4 @@
-"""The training set: distinct segments of one or several recordings, with their groups."""
+"""Training set: distinct segments of recordings, with their groups as labels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from placecell.segmentation.recording import Recording
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A part of a recording: the groups that lie wholly within scans first to last."""
+    """Part of a recording: the groups that lie completely within the scans first to last."""
 
     recording: Recording
     first: int
@@ -22,16 +22,16 @@ class Source:
 
     @property
     def synthetic(self) -> bool:
-        """Whether it is of a town that was made up, `town:SEED`."""
+        """Return whether the recording shows a synthetic town, `town:SEED`."""
         return self.recording.name.startswith("town:")
 
     def indices(self) -> Int64:
-        """Distinct segments of those groups."""
+        """Return the indices of the distinct segments of these groups."""
         inside = self.recording.within(self.first, self.last)
         return np.flatnonzero(inside & self.recording.distinct)
 
     def describe(self) -> dict[str, Any]:
-        """For a manifest: which drive and scans, with the hashes of the scans."""
+        """Return the entry of a manifest: drive, scans and the hashes of the scans."""
         return {
             "drive": self.recording.name,
             "scans": [self.first, self.last],
@@ -42,17 +42,17 @@ class Source:
 
 
 def check_apart(sources: Sequence[Source]) -> None:
-    """See that no scan stands in two of these.
+    """Check that no two sources share a scan.
 
     Raises:
-        ValueError: one does.
+        ValueError: two sources share a scan.
     """
     seen: dict[str, str] = {}
     for source in sources:
         name = f"{source.recording.name} scans {source.first} to {source.last}"
         hashes = set(source.recording.scan_hashes[source.first : source.last + 1])
         for scan in hashes & seen.keys():
-            raise ValueError(f"{name} shares scans with {seen[scan]}; take each scan once")
+            raise ValueError(f"{name} shares scans with {seen[scan]}. Use each scan only once.")
         seen |= dict.fromkeys(hashes, name)
 
 
@@ -61,12 +61,12 @@ class TrainingSet:
     """Distinct segments with labels.
 
     Attributes:
-        segments: each drive's in its own frame.
-        groups: int64 (segments,): from 0, different over drives.
-        parameters: of the grid.
-        neighborhood: float32 (segments, size): what stood around each in its frame, duplicates
-            included, as in a robot's request; None if nobody asked.
-        synthetic: bool (segments,): seen in a town that was made up; None: nobody knows.
+        segments: segments; coordinates are in the frame of each drive, meters.
+        groups: int64 (segments,): group of each segment, from 0; drives share no groups.
+        parameters: parameters of the voxel grid.
+        neighborhood: float32 (segments, size): neighborhood of each segment in its capture,
+            duplicates included, as in a robot's request; None if it was not computed.
+        synthetic: bool (segments,): True for segments of synthetic towns; None if unknown.
     """
 
     segments: Segments
@@ -79,18 +79,19 @@ class TrainingSet:
     def of(
         cls, sources: Sequence[Source], neighborhood: NeighborhoodParameters | None = None
     ) -> "TrainingSet":
-        """From parts of recordings.
+        """Build a training set from parts of recordings.
 
         Args:
-            neighborhood: how to describe them, if at all.
+            sources: parts of recordings.
+            neighborhood: parameters of the neighborhood; None to leave the neighborhood out.
 
         Raises:
-            ValueError: a scan stands in two of them, or they were cut with other constants.
+            ValueError: two sources share a scan, or they were segmented by different parameters.
         """
         check_apart(sources)
         if len({replace(source.recording.parameters, frame_step=1) for source in sources}) > 1:
             raise ValueError(
-                "the recordings were cut with different constants; prepare them anew together"
+                "The recordings were segmented by different parameters. Prepare all of them again."
             )
         parts, groups, count = [], [], 0
         around = []
@@ -114,37 +115,37 @@ class TrainingSet:
         return len(self.segments)
 
     def recorded(self) -> "TrainingSet":
-        """What was seen in real streets; all of it, if none was.
+        """Return the segments of real streets; all segments if none is real.
 
-        Streets that were made up are as good to learn segments from, but what they look like as a
-        whole is not: neither which directions a descriptor varies in nor what stands around.
+        Synthetic streets teach single segments as well as real streets. They do not teach the
+        principal axes of descriptors or the neighborhoods of segments.
         """
         if self.synthetic is None or self.synthetic.all():
             return self
         return self.take(np.flatnonzero(~self.synthetic))
 
     def take(self, indices: Int64) -> "TrainingSet":
-        """These segments, their groups numbered anew from 0."""
+        """Return some of the segments, with groups renumbered from 0."""
         labels = np.unique(self.groups[indices], return_inverse=True)[1]
         around = None if self.neighborhood is None else self.neighborhood[indices]
         made_up = None if self.synthetic is None else self.synthetic[indices]
         return TrainingSet(self.segments.take(indices), labels, self.parameters, around, made_up)
 
     def group_sizes(self) -> Int64:
-        """Segments of each group, int64 (groups,)."""
+        """Return the number of segments of each group, int64 (groups,)."""
         return np.bincount(self.groups)
 
     def without_small_groups(self, fewest: int) -> "TrainingSet":
-        """Only groups of at least so many segments (paper III-C)."""
+        """Return the groups of at least `fewest` segments (paper III-C)."""
         return self.take(np.flatnonzero(self.group_sizes()[self.groups] >= fewest))
 
     def split(self, share: float, seed: int) -> tuple["TrainingSet", "TrainingSet"]:
-        """Training and validation set: a share of the groups, whole, is held out."""
+        """Split into training and validation set; a share of the groups is held out."""
         learned, held_out = self.halves(share, seed)
         return self.take(learned), self.take(held_out)
 
     def halves(self, share: float, seed: int) -> tuple[Int64, Int64]:
-        """Indices of the segments of most groups, and of a share of the groups, drawn at random."""
+        """Return the indices of kept and of held-out segments; groups are drawn at random."""
         groups = np.random.default_rng(seed).permutation(len(self.group_sizes()))
         held_out = np.isin(self.groups, groups[: round(share * len(groups))])
         return np.flatnonzero(~held_out), np.flatnonzero(held_out)

@@ -1,6 +1,6 @@
-"""What each part of the context model is worth: the same training with one thing changed.
+"""Ablations of the context model: trainings that differ in one setting each.
 
-All but the losses are compared with the group-based loss.
+All variants but those of the loss use the group-based loss.
 
 placecell ablations --train DRIVE@0:299 --train town:11 --test DRIVE@300:500
 """
@@ -38,22 +38,22 @@ from training.methods.registry import Trained, train_segment
 from training.methods.run import Run
 
 RATES = (0.05, 0.2)
-"""Learning rates that each loss is tried with; the best on the validation groups counts."""
+"""Learning rates of each loss; the best one on the validation groups counts."""
 
 NETWORKS = ("fast", "paper-reduced")
-"""Beside the model's own."""
+"""Networks that are compared with the network of the model."""
 
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One training, and what is different about it.
+    """Variant: one training and its changed setting.
 
     Attributes:
-        part: of the model that is looked at; variants of a part are compared.
-        name: of what was chosen.
-        segment: how the segment itself is learned.
-        neighborhood: dimension, weight and shrinkage of what stands around.
-        towns: whether the synthetic streets are learned from.
+        part: part of the model that differs; the variants of one part are compared.
+        name: name of the choice.
+        segment: recipe for the descriptor of the segment itself.
+        neighborhood: recipe for the projection of the neighborhood.
+        towns: True if the training includes synthetic towns.
     """
 
     part: str
@@ -65,14 +65,14 @@ class Variant:
     seed: int = 0
 
     def training_name(self) -> str:
-        """Of the network's run: the same for variants that differ in the surroundings alone."""
+        """Return the name of the network's run; variants of the neighborhood share it."""
         part = "model" if self.part == "surroundings" else self.part
         name = "seed-0" if self.part == "surroundings" else self.name
         return f"{part}-{name}"
 
 
 def variants(epochs: int, seeds: int) -> Iterator[Variant]:
-    """All of them, the model itself with several seeds first."""
+    """Yield all variants; the model itself, with several seeds, comes first."""
     base = GroupBasedRecipe(epochs=epochs)
     for seed in range(seeds):
         yield Variant("model", f"seed-{seed}", base, seed=seed)
@@ -108,14 +108,21 @@ def run_ablations(
     output: Path,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Train and measure every variant that is not yet in the output's folder.
+    """Train and measure every variant that is not yet in the output folder.
+
+    Args:
+        training_sources: parts of recordings to train on.
+        test_source: part of a recording to test on.
+        chosen: variants to train.
+        output: output folder.
+        progress: display of the progress; None for no display.
 
     Returns:
-        `rows`, in order: part, name, network, what validation and test say; and `throughput`,
-        segments a second of each network's ONNX, in full and in 8 bits.
+        `rows`: part, name, network, validation and test figures of each variant, in order.
+        `throughput`: segments per second of each network's ONNX file, float32 and 8-bit.
 
     Raises:
-        ValueError: the test shares scans with the training, or there is too little to learn from.
+        ValueError: the test shares scans with the training, or there are too few groups.
     """
     check_apart([*training_sources, test_source])
     everything = collect(training_sources, "not stated", NEIGHBORHOOD_V1)

@@ -1,4 +1,4 @@
-"""The ablations in Markdown, and accuracy against speed as a picture."""
+"""Report of the ablations: tables in Markdown and a plot of accuracy against speed."""
 
 from itertools import groupby
 from pathlib import Path
@@ -14,13 +14,13 @@ FIGURES = {
     "recall_at_25": "recall_at_25",
     "pair_auc_by_distance": "pair AUC",
 }
-"""Columns, by key."""
+"""Titles of the columns, by key."""
 
 Row = dict[str, Any]
 
 
 def write_ablations(report: dict[str, Any], output: Path) -> Path:
-    """Write `ablations.md` and `speed.png`; returns the former."""
+    """Write `ablations.md` and `speed.png`; return the path of `ablations.md`."""
     own = [row for row in report["rows"] if row["part"] == "model"]
     rows = best_rates([row for row in report["rows"] if row["part"] != "model"])
     lines = ["# Ablations", "", "Made by", "", f"    {report['command']}", ""]
@@ -30,7 +30,7 @@ def write_ablations(report: dict[str, Any], output: Path) -> Path:
     for part, members in groupby(rows, key=lambda row: row["part"]):
         lines += ["", *_head(f"{part} changed"), *(_line(row) for row in members)]
     if report["throughput"]:
-        lines += ["", "Segments a second, batches of 64, all cores, in this run:", ""]
+        lines += ["", "Segments per second in this run, in batches of 64 on all cores:", ""]
         lines += [f"- {name}: {rate:,.0f}" for name, rate in report["throughput"].items()]
         points = speeds(report)
         plots.accuracy_against_speed(points, output / "ablations-speed.png")
@@ -41,7 +41,7 @@ def write_ablations(report: dict[str, Any], output: Path) -> Path:
 
 
 def best_rates(rows: list[Row]) -> list[Row]:
-    """Of each loss the row of the learning rate that did best on the validation groups."""
+    """Return the row of each loss whose learning rate is best on the validation groups."""
     kept: list[Row] = []
     for row in rows:
         if row["part"] != "loss":
@@ -56,9 +56,10 @@ def best_rates(rows: list[Row]) -> list[Row]:
 
 
 def speeds(report: dict[str, Any]) -> list[tuple[str, float, float]]:
-    """Name, segments a second and top1 of the segment alone, of each network and precision.
+    """Return name, segments per second and top1 of the segment alone, by network and precision.
 
-    The accuracy is of the 8-bit network; in full it differs by less than a training's seed.
+    The accuracy is that of the 8-bit network. The float32 network differs by less than two
+    trainings with different seeds.
     """
     by_network = {row["network"]: row for row in report["rows"] if row["part"] == "network"}
     own = [row for row in report["rows"] if row["part"] == "model"]
@@ -79,6 +80,6 @@ def _deviation(rows: list[Row], key: str) -> float | None:
 
 
 def _line(row: Row) -> str:
-    # Of a short drive not every figure can be told.
+    # A short drive does not give every figure.
     cells = ("" if row[key] is None else f"{row[key]:.3f}" for key in FIGURES)
     return f"| {row['name']} | " + " | ".join(cells) + " |"

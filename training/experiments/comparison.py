@@ -1,4 +1,4 @@
-"""One model of the experiments on the test set, and what its network costs (paper IV-B)."""
+"""Comparison of the experiments' models: recognition and throughput (paper IV-B)."""
 
 import time
 from collections.abc import Mapping
@@ -25,10 +25,13 @@ from training.export.publishing import stored_descriptors
 def compare(
     folder: Path, test: TrainingSet, training: TrainingSet, *, paper_forest: bool
 ) -> dict[str, Any]:
-    """One model on the test set: its figures, its ROC curve and its distances' distributions.
+    """Measure a model on the test set: figures, ROC curve and distributions of distances.
 
     Args:
-        paper_forest: train the paper's forest, on concatenated descriptors, and measure it too.
+        folder: folder of the model.
+        test: test set.
+        training: training set, for the paper's forest.
+        paper_forest: True to train and measure the paper's forest on concatenated descriptors.
     """
     manifest = Manifest.load(folder)
     extractor = load_extractor(folder)
@@ -69,7 +72,7 @@ def compare(
 def by_paper_forest(
     extractor: Extractor, training: TrainingSet, stored: Float32, drawn: tuple[Int64, Int64]
 ) -> tuple[Float64, Float64]:
-    """What the paper's forest, learned on the training set, says of drawn pairs of the test set."""
+    """Train the paper's forest on the training set; return its scores of drawn test pairs."""
     learned = retrieval.draw_pairs(training.groups, retrieval.PAIRS, np.random.default_rng(0))
     pairs = DescriptorPairs.of(stored_descriptors(extractor, training), *learned)
     forest = train_forest(pairs, concatenated, seed=0)
@@ -79,7 +82,7 @@ def by_paper_forest(
 
 
 def roc_curve(positive: Float64, negative: Float64, points: int = 101) -> list[list[float]]:
-    """False positive rate and true positive rate at evenly spread false positive rates."""
+    """Return false and true positive rates at evenly spaced false positive rates."""
     rates = np.linspace(0, 1, points)
     thresholds = np.quantile(negative, 1 - rates)
     return [
@@ -89,7 +92,7 @@ def roc_curve(positive: Float64, negative: Float64, points: int = 101) -> list[l
 
 
 def fits_grid(data: TrainingSet) -> float:
-    """Share of segments that fit entirely into the voxel grid (the paper's: about 95%)."""
+    """Return the share of segments that fit into the voxel grid (in the paper about 95%)."""
     aligned = Segments(orient(data.segments), data.segments.ends, data.segments.sensors)
     lowest, highest = aligned.bounds()
     limit = np.array(data.parameters.grid) * data.parameters.grid_voxel
@@ -97,7 +100,7 @@ def fits_grid(data: TrainingSet) -> float:
 
 
 def throughput(files: Mapping[str, Path], parameters: Parameters) -> dict[str, float]:
-    """Segments a second of each network's ONNX file, batches of 64, all cores."""
+    """Return the segments per second of each ONNX file, in batches of 64 on all cores."""
     random = np.random.default_rng(0)
     inputs = {
         "occupancy": (random.random((64, *parameters.grid)) < 0.01).astype(np.uint8),

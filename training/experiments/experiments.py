@@ -1,9 +1,9 @@
-"""The paper's experiments (section IV) as one command: train all, compare all, report.
+"""Paper's experiments (section IV) as one command: trains and compares all models.
 
     placecell experiments --train DRIVE@0:299 --train OTHER --test DRIVE@300:500
 
-Every training leaves its run and its model in the output's folders; stopped, the command goes on
-where it was.
+Every training stores its run and its model in the output folder. A stopped command continues when
+it is started again.
 """
 
 import json
@@ -20,7 +20,7 @@ from placecell.descriptors.extractor import MODEL_FILE
 from placecell.descriptors.manifest import FILE as MANIFEST_FILE
 from training.data.training_set import Source, TrainingSet, check_apart
 from training.experiments.comparison import compare, fits_grid, throughput
-from training.experiments.plan import Plan, Training
+from training.experiments.plan import ExperimentPlan, Training
 from training.export.publishing import (
     Data,
     collect,
@@ -36,32 +36,41 @@ from training.methods.run import Run
 def run_experiments(
     training_sources: list[Source],
     test_source: Source,
-    plan: Plan,
+    plan: ExperimentPlan,
     output: Path,
     license_name: str,
     command: str,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Do what of the plan is not yet done, measure all, and return the report's content.
+    """Train the models that are not yet in the output folder; measure all models.
 
     Args:
-        command: that runs these experiments, for the report and the cards of ablations.
+        training_sources: parts of recordings to train on.
+        test_source: part of a recording to test on.
+        plan: trainings of the experiments.
+        output: output folder.
+        license_name: license of the drives.
+        command: command that runs these experiments, for the report and the model cards.
+        progress: display of the progress; None for no display.
+
+    Returns:
+        Content of the report.
 
     Raises:
-        ValueError: the test shares scans with the training, or there is too little to learn from
-            or to test on; or the output holds other experiments.
+        ValueError: the test shares scans with the training, there are too few groups or test
+            segments, or the output folder holds other experiments.
     """
     check_apart([*training_sources, test_source])
     data = collect(training_sources, license_name)
     training, validation = data.training, data.validation
     test = TrainingSet.of([test_source])
     if not len(test):
-        raise ValueError("no segments to test on; are the scans right?")
+        raise ValueError("No segments lie within the test scans. Choose other scans or a drive.")
 
     check_identity(output, fingerprint(data, plan.epochs, plan.epochs_3d))
 
     def publish(one: Training, make: Callable[[Path, Data], Any]) -> None:
-        """Train and publish a model unless its folder is there already."""
+        """Train and publish a model unless its folder exists already."""
         folder = output / "models" / one.name
         if not (folder / MANIFEST_FILE).exists():
             again = retraining(one.method, training_sources, license_name, one.seed, *one.options())
@@ -116,16 +125,16 @@ def run_experiments(
 
 
 def check_identity(output: Path, identity: str) -> None:
-    """See that what lies in the output's folder was learned from the same data.
+    """Check that the output folder belongs to the same experiments.
 
     Raises:
-        ValueError: it was not.
+        ValueError: the folder holds experiments on other drives or with other epochs.
     """
     file = output / "identity"
     if file.exists() and file.read_text() != identity:
         raise ValueError(
-            f"{output}: holds experiments on other drives or with other epochs; "
-            "name another folder with --output, or remove this one"
+            f"{output} holds experiments on other drives or with other epochs. Choose another "
+            "folder with --output, or remove this one."
         )
     output.mkdir(parents=True, exist_ok=True)
     file.write_text(identity)

@@ -1,4 +1,4 @@
-"""Which trainings the experiments consist of (paper, section IV)."""
+"""Plan of the experiments: the trainings that are run and compared (paper, section IV)."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -8,19 +8,23 @@ from training.methods.registry import METHODS
 from training.methods.siamese import SiameseRecipe
 
 EPOCHS_3D = {"group": 12, "siamese": 8, "contrastive": 6}
-"""Of the `paper` network, an epoch of which costs ten times as much: what half an hour allows."""
+"""Epochs of the `paper` network by method: as many as half an hour allows.
+
+One epoch of this network takes ten times as long as one of the others.
+"""
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
-    """What is trained.
+class ExperimentPlan:
+    """Plan of the experiments' trainings.
 
     Attributes:
-        networks: by name; the first is the one that ablations use.
-        seeds: trainings of each method on the first network; the others are trained once.
-        dropouts: of the Siamese, to show what regularisation does to its over-fitting.
-        epochs: of every training; None: each recipe's own.
-        epochs_3d: the same of the `paper` network, by method.
+        networks: names of the networks; ablations use the first.
+        seeds: number of trainings of each method on the first network; other networks are trained
+            once.
+        dropouts: dropout rates of the Siamese network, to show their effect on over-fitting.
+        epochs: number of epochs of every training; None for the epochs of each recipe.
+        epochs_3d: number of epochs of the `paper` network, by method.
     """
 
     networks: tuple[str, ...] = ("fast", "paper-reduced", "paper")
@@ -30,14 +34,14 @@ class Plan:
     epochs_3d: Mapping[str, int] = field(default_factory=lambda: EPOCHS_3D)
 
     def trainings(self) -> "Iterator[Training]":
-        """All trainings, cheapest first."""
+        """Yield all trainings, cheapest first."""
         first = self.networks[0]
         for seed in range(self.seeds):
             for method in METHODS:
                 yield Training(method, first, seed, self._changes(method, first))
         for dropout in self.dropouts:
             if dropout == SiameseRecipe().dropout:
-                continue  # that is the training of seed 0
+                continue  # already trained with seed 0
             changes = self._changes("siamese", first) | {"dropout": dropout}
             yield Training("siamese", first, 0, changes, f"dropout-{dropout}")
         random_pairs = self._changes("contrastive", first) | {"hard": False}
@@ -54,14 +58,14 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Training:
-    """One training of the plan.
+    """Training of the plan.
 
     Attributes:
-        method: by name.
-        network: by name.
-        seed: of the training; the split into training and validation set is always the same.
-        changes: to the method's recipe.
-        ablation: what is special about it; empty for those that are compared with the paper.
+        method: name of the method.
+        network: name of the network.
+        seed: random seed; the split into training and validation set does not depend on it.
+        changes: changed settings of the method's recipe.
+        ablation: name of the changed setting; empty for trainings compared with the paper.
     """
 
     method: str
@@ -72,14 +76,14 @@ class Training:
 
     @property
     def name(self) -> str:
-        """Of its run and its model."""
+        """Return the name of the training's run and model."""
         if not self.network:
             return self.method
         parts = [self.method, self.network, str(self.seed), self.ablation]
         return "-".join(part for part in parts if part)
 
     def options(self) -> list[object]:
-        """Of `placecell train`, where they are not its defaults."""
+        """Return the options of `placecell train` that differ from its defaults."""
         options: list[object] = []
         if self.network not in ("", "fast"):
             options += ["--network", self.network]

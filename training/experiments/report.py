@@ -1,4 +1,4 @@
-"""The experiments' report in Markdown, beside the paper's own figures."""
+"""Report of the experiments in Markdown, beside the paper's figures."""
 
 import json
 from pathlib import Path
@@ -15,16 +15,16 @@ PAPER = {
     "siamese": "about 30%",
     "contrastive": "about 50%",
 }
-"""Correct candidate matches of the paper's figure 5, of about 16,000 segments in 3,000 groups."""
+"""Correct candidate matches in the paper's figure 5, for about 16,000 segments in 3,000 groups."""
 
 PAPER_TIMES = {"group": "1 h", "siamese": "6 h", "contrastive": "24 h"}
-"""On a GTX 980."""
+"""Training times of the paper on a GTX 980."""
 
 DROPOUT = SiameseRecipe().dropout
 
 
 def write_report(report: dict[str, Any], output: Path) -> Path:
-    """Write `report.json`, the figures and `report.md`; returns the latter."""
+    """Write `report.json`, the figures and `report.md`; return the path of `report.md`."""
     (output / "report.json").write_text(json.dumps(report, indent=1) + "\n")
     models = report["models"]
     network = next(iter(report["throughput"]))
@@ -46,12 +46,12 @@ def write_report(report: dict[str, Any], output: Path) -> Path:
         "# The paper's experiments",
         "",
         f"Trained on {sources}: {training['segments']:,} segments in {training['groups']:,} "
-        f"groups, {training['validation_segments']:,} more in groups held out for validation. "
+        f"groups. {training['validation_segments']:,} more segments are in validation groups. "
         f"Tested on {test['drive']}, scans {test['scans'][0]} to {test['scans'][1]}: "
         f"{test['segments']:,} segments in {test['groups']:,} groups. "
-        f"Protocol {report['protocol']}; descriptors as stored, 32 bytes. "
-        f"{report['fits_grid']:.1%} of the test segments fit entirely into the "
-        "voxel grid (the paper chose the grid so that about 95% would). Machine: "
+        f"Protocol {report['protocol']}; descriptors in their stored form of 32 bytes. "
+        f"{report['fits_grid']:.1%} of the test segments fit into the voxel grid (in the paper "
+        "about 95%). Machine: "
         f"{report['machine']['processor']}, {report['machine']['cores']} cores.",
         "",
         *_candidates(models),
@@ -65,7 +65,7 @@ def write_report(report: dict[str, Any], output: Path) -> Path:
 
 
 def _compared(models: plots.Models) -> dict[tuple[str, str], list[dict[str, Any]]]:
-    """Models that are compared with the paper, seeds together, by method and network."""
+    """Return the models that are compared with the paper, by method and network."""
     found: dict[tuple[str, str], list[dict[str, Any]]] = {}
     for model in models.values():
         if not model["ablation"]:
@@ -113,10 +113,10 @@ def _pairs(models: plots.Models) -> list[str]:
     return [
         "## Pairs: match or not (figure 4)",
         "",
-        "*Served* is the kind of classifier that told pairs of held-out groups apart best; plain "
+        "*Served* is the kind of classifier that is best on pairs of held-out groups. Plain "
         "distance is the control. The paper's forest takes the concatenated descriptors. The "
-        "paper's Siamese reached about 80%. The calibration error is of the served probability, "
-        "over each test segment with its 25 nearest: the mean of |stated - true|.",
+        "paper's Siamese network reached about 80%. The calibration error is the mean of "
+        "|stated - true| of the served probability, over each test segment and its 25 nearest.",
         "",
         "| method | network | served | AUC | accuracy | AUC by distance | AUC, paper's forest "
         "| calibration error |",
@@ -148,18 +148,18 @@ def _cost(report: dict[str, Any]) -> list[str]:
         for network, rate in report["throughput"].items()
     ]
     return [
-        "## What it costs",
+        "## Cost",
         "",
-        "Training, minutes of processor time, over all cores together (the paper: on a GTX 980):",
+        "Training time in minutes, summed over all cores (the paper: on a GTX 980):",
         "",
         f"| method | paper | {' | '.join(networks)} |",
         "|---|---|" + "---|" * len(networks),
         *times,
         "",
-        "Inference through ONNX Runtime, batches of 64, all cores (the paper: 12 segments a second "
-        "on a CPU, 340 for the reduced network):",
+        "Inference with ONNX Runtime in batches of 64 on all cores (the paper: 12 segments per "
+        "second on a CPU, 340 for the reduced network):",
         "",
-        "| network | segments a second | times `paper` |",
+        "| network | segments per second | relative to `paper` |",
         "|---|---|---|",
         *rates,
         "",
@@ -170,19 +170,19 @@ def _figures(models: plots.Models, network: str) -> list[str]:
     return [
         "## Training, epoch by epoch (figure 3)",
         "",
-        f"On the `{network}` network, one line a seed.",
+        f"Network `{network}`; one line per seed.",
         "",
         "![Training curves](training.png)",
         "",
         "## Hard pairs",
         "",
-        "Distances of test pairs after contrastive training, with hard pairs and with random ones: "
-        f"top1 {models[f'contrastive-{network}-0']['figures']['top1']:.1%} against "
+        "Distances of test pairs after contrastive training with hard pairs and with random pairs: "
+        f"top1 is {models[f'contrastive-{network}-0']['figures']['top1']:.1%} against "
         f"{models[f'contrastive-{network}-0-random-pairs']['figures']['top1']:.1%}.",
         "",
         "![Distances of positive and negative pairs](distances.png)",
         "",
-        "## Regularisation of the Siamese",
+        "## Regularization of the Siamese network",
         "",
         "| dropout | training accuracy | validation accuracy | test top1 | test pair accuracy |",
         "|---|---|---|---|---|",

@@ -1,4 +1,4 @@
-"""Model card: what a reader must know before using a model, written from its manifest."""
+"""Model card: data, figures and limits of a model, written from its manifest."""
 
 import textwrap
 from pathlib import Path
@@ -56,7 +56,7 @@ WHAT = {
 
 
 def write_card(folder: Path, manifest: Manifest) -> None:
-    """Write `README.md` into the model's folder."""
+    """Write the model card `README.md` into the model's folder."""
     training = manifest.training
     sources = [
         f"| {source['drive']} | {source['scans'][0]} to {source['scans'][1]}, a capture every "

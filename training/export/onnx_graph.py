@@ -1,4 +1,4 @@
-"""Export to ONNX: normalisation, network and projection in one graph."""
+"""Export to ONNX: normalization, network and projection in one graph."""
 
 import warnings
 from pathlib import Path
@@ -16,7 +16,7 @@ OPSET = 20
 
 
 class Exported(nn.Module):
-    """The descriptor network followed by a projection to the stored dimensions."""
+    """Graph of the descriptor network and the projection to the stored dimensions."""
 
     mean: Tensor
     axes: Tensor
@@ -34,7 +34,7 @@ class Exported(nn.Module):
 
 
 class ExportedContext(nn.Module):
-    """The descriptor network and the surroundings, projected, side by side, and rotated."""
+    """Graph of the context model: projects descriptor and neighborhood, joins and rotates them."""
 
     mean: Tensor
     axes: Tensor
@@ -51,8 +51,8 @@ class ExportedContext(nn.Module):
     def forward(self, occupancy: Tensor, extents: Tensor, surroundings: Tensor) -> Tensor:
         """float32 (n, stored dimension)."""
         projected = nn.functional.normalize((surroundings - self.mean) @ self.axes, dim=1)
-        # Where nothing stands around nothing is said of it, and the segment itself fills the
-        # descriptor: all are equally long, and lose equally little when they are rounded.
+        # Without a neighborhood the segment's own part fills the descriptor. So all descriptors
+        # have the same length and lose equally little by quantization.
         seen = (surroundings.sum(dim=1, keepdim=True) > 0).float()
         own = self.segment(occupancy, extents) * (seen + (1 - seen) * (1 + self.weight**2) ** 0.5)
         side_by_side = torch.cat([own, projected * self.weight * seen], dim=1)
@@ -61,10 +61,10 @@ class ExportedContext(nn.Module):
 
 
 def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float32]:
-    """Mean (d,) and the principal axes (d, dimension) of training descriptors."""
+    """Return the mean (d,) and the principal axes (d, dimension) of training descriptors."""
     mean = descriptors.mean(axis=0)
     _, _, axes = np.linalg.svd(descriptors - mean, full_matrices=False)
-    # The sign of an axis is arbitrary: its largest entry is made positive.
+    # The sign of an axis is arbitrary, so its largest entry is made positive.
     signs = np.sign(axes[np.arange(len(axes)), np.abs(axes).argmax(axis=1)])
     chosen = (axes * signs[:, None])[:dimension].T
     return mean.astype(np.float32), np.ascontiguousarray(chosen, dtype=np.float32)
@@ -73,9 +73,10 @@ def principal_axes(descriptors: Float32, dimension: int) -> tuple[Float32, Float
 def export_onnx(
     network: Exported | ExportedContext, grid: tuple[int, int, int], file: Path
 ) -> None:
-    """Write the network; any batch size.
+    """Write a network as ONNX with any batch size.
 
-    Inputs: `occupancy` (uint8), `extents` and, in context, `surroundings` (float32).
+    The inputs are `occupancy` (uint8), `extents` (float32) and, for the context model,
+    `surroundings` (float32).
     """
     example: tuple[Tensor, ...] = (torch.zeros((2, *grid), dtype=torch.uint8), torch.ones((2, 3)))
     inputs = ["occupancy", "extents"]
@@ -88,11 +89,11 @@ def export_onnx(
 def to_onnx(
     network: nn.Module, example: tuple[Tensor, ...], inputs: list[str], output: str, file: Path
 ) -> None:
-    """Write a module; the first dimension of every input is the batch, of any size."""
+    """Write a module as ONNX; the first dimension of every input is the batch, of any size."""
     network.eval()
     batch = torch.export.Dim("batch")
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the exporter's own deprecations
+        warnings.simplefilter("ignore")  # deprecations inside the exporter
         program = torch.onnx.export(
             network,
             example,
@@ -111,9 +112,9 @@ def to_onnx(
 
 
 def forget_sources(model: onnx.ModelProto) -> None:
-    """Remove where each node came from: paths of the exporting machine would change the model's id.
+    """Remove the source positions of all nodes, because their paths would change the model's id.
 
-    What is left depends on the weights and the network alone.
+    The rest depends only on the network and its weights.
     """
     for message in (model, model.graph, *model.functions):
         message.ClearField("metadata_props")

@@ -1,14 +1,13 @@
-"""The secondary classifier (paper III-C, IV-B): whether two descriptors match.
+"""Secondary classifier (paper III-C, IV-B): match probability of two descriptors.
 
-The paper trains a random forest on the two concatenated descriptors, which makes the answer
-depend on their order; that form is kept for the report. What is served is symmetric: a forest on
-the distance in each dimension, a logistic curve over the plain distance, or the Siamese's own third
-network. Plain distance is the control: a classifier that does not tell pairs apart better than
-distance does is not served.
+The paper trains a random forest on the two concatenated descriptors, so its result depends on their
+order. The report measures this form. Served classifiers are symmetric: a forest on the distance in
+each dimension, a logistic curve over the plain distance, or the Siamese network's third network.
+Plain distance is the control: a classifier that is not better is not served.
 
-The kinds are compared on as many matches as non-matches, drawn at random, as the paper does. The
-probability is calibrated on what a robot asks about: held-out segments and their nearest in a
-large map, nearly all of which look alike.
+The kinds are compared on equal numbers of random matches and non-matches, as in the paper. The
+probability is calibrated on the pairs of real queries: held-out segments and their nearest
+neighbors in a large map, nearly all of which look similar.
 """
 
 from collections.abc import Callable
@@ -34,7 +33,7 @@ from training.export.onnx_graph import to_onnx
 
 TREES = 60
 LEAF = 20
-"""Fewest pairs in a leaf: smaller leaves learn the training groups by heart."""
+"""Smallest number of pairs in a leaf; smaller leaves over-fit to the training groups."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +41,9 @@ class DescriptorPairs:
     """Pairs of stored descriptors.
 
     Attributes:
-        a: float32 (n, d).
-        b: float32 (n, d).
-        matches: float64 (n,), 1 or 0.
+        a: first descriptor of each pair, float32 (n, d).
+        b: second descriptor of each pair, float32 (n, d).
+        matches: 1 for matches and 0 for non-matches, float64 (n,).
     """
 
     a: Float32
@@ -53,23 +52,23 @@ class DescriptorPairs:
 
     @classmethod
     def of(cls, descriptors: Float32, positive: Int64, negative: Int64) -> "DescriptorPairs":
-        """From drawn pairs of indices."""
+        """Build the pairs from drawn pairs of indices."""
         pairs = np.concatenate([positive, negative])
         matches = np.repeat([1.0, 0.0], [len(positive), len(negative)])
         return cls(descriptors[pairs[:, 0]], descriptors[pairs[:, 1]], matches)
 
     def distances(self) -> Float64:
-        """Euclidean, float64 (n,)."""
+        """Return the Euclidean distance of each pair, float64 (n,)."""
         return np.asarray(np.linalg.norm(self.a.astype(np.float64) - self.b, axis=1))
 
 
 @dataclass(frozen=True, slots=True)
 class HeldOut:
-    """Pairs of segments that nothing was learned from.
+    """Pairs of held-out segments.
 
     Attributes:
-        drawn: as many matches as non-matches, drawn at random.
-        nearest: each segment with its nearest in a database; that is what is asked in service.
+        drawn: random pairs, with as many matches as non-matches.
+        nearest: each segment with its nearest neighbors in a database, as in the service.
     """
 
     drawn: DescriptorPairs
@@ -77,12 +76,12 @@ class HeldOut:
 
 
 def concatenated(pairs: DescriptorPairs) -> Float32:
-    """The paper's features: one descriptor after the other, (n, 2 d)."""
+    """Return the paper's features: both descriptors concatenated, (n, 2 d)."""
     return np.concatenate([pairs.a, pairs.b], axis=1)
 
 
 def symmetric(pairs: DescriptorPairs) -> Float32:
-    """The distance in each dimension and over all, (n, d + 1): the same for (a, b) and (b, a)."""
+    """Return the distance in each dimension and in total, (n, d + 1), which is symmetric."""
     difference = np.abs(pairs.a - pairs.b)
     length = np.sqrt(np.square(difference).sum(axis=1, keepdims=True))
     return np.concatenate([difference, length], axis=1)
@@ -91,7 +90,7 @@ def symmetric(pairs: DescriptorPairs) -> Float32:
 def train_forest(
     pairs: DescriptorPairs, features: Callable[[DescriptorPairs], Float32], seed: int
 ) -> RandomForestClassifier:
-    """A random forest on pair features."""
+    """Train a random forest on features of pairs."""
     forest = RandomForestClassifier(
         n_estimators=TREES, min_samples_leaf=LEAF, max_depth=12, random_state=seed, n_jobs=1
     )
@@ -99,7 +98,7 @@ def train_forest(
 
 
 def log_odds(probability: Float64) -> Float64:
-    """Of a probability, away from 0 and 1."""
+    """Return the log odds of probabilities, which are clipped away from 0 and 1."""
     clipped = np.clip(probability, 1e-4, 1 - 1e-4)
     return np.asarray(np.log(clipped / (1 - clipped)))
 
@@ -113,22 +112,22 @@ class PlattScaling:
 
     @classmethod
     def fit(cls, scores: Float64, matches: Float64) -> "PlattScaling":
-        """By logistic regression on pairs that the score was not trained on."""
+        """Fit by logistic regression, on pairs that the score was not trained on."""
         if len(np.unique(matches)) == 2:
             fitted = LogisticRegression(C=1e6, max_iter=1000).fit(scores[:, None], matches)
             if fitted.coef_[0, 0] > 0:
                 return cls(float(fitted.coef_[0, 0]), float(fitted.intercept_[0]))
-        # The score says nothing here; what is left to state is how often there is a match at all.
+        # The score carries no information here, so the result is the overall rate of matches.
         rate = (matches.sum() + 1) / (len(matches) + 2)
         return cls(0.0, float(np.log(rate / (1 - rate))))
 
     def apply(self, scores: Float64) -> Float64:
-        """Probabilities of a match."""
+        """Return match probabilities of raw scores."""
         return np.asarray(1 / (1 + np.exp(-(self.slope * scores + self.offset))))
 
 
 class DistanceGraph(nn.Module):
-    """Probability from the plain distance: the control, and what is served if nothing beats it."""
+    """Graph of the match probability from plain distance: the control and the fallback."""
 
     def __init__(self, calibration: PlattScaling) -> None:
         super().__init__()
@@ -141,7 +140,7 @@ class DistanceGraph(nn.Module):
 
 
 class HeadGraph(nn.Module):
-    """The Siamese's third network on stored descriptors, calibrated."""
+    """Graph of the Siamese network's third network on stored descriptors, calibrated."""
 
     mean: Tensor
     axes: Tensor
@@ -156,13 +155,13 @@ class HeadGraph(nn.Module):
         self.calibration = calibration
 
     def logits(self, a: Tensor, b: Tensor) -> Tensor:
-        """Before calibration, (n,)."""
+        """Return the logits before calibration, (n,)."""
         logits: Tensor = self.match(a @ self.axes.T + self.mean, b @ self.axes.T + self.mean)
         return logits
 
     @torch.no_grad()
     def scores(self, pairs: DescriptorPairs) -> Float64:
-        """Logits of stored pairs, float64 (n,)."""
+        """Return the logits of stored pairs, float64 (n,)."""
         logits = self.eval().logits(torch.from_numpy(pairs.a), torch.from_numpy(pairs.b))
         return logits.numpy().astype(np.float64)
 
@@ -174,7 +173,7 @@ class HeadGraph(nn.Module):
 def forest_graph(
     forest: RandomForestClassifier, calibration: PlattScaling, dimension: int
 ) -> onnx.ModelProto:
-    """A symmetric forest with its features before it and its calibration behind it, as ONNX."""
+    """Return the ONNX graph of a symmetric forest, with its features and its calibration."""
     import skl2onnx
     from skl2onnx.common.data_types import FloatTensorType
 
@@ -234,19 +233,20 @@ def choose(
     head: tuple[nn.Module, Float32, Float32] | None,
     file: Path,
 ) -> dict[str, Any]:
-    """Train the kinds, calibrate them, and write the one that tells pairs apart best.
+    """Train and calibrate all kinds; write the best one.
 
     Args:
-        training: what the forests learn from.
-        calibration: of validation groups, for Platt scaling.
-        selection: of other validation groups, to choose by.
-        head: the Siamese's third network, with the mean and the axes of the projection.
-        file: gets the ONNX graph.
+        training: pairs to train the forests on.
+        calibration: pairs of validation groups, for Platt scaling.
+        selection: pairs of other validation groups, to choose the kind.
+        head: Siamese network's third network, with mean and axes of the projection; None for other
+            methods.
+        file: path of the ONNX graph to write.
 
     Returns:
-        For the manifest: `kind`, `threshold` of the probability that tells drawn pairs apart best,
-        and on the selection pairs: the `auc` of every kind over drawn pairs, and of the kind chosen
-        the `calibration_error` and the `reliability` (stated, true, pairs) over nearest ones.
+        Entry of the manifest: `kind`; `threshold`, the best probability threshold for drawn pairs;
+        `auc` of every kind over the drawn selection pairs; `calibration_error` and `reliability`
+        (stated, true, pairs) of the chosen kind over the nearest selection pairs.
     """
     forest = train_forest(training, symmetric, seed=0)
 
@@ -273,7 +273,7 @@ def choose(
     if kind == "forest":
         onnx.save(forest_graph(forest, fitted, dimension), file)
     elif kind == "distance":
-        # The score is minus the distance; the graph takes the distance itself.
+        # The score is the negative distance, but the graph takes the distance.
         export_pair(DistanceGraph(PlattScaling(-fitted.slope, fitted.offset)), dimension, file)
     else:
         assert head is not None
@@ -292,6 +292,6 @@ def choose(
 
 
 def export_pair(graph: nn.Module, dimension: int, file: Path) -> None:
-    """Write a pair classifier; inputs `a` and `b`, any number of rows."""
+    """Write a pair classifier as ONNX, with inputs `a` and `b` of any number of rows."""
     example = (torch.zeros((2, dimension)), torch.ones((2, dimension)))
     to_onnx(graph, example, ["a", "b"], "probability", file)

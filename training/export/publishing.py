@@ -1,4 +1,4 @@
-"""From a training to a model's folder: projection, quantiser, pair classifier, figures, card."""
+"""Publishing: writes a model folder with projection, quantizer, pair classifier and card."""
 
 import hashlib
 import json
@@ -28,22 +28,22 @@ from training.methods.networks import describe
 from training.methods.registry import Trained
 
 VALIDATION_SHARE = 0.1
-"""Of the groups, held out whole."""
+"""Share of the groups that are held out for validation."""
 
 SPLIT_SEED = 0
 
 STORED_DIMENSION = 32
-"""Of the 64: at 8 bits each, 32 bytes a segment."""
+"""Number of stored dimensions out of 64; with 8 bits each, 32 bytes per segment."""
 
 
 @dataclass(frozen=True, slots=True)
 class Data:
-    """What a model is made from.
+    """Data of a model.
 
     Attributes:
-        training: the training set.
-        validation: groups held out, for thresholds, calibration and figures.
-        provenance: for the manifest: sources, seed, seconds, licence, command.
+        training: training set.
+        validation: held-out groups, for thresholds, calibration and figures.
+        provenance: entry of the manifest: sources, seed, seconds, license and command.
     """
 
     training: TrainingSet
@@ -51,33 +51,34 @@ class Data:
     provenance: dict[str, Any]
 
     def stating(self, **facts: object) -> "Data":
-        """The same, its provenance saying more: `seed`, `seconds`, `command`."""
+        """Return the data with further provenance: `seed`, `seconds`, `command`."""
         return replace(self, provenance=self.provenance | facts)
 
 
 def collect(
     sources: Sequence[Source], license_name: str, neighborhood: NeighborhoodParameters | None = None
 ) -> Data:
-    """Training and validation set from parts of recordings, and what the manifest says of them.
+    """Build training and validation set from parts of recordings, with their provenance.
 
-    The split is the same whatever a training's seed, so that seeds compare.
+    The split does not depend on a training's seed, so that seeds can be compared.
 
     Args:
-        license_name: of the drives.
-        neighborhood: how to describe them, for a model that looks around.
+        sources: parts of recordings.
+        license_name: license of the drives.
+        neighborhood: parameters of the neighborhood, for a model with context; None otherwise.
 
     Raises:
         ValueError: there are too few groups to train on.
     """
     everything = TrainingSet.of(sources, neighborhood)
     training, validation = everything.split(VALIDATION_SHARE, SPLIT_SEED)
-    # The validation groups are halved for calibration: each half must hold pairs of both kinds,
-    # and it is better to know before the training than after it.
+    # The validation groups are halved for calibration, and each half must hold pairs of both kinds.
+    # This is checked before the training.
     halves = map(validation.take, validation.halves(0.5, seed=0))
     if not all(has_pairs(part) for part in (training, *halves)):
         raise ValueError(
-            f"{len(training) + len(validation)} segments in too few groups to train on; "
-            "are the drives long enough, and the scans right?"
+            f"{len(training) + len(validation)} segments form too few groups to train on. Use "
+            "longer drives or more scans."
         )
     return Data(
         training,
@@ -99,7 +100,7 @@ def collect(
 def retraining(
     method: str, sources: Sequence[Source], license_name: str, seed: int, *options: object
 ) -> str:
-    """The commands that train a model again, from the drives on."""
+    """Return the commands that train a model again, beginning with the drives."""
     lines, prepared = [], []
     for source in sources:
         recording, file = source.recording, f"data/{source.recording.name}.safetensors"
@@ -116,7 +117,7 @@ def retraining(
 
 
 def fingerprint(data: Data, *settings: object) -> str:
-    """Of the segments that a training learns from, and of its settings."""
+    """Return a hash of the segments and the settings of a training."""
     sources = [[source["scan_hashes"], source["scans"]] for source in data.provenance["sources"]]
     text = json.dumps([sources, data.provenance["seed"], [str(value) for value in settings]])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -124,7 +125,7 @@ def fingerprint(data: Data, *settings: object) -> str:
 
 @contextmanager
 def whole(folder: Path) -> Iterator[Path]:
-    """A folder to write into that takes its place when the block ends well, and not before."""
+    """Yield a temporary folder, which gets the final name only if the block succeeds."""
     unfinished = folder.with_name(folder.name + ".unfinished")
     shutil.rmtree(unfinished, ignore_errors=True)
     unfinished.mkdir(parents=True)
@@ -135,7 +136,7 @@ def whole(folder: Path) -> Iterator[Path]:
 
 
 def has_pairs(data: TrainingSet) -> bool:
-    """Whether some two segments match, and some two do not."""
+    """Return whether the set has both matching and non-matching pairs of segments."""
     return len(data.group_sizes()) >= 2 and int(data.group_sizes().max()) >= 2
 
 
@@ -149,7 +150,7 @@ def publish_network(folder: Path, trained: Trained, data: Data) -> Manifest:
 
 
 def stored_axes(trained: Trained, data: Data) -> tuple[Float32, Float32]:
-    """Mean and principal axes of the descriptors: what is stored of them."""
+    """Return mean and principal axes of the stored part of the descriptors."""
     from training.export.onnx_graph import principal_axes
 
     return principal_axes(describe(trained.network, data.training.recorded()), STORED_DIMENSION)
@@ -158,12 +159,15 @@ def stored_axes(trained: Trained, data: Data) -> tuple[Float32, Float32]:
 def export_network(
     folder: Path, trained: Trained, data: Data, axes: tuple[Float32, Float32]
 ) -> Manifest:
-    """Write `model.onnx` of a trained network, with the manifest that goes with it.
+    """Write `model.onnx` of a trained network; return its manifest.
 
     Args:
-        axes: of `stored_axes`.
+        folder: folder of the model.
+        trained: trained network.
+        data: data of the model.
+        axes: result of `stored_axes`.
     """
-    # Torch's exporter is slow to import: only here.
+    # Torch's exporter is slow to import, so it is imported only here.
     from training.export.onnx_graph import Exported, ExportedContext, export_onnx
     from training.export.quantization import quantize
     from training.methods.context import rotation
@@ -175,7 +179,7 @@ def export_network(
     if trained.projection is None:
         export_onnx(segment, grid, folder / MODEL_FILE)
     else:
-        # Four times the dimensions at a quarter of the bits: as many bytes.
+        # Four times the dimensions with a quarter of the bits take the same number of bytes.
         around, per_byte = NEIGHBORHOOD_V1, 4
         dimension += trained.projection.axes.shape[1]
         network = ExportedContext(segment, trained.projection, rotation(dimension))
@@ -196,7 +200,7 @@ def export_network(
 
 
 def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
-    """Write the baseline, standardised on the training set, with its pair classifier."""
+    """Write the eigenvalue baseline, standardized on the training set, with pair classifier."""
     features = eigenvalue_descriptors(data.training.segments).astype(np.float64)
     mean, deviation = features.mean(axis=0), features.std(axis=0)
     manifest = Manifest(
@@ -216,7 +220,7 @@ def publish_eigenvalue(folder: Path, data: Data) -> Manifest:
 def finish(
     folder: Path, manifest: Manifest, data: Data, head: tuple[Any, Float32, Float32] | None
 ) -> Manifest:
-    """Add pair classifier and thresholds, measure on the validation groups, as stored; save."""
+    """Add pair classifier, thresholds and validation figures to a model folder; save it."""
     from training.export.pair_classifier import DescriptorPairs, HeldOut, choose
 
     manifest.save(folder)
@@ -229,8 +233,8 @@ def finish(
     learned, held_out = (
         stored_descriptors(extractor, part) for part in (data.training, data.validation)
     )
-    # A map as large as can be had: everything, so that what is held out has strangers to confuse.
-    # (The surroundings of held-out groups are learned ones: in context all this is optimistic.)
+    # The map holds all segments, so that held-out segments have many non-matches. With context the
+    # figures are optimistic, because neighborhoods of held-out groups were part of the training.
     database = np.concatenate([held_out, learned])
     last = int(data.validation.groups.max())
     groups = np.concatenate([data.validation.groups, data.training.groups + last + 1])
@@ -271,6 +275,6 @@ def finish(
 
 
 def stored_descriptors(extractor: Extractor, data: TrainingSet) -> Float32:
-    """Descriptors after a round trip through their stored form."""
+    """Return descriptors after encoding to and decoding from their stored form."""
     quantizer = extractor.manifest.quantizer
     return quantizer.decode(quantizer.encode(extractor.describe(data.segments, data.neighborhood)))

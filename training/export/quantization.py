@@ -1,6 +1,6 @@
-"""The network in 8-bit integers: twice as fast on a processor, hardly less exact.
+"""Quantization of networks to 8-bit integers, which doubles their speed on a processor.
 
-Static quantisation of the convolutions by ONNX Runtime, calibrated on segments of the training set.
+ONNX Runtime quantizes the convolutions statically, calibrated on segments of the training set.
 """
 
 import tempfile
@@ -15,15 +15,16 @@ from training.data.training_set import TrainingSet
 from training.methods.networks import batches
 
 CALIBRATION_SEGMENTS = 1024
+"""Number of segments that the ranges of activations are measured on."""
 
 
 def quantize(network: Path, data: TrainingSet, file: Path) -> None:
-    """Write an exported network with its convolutions in 8 bits.
+    """Quantize the convolutions of an exported network to 8 bits.
 
     Args:
-        network: ONNX, float32.
-        data: what the activations' ranges are taken from; some of it is drawn.
-        file: gets the ONNX.
+        network: path of the float32 ONNX file.
+        data: training set; a random part of it gives the ranges of activations.
+        file: path of the 8-bit ONNX file to write.
     """
     from onnxruntime.quantization import QuantFormat, QuantType, quantize_static
     from onnxruntime.quantization.shape_inference import quant_pre_process
@@ -38,7 +39,7 @@ def quantize(network: Path, data: TrainingSet, file: Path) -> None:
             CalibrationBatches(data.take(np.sort(drawn))),
             quant_format=QuantFormat.QDQ,
             per_channel=True,
-            # Seven bits of weight: processors that add pairs of products in 16 bits would overflow.
+            # Weights have 7 bits, because some processors add two products in 16 bits.
             reduce_range=True,
             activation_type=QuantType.QUInt8,
             weight_type=QuantType.QInt8,
@@ -47,18 +48,18 @@ def quantize(network: Path, data: TrainingSet, file: Path) -> None:
 
 
 class CalibrationBatches:
-    """Inputs of the network, as ONNX Runtime wants to be given them."""
+    """Reader of calibration inputs, with the interface that ONNX Runtime expects."""
 
     def __init__(self, data: TrainingSet) -> None:
         self._inputs = inputs(data)
 
     def get_next(self) -> dict[str, Any] | None:
-        """The next batch; None after the last."""
+        """Return the next batch; None after the last one."""
         return next(self._inputs, None)
 
 
 def inputs(data: TrainingSet) -> Iterator[dict[str, Any]]:
-    """The network's inputs, some segments at a time."""
+    """Yield the inputs of the network, 64 segments at a time."""
     for batch in batches(data, 64):
         occupancy, extents = voxelize(batch.segments, data.parameters)
         given: dict[str, Any] = {"occupancy": occupancy, "extents": extents}

@@ -1,11 +1,11 @@
-"""Recognition in context: a segment and what stands around it (beyond the paper).
+"""Context model: describes a segment together with its neighborhood (beyond the paper).
 
-The segment itself is described by a network trained by the multi-similarity loss (Wang et al.,
-2019), which did best of those compared. Its neighborhood (`placecell.descriptors.neighborhood`)
-is projected by linear discriminant analysis, which finds the directions in which groups lie
-apart while views of one group stay together: a closed form, learned in seconds, that hardly
-over-fits. Both stand side by side in the descriptor, the neighborhood with a constant length, so
-that segments sent alone are still ranked by themselves.
+A network trained by the multi-similarity loss (Wang et al., 2019), the best loss of those compared,
+describes the segment itself. Linear discriminant analysis projects the neighborhood
+(`placecell.descriptors.neighborhood`): it finds the directions that separate groups and keep the
+views of a group together. It has a closed form, takes seconds and hardly over-fits. The descriptor
+holds both parts side by side. The neighborhood's part has a constant length, so that segments
+without a neighborhood are still ranked by their own part.
 
     placecell train context DRIVE@0:299 --seed 0
 """
@@ -24,27 +24,27 @@ from training.methods.metric import MetricRecipe
 
 @dataclass(frozen=True, slots=True)
 class ContextRecipe:
-    """Settings of the training; the defaults made the model that ships."""
+    """Recipe of the context training; the defaults are those of the shipped model."""
 
     segment: GroupBasedRecipe | MetricRecipe = field(
         default_factory=lambda: MetricRecipe("multi-similarity")
     )
     dimension: int = 96
-    """Of the surroundings in the descriptor."""
+    """Number of dimensions of the neighborhood's part of the descriptor."""
     weight: float = 1.2
-    """Length of the surroundings' part; the segment's own is about 1."""
+    """Length of the neighborhood's part; the segment's own part has about length 1."""
     shrinkage: float = 0.2
-    """How far the scatter within groups is drawn towards a sphere."""
+    """Shrinkage of the scatter within groups toward a multiple of the identity, 0 to 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Projection:
-    """Surroundings to their part of the descriptor.
+    """Projection of the neighborhood to its part of the descriptor.
 
     Attributes:
-        mean: float32 (size,).
-        axes: float32 (size, dimension).
-        weight: length of the part.
+        mean: mean neighborhood, float32 (size,).
+        axes: axes of the projection, float32 (size, dimension).
+        weight: length of the neighborhood's part.
     """
 
     mean: Float32
@@ -53,13 +53,13 @@ class Projection:
 
 
 def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projection:
-    """Linear discriminant analysis of the surroundings, groups as classes (Fisher, 1936).
+    """Fit linear discriminant analysis of the neighborhoods, with groups as classes (Fisher, 1936).
 
-    Every group counts once, however often it was seen: a robot that stands still sees a thousand
-    views of little, and the few that are seen from far apart are what there is to be learned.
+    All groups have equal weight, because a robot that stands still adds many views but no
+    information.
 
     Raises:
-        ValueError: there are too few groups of two or more.
+        ValueError: there are too few groups of two or more segments.
     """
     assert training.neighborhood is not None
     sizes = training.group_sizes()
@@ -67,8 +67,8 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
     count = int((sizes >= 2).sum())
     if count <= recipe.dimension:
         raise ValueError(
-            f"{count} groups of two or more segments: too few to learn "
-            f"{recipe.dimension} dimensions of surroundings from; take a longer drive"
+            f"{count} groups of two or more segments are too few to learn {recipe.dimension} "
+            "dimensions of the neighborhood. Use a longer drive."
         )
     neighborhood = training.neighborhood[plural].astype(np.float64)
     groups = np.unique(training.groups[plural], return_inverse=True)[1]
@@ -76,7 +76,7 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
     between = np.cov(centers.T, bias=True)
     sphere = np.eye(len(within)) * np.trace(within) / len(within)
     drawn = (1 - recipe.shrinkage) * within + recipe.shrinkage * sphere
-    # Ascending; of length one in the scatter within groups, so that each weighs what it tells.
+    # Eigenvalues ascend. Axes have length one in the scatter within groups, which weights them.
     axes = eigh(between + within, drawn)[1][:, ::-1]
     return Projection(
         neighborhood.mean(axis=0).astype(np.float32),
@@ -86,11 +86,11 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
 
 
 def scatter(values: Float64, groups: Int64) -> tuple[Float64, Float64]:
-    """The mean covariance of the groups, (size, size), and their means, (groups, size).
+    """Return the mean covariance of the groups, (size, size), and their means, (groups, size).
 
     Args:
-        values: float64 (segments, size).
-        groups: int64 (segments,), from 0, each of two segments or more.
+        values: value of each segment, float64 (segments, size).
+        groups: group of each segment, from 0, int64 (segments,). A group has two segments or more.
     """
     sizes = np.bincount(groups)
     centers = np.zeros((len(sizes), values.shape[1]))
@@ -102,10 +102,10 @@ def scatter(values: Float64, groups: Int64) -> tuple[Float64, Float64]:
 
 
 def rotation(dimension: int) -> Float32:
-    """A fixed random rotation, (dimension, dimension).
+    """Return a fixed random rotation, (dimension, dimension).
 
-    It keeps all distances, and spreads what the descriptor says evenly over its dimensions, so that
-    few bits do for each.
+    The rotation keeps all distances. It spreads the variance evenly over the dimensions, so that
+    few bits per dimension suffice.
     """
     turn = ortho_group.rvs(dimension, random_state=np.random.default_rng(0))
     return np.asarray(turn, dtype=np.float32)

@@ -2,8 +2,9 @@
 
     L(y, a, b) = y |a - b|^2 + (1 - y) max(0, m - |a - b|^2)
 
-on hard pairs: matches far apart and non-matches close together, found anew at the end of each
-epoch from the current descriptors, and sub-sampled so as not to dwell on the few hardest.
+on hard pairs: matches far apart and non-matches close together. The pairs are drawn again at the
+end of each epoch, by the current descriptors, and sub-sampled so that the few hardest pairs do not
+dominate.
 
     placecell train contrastive DRIVE@0:299 --seed 0
 """
@@ -24,36 +25,38 @@ from training.methods.networks import DescriptorNetwork, describe, normalization
 from training.methods.run import Figures, Run
 
 PairBatch = tuple[UInt8, Float32, Float32]
-"""Occupancy and extents of both sides of a batch's pairs, and 1 for those that match."""
+"""Batch of pairs: occupancy and extents of both sides, and 1 for matches."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContrastiveRecipe:
-    """Settings of the training; the defaults made the model that ships."""
+    """Recipe of the contrastive training; the defaults are those of the shipped model."""
 
     epochs: int = 25
     margin: float = 1.0
-    """m, of the squared distance; descriptors have length one, so it is 4 at most."""
+    """Margin m of the squared distance, at most 4 for descriptors of length one."""
     hardest: int = 200
-    """Each segment's hard non-match is drawn among so many nearest."""
+    """Number of nearest non-matches that a segment's hard non-match is drawn from."""
     matches_share: float = 0.25
-    """Matches for each non-match. Near the loss's minimum a match pulls harder (its gradient grows
-    with distance) than a close non-match pushes (whose gradient vanishes with it): in equal
-    numbers they draw all descriptors together."""
+    """Number of matches per non-match.
+
+    Near the minimum of the loss, a match pulls harder than a close non-match pushes. Equal numbers
+    would pull all descriptors together.
+    """
     hard: bool = True
-    """False: random pairs, for comparison."""
+    """True for hard pairs, False for random pairs."""
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.1, batch=128))
     dropout: float = 0.0
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
 def contrastive_loss(matches: Tensor, squared_distances: Tensor, margin: float) -> Tensor:
-    """The paper's loss, averaged over pairs.
+    """Return the paper's loss (III-E), averaged over pairs.
 
     Args:
-        matches: 1 for pairs that match, 0 for others, (n,).
-        squared_distances: of the descriptors, (n,).
-        margin: m.
+        matches: 1 for matches and 0 for non-matches, (n,).
+        squared_distances: squared distances of the descriptors, (n,).
+        margin: margin m of the squared distance.
     """
     apart = (margin - squared_distances).clamp(min=0)
     loss: Tensor = (matches * squared_distances + (1 - matches) * apart).mean()
@@ -63,14 +66,14 @@ def contrastive_loss(matches: Tensor, squared_distances: Tensor, margin: float) 
 def hard_pairs(
     descriptors: Float32, groups: Int64, hardest: int, random: np.random.Generator
 ) -> tuple[Int64, Int64]:
-    """For each segment a hard match and a hard non-match, sub-sampled.
+    """Draw a hard match and a hard non-match for each segment.
 
-    The match is drawn from its group with a chance that grows with the distance's rank, so that
-    three times in four it is of the farther half; the non-match is drawn from the `hardest` nearest
-    segments of other groups.
+    The match is drawn from the segment's group with a probability that grows with the rank of the
+    distance: with probability 3/4 it belongs to the farther half. The non-match is drawn from the
+    `hardest` nearest segments of other groups.
 
     Returns:
-        matches, int64 (m, 2), for segments that have a mate; non-matches, int64 (segments, 2).
+        Matches, int64 (m, 2), of segments with a mate, and non-matches, int64 (segments, 2).
     """
     matches, others = [], []
     for rows, distances in distance_rows(descriptors):
@@ -85,14 +88,14 @@ def hard_pairs(
             mates = mates[mates != segment]
             if len(mates):
                 by_distance = mates[np.argsort(distances[row, mates])]
-                # The square root of a uniform draw prefers the far end.
+                # The square root of a uniform number prefers far mates.
                 pick = int(len(mates) * np.sqrt(random.random()))
                 matches.append((int(segment), int(by_distance[pick])))
     return np.array(matches, dtype=np.int64).reshape(-1, 2), np.concatenate(others)
 
 
 def random_pairs(groups: Int64, random: np.random.Generator) -> tuple[Int64, Int64]:
-    """For each segment a random match and a random non-match: what hard pairs improve on."""
+    """Draw a random match and a random non-match for each segment, as a baseline."""
     matches, others = [], []
     for segment, group in enumerate(groups):
         same = groups == group
@@ -112,18 +115,18 @@ def train(
 ) -> DescriptorNetwork:
     """Train a descriptor network with the contrastive loss.
 
-    The history holds the loss, and the top-1 in the training set and in the validation groups.
+    The history holds the loss and the top-1 of the training set and of the validation groups.
     """
     recipe = recipe or ContrastiveRecipe()
     torch.manual_seed(run.seed)
     mean, deviation = normalization_statistics(training)
     model = DescriptorNetwork(network, mean, deviation, recipe.dropout)
     steps = len(training) // recipe.sgd.batch
-    described: list[Float32] = []  # of the training set, after the last epoch of this run
+    described: list[Float32] = []  # descriptors of the training set after the last epoch
 
     def draw(epoch: int, random: np.random.Generator) -> Iterator[PairBatch]:
         if recipe.hard and epoch:
-            if not described:  # the run was stopped, and resumes
+            if not described:  # the run was stopped and resumes
                 described.append(describe(model, training))
             matches, others = hard_pairs(described.pop(), training.groups, recipe.hardest, random)
         else:

@@ -14,19 +14,19 @@ from training.methods.run import Figures, Run
 Batch = TypeVar("Batch")
 
 BatchLoss = tuple[Tensor, Figures]
-"""Loss of a batch, and further figures of it, to be averaged over the epoch."""
+"""Loss and further figures of a batch, which are averaged over the epoch."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sgd:
     """SGD with Nesterov momentum on a one-cycle schedule.
 
-    The learning rate rises for a third of the steps and then falls; momentum goes the other way,
-    from 0.95 to 0.85 and back.
+    The learning rate rises for a third of the steps and then falls. The momentum falls from 0.95 to
+    0.85 and then rises.
 
     Attributes:
-        learning_rate: the highest one.
-        batch: samples of a step.
+        learning_rate: highest learning rate.
+        batch: number of samples per step.
         weight_decay: L2 penalty of the weights.
     """
 
@@ -61,18 +61,18 @@ def fit(
     loss_of: Callable[[Batch], BatchLoss],
     validate: Callable[[], Figures],
 ) -> None:
-    """Train a model in place; the run keeps checkpoints and notes figures of each epoch.
+    """Train a model in place; the run stores checkpoints and the figures of each epoch.
 
     Args:
-        model: the module whose parameters are learned.
-        run: seed, checkpoints and history.
+        model: module whose parameters are learned.
+        run: seed, checkpoints and history of the training.
         sgd: settings of the gradient descent.
-        epochs: epochs in all, those before a stop included.
-        steps: batches of an epoch.
-        draw: called with the epoch and its random generator, before the model is put into
-            training mode; gives the epoch's `steps` batches.
-        loss_of: the loss of a batch, and further figures of it.
-        validate: figures of the model after an epoch.
+        epochs: total number of epochs, including those before a stop.
+        steps: number of batches per epoch.
+        draw: function that yields the `steps` batches of an epoch, from its number and its random
+            generator. It is called before the model enters training mode.
+        loss_of: function that returns the loss and further figures of a batch.
+        validate: function that returns figures of the model after an epoch.
     """
     optimizer, schedule = sgd.start(model, epochs, steps)
     for epoch in run.epochs(epochs, model, optimizer, schedule):

@@ -1,6 +1,6 @@
 """Group-based classification (paper III-C).
 
-Each group of the training set is a class; the network learns to tell them apart by categorical
+Each group of the training set is a class. The network learns to classify groups by categorical
 cross-entropy with SGD, and the layer before the classifier is the descriptor. Groups with too few
 segments are left out.
 
@@ -33,19 +33,19 @@ LabeledBatch = tuple[UInt8, Float32, Int64]
 
 @dataclass(frozen=True, slots=True)
 class GroupBasedRecipe:
-    """Settings of the training; the defaults made the model that ships."""
+    """Recipe of the group-based training; the defaults are those of the shipped model."""
 
     epochs: int = 60
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
     fewest_segments: int = 2
     held_out: float = 0.05
-    """Of the segments in groups of four or more: never trained on, to follow the classification."""
+    """Share of segments, in groups of four or more, that are held out to measure accuracy."""
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
 class GroupClassifier(nn.Module):
-    """The classification layer: scaled cosines of the descriptor with a vector for each group."""
+    """Classification layer: scaled cosines between the descriptor and one vector per group."""
 
     def __init__(self, network: DescriptorNetwork, groups: int) -> None:
         super().__init__()
@@ -54,11 +54,11 @@ class GroupClassifier(nn.Module):
         self.log_scale = nn.Parameter(torch.tensor(16.0).log())
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
-        """Logits, float32 (n, groups)."""
+        """Return the logits of segments, float32 (n, groups)."""
         return self.classify(self.network(occupancy, extents))
 
     def classify(self, descriptors: Tensor) -> Tensor:
-        """Logits, float32 (n, groups), of descriptors (n, 64)."""
+        """Return the logits, float32 (n, groups), of descriptors (n, 64)."""
         cosines = descriptors @ nn.functional.normalize(self.groups, dim=1).T
         logits: Tensor = cosines * self.log_scale.exp()
         return logits
@@ -73,9 +73,8 @@ def train(
 ) -> DescriptorNetwork:
     """Train a descriptor network as a classifier of groups.
 
-    The history holds, for each epoch, the loss, the classification accuracy on the altered copies
-    trained on and on held-out segments of the same groups (figure 3 a), and the top-1 in the
-    validation groups, which are no classes (nearest descriptor of the same group).
+    The history holds the loss of each epoch, the classification accuracy on the training copies and
+    on held-out segments of the same groups (figure 3 a), and the top-1 of the validation groups.
     """
     recipe = recipe or GroupBasedRecipe()
     torch.manual_seed(run.seed)
@@ -113,7 +112,7 @@ def train(
 
 
 def held_out_segments(classes: TrainingSet, share: float, random: np.random.Generator) -> Int64:
-    """A share of the segments whose groups have at least three others left to learn from."""
+    """Draw a share of the segments whose groups keep at least three others for training."""
     held_out: list[int] = []
     left = classes.group_sizes()
     for segment in random.permutation(len(classes)):
@@ -130,7 +129,7 @@ def held_out_segments(classes: TrainingSet, share: float, random: np.random.Gene
 def classification_accuracy(
     model: GroupClassifier, classes: TrainingSet, held_out: Int64
 ) -> dict[str, float]:
-    """Share of held-out segments, as they are, told to be of their group; nothing if none are."""
+    """Return the share of held-out segments that are classified right; empty without any."""
     if not len(held_out):
         return {}
     descriptors = torch.from_numpy(describe(model.network, classes.take(held_out)))

@@ -1,7 +1,7 @@
-"""Metric learning: losses on the distances of a batch, to compare the group-based one with.
+"""Metric learning: losses on the distances within a batch, beside the group-based loss.
 
-A batch holds several segments of each of some groups, so that there are matches in it. The losses
-are those of pytorch-metric-learning, by the names of their papers.
+A batch holds several segments of each of its groups, so that it has matches. The losses come from
+pytorch-metric-learning and have the names of their papers.
 """
 
 from collections.abc import Callable, Iterator
@@ -26,11 +26,11 @@ from training.methods.networks import (
 from training.methods.run import Figures, Run
 
 GROUPS, VIEWS = 32, 4
-"""Of a batch: groups, and segments of each."""
+"""Number of groups in a batch, and number of segments of each group."""
 
 
 class HardTriplets(nn.Module):
-    """The triplet loss on the farthest match and the nearest other of each segment in the batch."""
+    """Triplet loss on the farthest match and the nearest non-match of each segment in a batch."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -40,16 +40,16 @@ class HardTriplets(nn.Module):
         self.loss, self.miner = TripletMarginLoss(margin=0.2), BatchHardMiner()
 
     def forward(self, descriptors: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
-        """Mean over the batch."""
+        """Return the mean loss over the batch."""
         loss: torch.Tensor = self.loss(descriptors, labels, self.miner(descriptors, labels))
         return loss
 
 
 def losses(groups: int) -> dict[str, Callable[[], nn.Module]]:
-    """Makers of the losses by name.
+    """Return functions that create the losses, by name.
 
     Args:
-        groups: in the training set, for a loss that has a vector for each.
+        groups: number of groups in the training set, for losses with one vector per group.
     """
     from pytorch_metric_learning import losses as library
 
@@ -67,10 +67,10 @@ LOSSES = tuple(losses(1))
 
 @dataclass(frozen=True, slots=True)
 class MetricRecipe:
-    """Settings of the training."""
+    """Recipe of the metric training."""
 
     loss: str
-    """One of `LOSSES`."""
+    """Name of the loss, one of `LOSSES`."""
     epochs: int = 30
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
@@ -84,9 +84,9 @@ def train(
     network: str,
     recipe: MetricRecipe,
 ) -> DescriptorNetwork:
-    """Train a descriptor network by the distances within a batch.
+    """Train a descriptor network by the distances within each batch.
 
-    The history holds the loss and the top-1 in the validation groups of each epoch.
+    The history holds the loss and the top-1 of the validation groups for each epoch.
     """
     torch.manual_seed(run.seed)
     classes = training.without_small_groups(2)
@@ -115,7 +115,10 @@ def train(
 
 
 def draw_batch(groups: Int64, random: np.random.Generator) -> Int64:
-    """Segments of some groups, as many of each, a small group's more than once; int64 (batch,)."""
+    """Draw a batch with the same number of segments per group, int64 (batch,).
+
+    Segments of a small group occur several times.
+    """
     order = np.argsort(groups, kind="stable")
     sizes = np.bincount(groups)
     starts = np.cumsum(sizes) - sizes

@@ -1,8 +1,8 @@
-"""The feature extraction network (paper III-B): one trunk for all methods, by name.
+"""Feature extraction networks (paper III-B), by name; all methods share them.
 
-Input: occupancy, uint8 (n, 38, 38, 18), and extents in metres, float32 (n, 3). Output: the
-descriptor, float32 (n, 64), of length one. Normalisation is the first layer, so that nobody can
-get it wrong.
+Input: occupancy, uint8 (n, 38, 38, 18), and extents in meters, float32 (n, 3). Output: descriptor
+of length one, float32 (n, 64). The first layer normalizes the input, so that callers cannot forget
+it.
 """
 
 from collections.abc import Callable, Iterator
@@ -18,14 +18,14 @@ from training.data.training_set import TrainingSet
 from training.methods.processor import has_bfloat16
 
 DIMENSION = 64
-"""Of the descriptor, as in SegMap."""
+"""Number of dimensions of the descriptor, as in SegMap."""
 
 SMALLEST_DEVIATION = 0.1
-"""A voxel that hardly ever varies in training must not blow up when it does."""
+"""Lower bound of a voxel's standard deviation, so that rare voxels do not get huge values."""
 
 
 class Normalization(nn.Module):
-    """Per-voxel: minus the training set's mean, over its standard deviation (paper III-A)."""
+    """Normalization of each voxel by the training set's mean and deviation (paper III-A)."""
 
     mean: Tensor
     scale: Tensor
@@ -37,13 +37,13 @@ class Normalization(nn.Module):
         self.register_buffer("scale", torch.from_numpy(scale.astype(np.float32)))
 
     def forward(self, occupancy: Tensor) -> Tensor:
-        """uint8 (n, x, y, z) -> float32 of that shape."""
+        """Normalize occupancy, uint8 (n, x, y, z), to float32 of the same shape."""
         normalized: Tensor = (occupancy.float() - self.mean) * self.scale
         return normalized
 
 
 class Fast(nn.Module):
-    """2D convolutions over x and y, z as input channels: a tenth of the 3D network's cost."""
+    """Network of 2D convolutions over x and y, with z as channels; a tenth of the 3D cost."""
 
     def __init__(self, grid: tuple[int, int, int], widths: tuple[int, ...] = (32, 48, 64, 96)):
         super().__init__()
@@ -62,13 +62,16 @@ class Fast(nn.Module):
         self.features = channels * (grid[0] // 8) * (grid[1] // 8)
 
     def forward(self, grids: Tensor) -> Tensor:
-        """float32 (n, x, y, z) -> (n, features)."""
+        """Return the features, (n, features), of grids, float32 (n, x, y, z)."""
         features: Tensor = self.layers(grids.permute(0, 3, 1, 2))
         return features.flatten(1)
 
 
 class Paper(nn.Module):
-    """3D convolutions; the paper's figure is lost, so this is its authors' next one, SegMap's."""
+    """Network of 3D convolutions, as in SegMap.
+
+    The paper's figure is not available, so this is the network of its authors' next paper.
+    """
 
     def __init__(
         self, grid: tuple[int, int, int], widths: tuple[int, int, int] = (32, 64, 64)
@@ -92,13 +95,13 @@ class Paper(nn.Module):
         self.features = 512
 
     def forward(self, grids: Tensor) -> Tensor:
-        """float32 (n, x, y, z) -> (n, 512)."""
+        """Return the features, (n, 512), of grids, float32 (n, x, y, z)."""
         features: Tensor = self.layers(grids.unsqueeze(1))
         return features
 
 
 class PaperReduced(nn.Module):
-    """The paper's way to speed: the same kind of network, thirty times smaller (paper IV-B)."""
+    """Reduced network: the same kind of network, thirty times smaller (paper IV-B)."""
 
     def __init__(self, grid: tuple[int, int, int]) -> None:
         super().__init__()
@@ -117,13 +120,13 @@ class PaperReduced(nn.Module):
         self.features = 128
 
     def forward(self, grids: Tensor) -> Tensor:
-        """float32 (n, x, y, z) -> (n, 128)."""
+        """Return the features, (n, 128), of grids, float32 (n, x, y, z)."""
         features: Tensor = self.layers(grids.unsqueeze(1))
         return features
 
 
 WIDE = (32, 64, 128, 192)
-"""Channels of `wide`: the deeper layers, whose maps are small, cost little."""
+"""Channels of the network `wide`. Deeper layers have small maps and cost little."""
 
 NETWORKS: dict[str, Callable[[tuple[int, int, int]], "Fast | Paper | PaperReduced"]] = {
     "fast": Fast,
@@ -134,48 +137,48 @@ NETWORKS: dict[str, Callable[[tuple[int, int, int]], "Fast | Paper | PaperReduce
 
 
 class DescriptorNetwork(nn.Module):
-    """Normalisation, trunk, dropout, and the descriptor's layer."""
+    """Descriptor network: normalization, trunk, dropout and the descriptor's layer."""
 
     def __init__(
         self, network: str, mean: Float32, deviation: Float32, dropout: float = 0.0
     ) -> None:
         super().__init__()
         if network not in NETWORKS:
-            raise ValueError(f"no network {network!r}; there are {', '.join(NETWORKS)}")
+            raise ValueError(f"Unknown network {network!r}: expected one of {', '.join(NETWORKS)}.")
         self.normalization = Normalization(mean, deviation)
         self.trunk = NETWORKS[network]((mean.shape[0], mean.shape[1], mean.shape[2]))
         self.dropout = nn.Dropout(dropout)
         self.descriptor = nn.Sequential(
             nn.Linear(self.trunk.features + 3, DIMENSION, bias=False),
-            # Keeps descriptors spread over the sphere: where all lie close together the contrastive
-            # loss has no gradient to push them apart.
+            # Keeps descriptors spread over the sphere. If all are close together, the contrastive
+            # loss has no gradient that separates them.
             nn.BatchNorm1d(DIMENSION, affine=False),
         )
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
-        """Descriptors of length one, float32 (n, 64)."""
-        # bfloat16 halves a training's time where the processor has it; what is exported is float32.
+        """Return descriptors of length one, float32 (n, 64)."""
+        # bfloat16 halves the training time on processors with support. Exports are float32.
         mixed = self.training and has_bfloat16()
         with torch.autocast("cpu", torch.bfloat16, enabled=mixed):
             features = self.trunk(self.normalization(occupancy)).float()
-        # The extents give back the size of what the grid cut off; log1p keeps walls in scale.
+        # The extents give the size of segments that the grid cuts; log1p limits that of walls.
         features = torch.cat([self.dropout(features), torch.log1p(extents)], dim=1)
         return nn.functional.normalize(self.descriptor(features), dim=1)
 
 
 def normalization_statistics(data: TrainingSet) -> tuple[Float32, Float32]:
-    """Mean and standard deviation of each voxel over a training set, float32 (x, y, z) each."""
+    """Return mean and standard deviation of each voxel over a training set, float32 (x, y, z)."""
     total = np.zeros(data.parameters.grid)
     for batch in batches(data):
         total += voxelize(batch.segments, data.parameters)[0].sum(axis=0, dtype=np.int64)
     mean = total / len(data)
-    # Of values 0 and 1 the mean says all.
+    # For values 0 and 1, the mean determines the deviation.
     return mean.astype(np.float32), np.sqrt(mean * (1 - mean)).astype(np.float32)
 
 
 @torch.no_grad()
 def describe(network: nn.Module, data: TrainingSet) -> Float32:
-    """Descriptors of a training set's segments as they are, float32 (segments, dimension)."""
+    """Describe the unaltered segments of a training set, float32 (segments, dimension)."""
     network.eval()
     parts = []
     for batch in batches(data):
@@ -185,6 +188,6 @@ def describe(network: nn.Module, data: TrainingSet) -> Float32:
 
 
 def batches(data: TrainingSet, size: int = 256) -> Iterator[TrainingSet]:
-    """The set in parts, in order."""
+    """Yield the training set in parts, in order."""
     for first in range(0, len(data), size):
         yield data.take(np.arange(first, min(first + size, len(data))))

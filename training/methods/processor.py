@@ -1,23 +1,23 @@
-"""What makes a training fast on a processor, and what that processor has."""
+"""Processor settings for fast trainings: memory allocation and bfloat16 support."""
 
 import ctypes
 
 import torch
 
 M_TRIM_THRESHOLD, M_MMAP_MAX = -1, -4
-"""Of mallopt(3)."""
+"""Parameters of mallopt(3)."""
 
 
 def has_bfloat16() -> bool:
-    """Whether the processor multiplies bfloat16 itself; emulated, it would be slower."""
+    """Return whether the processor supports bfloat16; emulation would be slower."""
     return bool(torch.cpu.get_capabilities().get("avx512_bf16", False))
 
 
 def keep_freed_memory() -> None:
-    """Have glibc keep what is freed instead of giving it back to the system.
+    """Make glibc keep freed memory instead of returning it to the system.
 
-    Each step frees and takes the same large activations; fresh from the system, every page of them
-    is cleared anew, which costs more than the convolutions do.
+    Each step frees and allocates the same large activations. The system clears every new page,
+    which takes longer than the convolutions.
     """
     try:
         mallopt = ctypes.CDLL(None).mallopt

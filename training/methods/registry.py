@@ -1,4 +1,4 @@
-"""The three methods under their names, with what a training gives."""
+"""Registry of the training methods by name."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,19 +14,19 @@ from training.methods.run import Run
 from training.methods.siamese import MatchNetwork
 
 METHODS = ("group", "siamese", "contrastive")
-"""The paper's."""
+"""Methods of the paper."""
 
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """What a training gives.
+    """Result of a training.
 
     Attributes:
-        method: its name.
-        network_name: of the trunk.
-        network: the descriptor network.
-        match: the third network, of the Siamese alone.
-        projection: of the surroundings, of `context` alone.
+        method: name of the method.
+        network_name: name of the trunk.
+        network: descriptor network.
+        match: third network of the Siamese method; None for other methods.
+        projection: projection of the neighborhood of `context`; None for other methods.
     """
 
     method: str
@@ -44,10 +44,15 @@ def train(
     network: str = "fast",
     **changes: Any,
 ) -> Trained:
-    """Train by one of `METHODS`, or `context`.
+    """Train by one of `METHODS` or by `context`.
 
     Args:
-        changes: to the method's recipe, such as `epochs`; None leaves a setting as it is.
+        method: name of the method.
+        training: training set.
+        validation: validation set.
+        run: seed, checkpoints and history of the training.
+        network: name of the trunk.
+        **changes: changed settings of the method's recipe, such as `epochs`; None keeps a setting.
 
     Raises:
         ValueError: there is no such method.
@@ -71,7 +76,7 @@ def train(
         segment_recipe = replace(recipe.segment, **given)
         learned = train_segment(training, validation, run, network, segment_recipe)
         return Trained(method, network, learned, projection=projection)
-    raise ValueError(f"no method {method!r}; there are {', '.join(METHODS)}, context")
+    raise ValueError(f"Unknown method {method!r}: expected {', '.join(METHODS)} or context.")
 
 
 def train_segment(
@@ -81,12 +86,12 @@ def train_segment(
     network: str,
     recipe: GroupBasedRecipe | MetricRecipe,
 ) -> DescriptorNetwork:
-    """The descriptor network of the context model, by either kind of loss."""
+    """Train the descriptor network of the context model, by either kind of loss."""
     if isinstance(recipe, MetricRecipe):
         return metric.train(training, validation, run, network, recipe)
     return group_based.train(training, validation, run, network, recipe)
 
 
 def run_folder(runs: Path, method: str, network: str, seed: int) -> Path:
-    """Where a training keeps its checkpoints and its history."""
+    """Return the folder of a training's checkpoint and history."""
     return runs / f"{method}-{network}-{seed}"

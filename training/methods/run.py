@@ -1,4 +1,4 @@
-"""A training run: its seed, its folder, its checkpoints, its history; stopped, it resumes."""
+"""Training run: seed, folder, checkpoint and history; a stopped run can be resumed."""
 
 import json
 import time
@@ -18,7 +18,7 @@ Figures = dict[str, float]
 
 
 class Stateful(Protocol):
-    """What a checkpoint can hold."""
+    """Object whose state a checkpoint can hold."""
 
     def state_dict(self) -> dict[str, Any]: ...
     def load_state_dict(self, state_dict: Any, /) -> object: ...
@@ -26,17 +26,17 @@ class Stateful(Protocol):
 
 @dataclass
 class Run:
-    """Where a training keeps its state.
+    """Training run and its state.
 
-    Every epoch draws from a generator seeded by the seed and the epoch's number, so a run that was
-    stopped and resumed ends as one that was not.
+    Every epoch has a random generator seeded by the run's seed and the number of the epoch. So a
+    resumed run has the same result as a run without a stop.
 
     Attributes:
-        folder: of checkpoint.pt and history.json.
-        seed: of everything random.
-        identity: of data and recipe: a checkpoint of another is refused, not gone on with.
-        progress: where the bar is shown; None: nowhere.
-        history: figures of each epoch done.
+        folder: folder of checkpoint.pt and history.json.
+        seed: random seed.
+        identity: hash of data and recipe; only a checkpoint with the same identity is resumed.
+        progress: display of the progress bar; None for no bar.
+        history: figures of each finished epoch.
     """
 
     folder: Path
@@ -46,7 +46,7 @@ class Run:
     history: list[Figures] = field(default_factory=list)
 
     def random(self, epoch: int) -> np.random.Generator:
-        """The generator of an epoch; torch's own is seeded alike."""
+        """Return the random generator of an epoch; seed torch's generator as well."""
         torch.manual_seed(self.seed * 100_003 + epoch)
         return np.random.default_rng([self.seed, epoch])
 
@@ -57,21 +57,32 @@ class Run:
         optimizer: torch.optim.Optimizer,
         schedule: torch.optim.lr_scheduler.LRScheduler,
     ) -> Iterator[int]:
-        """The epochs still to do; what the loop's body changed is saved after each.
+        """Yield the remaining epochs; save a checkpoint after each.
+
+        Args:
+            count: total number of epochs.
+            model: module that is trained.
+            optimizer: optimizer of the training.
+            schedule: learning rate schedule of the training.
 
         Raises:
-            ValueError: the checkpoint is of another data set or recipe.
+            ValueError: the checkpoint belongs to other data, another recipe or an earlier version.
         """
         keep_freed_memory()
         self.folder.mkdir(parents=True, exist_ok=True)
         checkpoint = self.folder / "checkpoint.pt"
-        parts: dict[str, Stateful] = {"model": model, "optimiser": optimizer, "schedule": schedule}
+        parts: dict[str, Stateful] = {"model": model, "optimizer": optimizer, "schedule": schedule}
         if checkpoint.exists():
             state = torch.load(checkpoint, weights_only=True)
             if state.get("identity", "") != self.identity:
                 raise ValueError(
-                    f"{checkpoint}: of a training on other drives or with other settings; "
-                    "begin anew (without --resume), or name another folder for runs"
+                    f"{checkpoint} belongs to a training on other drives or with other settings. "
+                    "Begin anew (without --resume), or choose another folder for runs."
+                )
+            if missing := [name for name in parts if name not in state]:
+                raise ValueError(
+                    f"{checkpoint} has no state of the {missing[0]}: an earlier version wrote it. "
+                    "Begin anew (without --resume), or choose another folder for runs."
                 )
             for name, part in parts.items():
                 part.load_state_dict(state[name])
@@ -94,7 +105,7 @@ class Run:
                 self.progress.update(task, advance=1, description=f"epoch {epoch + 1}: {shown}")
 
     def cost(self) -> Figures:
-        """Seconds of all epochs, those before a stop included: by the clock and of all cores."""
+        """Return the time of all epochs, seconds: elapsed time, and the sum over all cores."""
         return {
             key: round(sum(epoch[key] for epoch in self.history), 1)
             for key in ("seconds", "cpu_seconds")

@@ -1,8 +1,8 @@
 """Siamese network (paper III-D).
 
-Two branches share the extractor's weights; a third network takes both descriptors and gives the
-probability that the segments match. Binary cross-entropy, SGD, random pairs without duplicates,
-as many matches as non-matches.
+Two branches share the extractor's weights. A third network takes both descriptors and returns the
+match probability. The training uses binary cross-entropy, SGD, and random pairs without duplicates,
+with as many matches as non-matches.
 
     placecell train siamese DRIVE@0:299 --seed 0
 """
@@ -28,25 +28,25 @@ from training.methods.networks import (
 from training.methods.run import Figures, Run
 
 PairBatch = tuple[UInt8, Float32, Float32]
-"""Occupancy and extents of both sides of a batch's pairs, and 1 for those that match."""
+"""Batch of pairs: occupancy and extents of both sides, and 1 for matches."""
 
 
 @dataclass(frozen=True, slots=True)
 class SiameseRecipe:
-    """Settings of the training; the defaults made the model that ships."""
+    """Recipe of the Siamese training; the defaults are those of the shipped model."""
 
     epochs: int = 40
     pairs: int = 8192
-    """An epoch: half of them matches."""
+    """Number of pairs per epoch; half of them are matches."""
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.05, batch=128))
     dropout: float = 0.2
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
 class MatchNetwork(nn.Module):
-    """The third network: two descriptors to the probability of a match.
+    """Third network: match probability of two descriptors.
 
-    It sees what does not depend on their order: the distance in each dimension, and the product.
+    Its input does not depend on their order: distance and product in each dimension.
     """
 
     def __init__(self, hidden: int = 64) -> None:
@@ -56,14 +56,14 @@ class MatchNetwork(nn.Module):
         )
 
     def forward(self, a: Tensor, b: Tensor) -> Tensor:
-        """Descriptors (n, 64) each -> logits of the probability, (n,)."""
+        """Return the logits of the match probability, (n,), of descriptors, (n, 64) each."""
         features = torch.cat([(a - b).abs(), a * b], dim=1) * DIMENSION**0.5
         logits: Tensor = self.layers(features)
         return logits.squeeze(1)
 
 
 class Siamese(nn.Module):
-    """Shared branches and the third network."""
+    """Siamese network: two branches with shared weights, and the third network."""
 
     def __init__(self, extractor: DescriptorNetwork) -> None:
         super().__init__()
@@ -71,7 +71,7 @@ class Siamese(nn.Module):
         self.match = MatchNetwork()
 
     def forward(self, occupancy: Tensor, extents: Tensor) -> Tensor:
-        """Logits (n,) of pairs that stand one after the other: inputs have 2 n rows."""
+        """Return the logits (n,) of n pairs; rows i and n + i of the inputs form a pair."""
         descriptors = self.extractor(occupancy, extents)
         half = len(descriptors) // 2
         logits: Tensor = self.match(descriptors[:half], descriptors[half:])
@@ -79,13 +79,16 @@ class Siamese(nn.Module):
 
 
 def sample_pairs(groups: Int64, count: int, random: np.random.Generator) -> tuple[Int64, Float32]:
-    """Random pairs, one to one: indices (count, 2) and 1 for matches, 0 for others (count,).
+    """Draw random pairs, one half of them matches.
 
-    No pair stands twice, in either order, and none joins a segment with itself. Where fewer
-    than count / 2 of a kind are to be had, there are as many of each as of the scarcer.
+    No pair occurs twice in either order, and no segment is paired with itself. If fewer than
+    count / 2 pairs of one kind exist, there are as many of each kind as of the rarer kind.
+
+    Returns:
+        Indices (count, 2), and 1 for matches and 0 for non-matches (count,).
 
     Raises:
-        ValueError: no two segments match, or all do.
+        ValueError: no two segments match, or all of them match.
     """
     order = np.argsort(groups, kind="stable")
     sizes = np.bincount(groups)
@@ -99,7 +102,7 @@ def sample_pairs(groups: Int64, count: int, random: np.random.Generator) -> tupl
     apart = (len(groups) ** 2 - int((sizes**2).sum())) // 2
     half = min(count // 2, len(matches), apart)
     if not half:
-        raise ValueError("no pairs to train on: there must be matches and non-matches")
+        raise ValueError("No pairs to train on. The training set needs matches and non-matches.")
     matches = random.permutation(matches)[:half]
     others: set[tuple[int, int]] = set()
     while len(others) < half:
@@ -121,8 +124,8 @@ def train(
 ) -> Siamese:
     """Train extractor and third network together.
 
-    The history holds the loss, the accuracy over pairs in training and over a fixed draw of pairs
-    of the validation groups, and the validation groups' top-1.
+    The history holds the loss, the accuracy on training pairs, the accuracy on fixed random pairs
+    of the validation groups, and the top-1 of the validation groups.
     """
     recipe = recipe or SiameseRecipe()
     torch.manual_seed(run.seed)
@@ -163,7 +166,7 @@ def train(
 def pair_accuracy(
     match: MatchNetwork, descriptors: Float32, pairs: Int64, labels: Float32
 ) -> float:
-    """Share of pairs that the third network tells right."""
+    """Return the share of pairs that the third network classifies right."""
     match.eval()
     a, b = (torch.from_numpy(descriptors[side]) for side in pairs.T)
     return float(((match(a, b) > 0).numpy() == (labels > 0.5)).mean())
