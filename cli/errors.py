@@ -4,6 +4,7 @@ import codecs
 import errno
 import json
 import os
+import re
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -55,11 +56,29 @@ def plain(error: BaseException) -> str:
         return "out of memory"
     errors = getattr(error, "errors", None)
     if callable(errors) and isinstance(error, ValueError):  # pydantic's, without its address
-        return "; ".join(
-            ": ".join(part for part in (".".join(map(str, one["loc"])), one["msg"]) if part)
-            for one in errors()
-        )
-    return str(error) or type(error).__name__
+        return "; ".join(_plain_fault(one) for one in errors())
+    return _plain_variable(str(error)) or type(error).__name__
+
+
+def _plain_variable(message: str) -> str:
+    """Name the environment variable whose value pydantic-settings cannot parse."""
+    unparsed = re.match(r'error parsing value for field "(\w+)"', message)
+    if unparsed is None:
+        return message
+    variable = f"PLACECELL_{unparsed[1].upper()}"
+    found = os.environ.get(variable, "")
+    return f"{variable}: found {found!r:.80}, expected JSON, such as '[\"group\"]' for a list"
+
+
+def _plain_fault(fault: dict[str, Any]) -> str:
+    """Format a fault that pydantic found as NAME: found VALUE, expected RULE."""
+    message = fault["msg"].removeprefix("Value error, ").partition(", unable to parse")[0]
+    rule = message.removeprefix("Input should be ")
+    rule = rule.replace("greater than or equal to", "at least")
+    rule = rule.replace("less than or equal to", "at most").replace("greater than", "more than")
+    if rule != message and isinstance(fault["input"], str | int | float):
+        message = f"found {fault['input']!r:.80}, expected {rule}"
+    return ": ".join(part for part in (".".join(map(str, fault["loc"])), message) if part)
 
 
 def _plain_os_error(error: OSError) -> str:

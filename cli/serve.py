@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from pydantic import ValidationError
+
+from cli.errors import plain
 
 if TYPE_CHECKING:
     from service.core.settings import Settings
@@ -107,7 +108,7 @@ def serve(
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})
     except ValueError as error:
-        raise _refusal(f"Invalid settings: {_plainly(error)}") from error
+        raise _refusal(f"Invalid settings: {plain(error)}") from error
     logs.install(settings.log)
     memory.limit()
     open_to_all = allow_remote or settings.keys_file is not None
@@ -215,10 +216,3 @@ def _raise_file_limit(connections: int) -> None:
 def _refusal(message: str) -> typer.Exit:
     typer.echo(f"placecell serve: {message}", err=True)
     return typer.Exit(1)
-
-
-def _plainly(error: ValueError) -> str:
-    """Format a settings error as SETTING: FAULT, without the library's URL."""
-    if not isinstance(error, ValidationError):
-        return str(error)
-    return "; ".join(f"{'.'.join(map(str, one['loc']))}: {one['msg']}" for one in error.errors())

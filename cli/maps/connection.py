@@ -48,12 +48,15 @@ def map_from(client: "Client", source: str) -> "CompactMap":
     """Load a map from a file, or from the service by NAME or NAME@VERSION.
 
     Raises:
-        ValueError: the source is not a file, and its version is not a number.
+        ValueError: the file is no map file, or the version is not a number.
     """
-    from placecell_client import decode
+    from placecell_client import MapFileError, decode
 
     if Path(source).is_file():
-        return decode(Path(source).read_bytes())
+        try:
+            return decode(Path(source).read_bytes())
+        except MapFileError as error:
+            raise ValueError(f"{source}: {error}. Fetch the map again.") from error
     name, _, version = source.partition("@")
     if version and not version.isdigit():
         raise ValueError(f"Invalid version in {source!r}: expected a number, such as {name}@3.")

@@ -12,7 +12,11 @@ from cli.tables import JsonFlag, print_json
 def prune(
     name: Name,
     unseen_since: Annotated[
-        datetime, typer.Option(help="Remove segments last seen before this local time.")
+        datetime,
+        typer.Option(
+            help="Local time, such as 2026-11-01 or 2026-11-01T08:00; removes segments last seen "
+            "before it."
+        ),
     ],
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only count the segments; remove none.")

@@ -44,6 +44,9 @@ class Segments:
     def __len__(self) -> int:
         return len(self.ends)
 
+    def __repr__(self) -> str:
+        return f"Segments({len(self):,} segments, {len(self.points):,} points)"
+
     @classmethod
     def of(cls, clouds: Sequence[Float32], sensors: Float32 | Float64) -> "Segments":
         """Build segments from one cloud (n, 3) each and the sensor positions (segments, 3)."""

@@ -34,9 +34,12 @@ def open_drive(folder: Path) -> Drive:
     """
     folder = Path(folder).absolute()  # so that "." has a name
     if not folder.is_dir():
-        raise DriveError(f"{folder}: no such folder")
+        raise DriveError(f"{folder}: no such folder. Check the path of the drive.")
     for reader in FORMATS:
         if reader.recognizes(folder):
             return reader(folder)
     layouts = "; ".join(f"{reader.name}: {reader.layout}" for reader in FORMATS)
-    raise DriveError(f"{folder}: not a drive in a known layout ({layouts})")
+    raise DriveError(
+        f"{folder}: not a drive in a known layout ({layouts}). Check the path, or "
+        "convert the drive (docs/tutorials/your-own-logs.md)."
+    )

@@ -69,6 +69,12 @@ class Recording:
     skipped_scans: tuple[int, ...] = ()
     dropped_points: int = 0
 
+    def __repr__(self) -> str:
+        return (
+            f"Recording({self.name!r}, {len(self.segments):,} segments, {self.scans:,} scans, "
+            f"{self.path_length:.0f} m)"
+        )
+
     @property
     def capture_scans(self) -> range:
         """Scans that are captures, with or without segments."""

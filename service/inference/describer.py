@@ -80,6 +80,9 @@ class Descriptors:
     def __len__(self) -> int:
         return len(self.codes)
 
+    def __repr__(self) -> str:
+        return f"Descriptors({len(self):,} segments, {len(self.errors)} errors, {self.model_id})"
+
     @property
     def usable(self) -> Int64:
         """Return the indices of the segments that have a descriptor, int64, ascending."""

@@ -27,7 +27,7 @@ def history_of(store: MapStore, snapshot: MapSnapshot) -> Iterator[MapHistory]:
             404,
             "unknown-map",
             f"Map {snapshot.name!r:.80} was removed during the request. "
-            "GET /maps lists the maps that exist.",
+            "GET /maps (placecell maps list) lists the maps.",
         ) from error
 
 

@@ -324,5 +324,7 @@ def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:
 def unknown_map(name: str) -> Problem:
     """Return the problem of a name that no map has."""
     return Problem(
-        404, "unknown-map", f"No map is named {name!r:.80}. GET /maps lists the maps that exist."
+        404,
+        "unknown-map",
+        f"No map is named {name!r:.80}. GET /maps (placecell maps list) lists the maps.",
     )

@@ -31,6 +31,9 @@ class MapSnapshot:
     def __len__(self) -> int:
         return len(self.layers)
 
+    def __repr__(self) -> str:
+        return f"MapSnapshot({self.name!r}, {len(self):,} segments)"
+
     @property
     def name(self) -> str:
         """Name of the map."""

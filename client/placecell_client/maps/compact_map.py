@@ -98,6 +98,12 @@ class CompactMap:
     def __len__(self) -> int:
         return len(self.ids)
 
+    def __repr__(self) -> str:
+        return (
+            f"CompactMap({len(self):,} segments, frame={self.frame!r}, "
+            f"model_id={self.model_id!r}, robots={self.robots!r})"
+        )
+
     @property
     def code_bytes(self) -> int:
         """Number of code bytes per segment."""

@@ -44,6 +44,11 @@ class Description:
     errors: dict[int, ItemError]
     dropped_points: int = 0
 
+    def __repr__(self) -> str:
+        return (
+            f"Description({len(self.codes):,} segments, {len(self.errors)} errors, {self.model_id})"
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
