@@ -104,7 +104,10 @@ class Engine:
         try:
             self.models = Models(settings, metrics)
         except ModelError as error:
-            raise StartError(f"model {settings.model!r} cannot be loaded: {error}") from error
+            raise StartError(
+                f"model {settings.model!r} cannot be loaded: {error}. Check the settings model "
+                "and models_dir ('placecell config')."
+            ) from error
         warm_up(self.models, limits)
         with ExitStack() as opened:
             try:
