@@ -267,7 +267,7 @@ def last_seen(content: CompactMap) -> UInt32:
 
 
 def renumbered(content: CompactMap, first_id: int) -> CompactMap:
-    """Number the segments from the first id on; views of one object stay together."""
+    """Assign ids to the segments from the first id on; views of one object stay together."""
     if first_id + len(content) > IDS:
         raise OutOfIdsError(f"only {IDS - first_id} ids are left")
     ids = np.arange(first_id, first_id + len(content), dtype=np.uint32)
