@@ -202,7 +202,7 @@ def _column(content: CompactMap, name: str) -> UInt32:
 
 
 def _robots(known: CompactMap, given: CompactMap) -> Int64:
-    """Assign numbers to the robots of two maps' segments, int64 (known + given,), one number per name."""
+    """Assign a number to each robot name of two maps, int64 (known + given,) by segment."""
     numbers = {name: number for number, name in enumerate({*known.robots, *given.robots})}
     return np.concatenate(
         [
