@@ -200,3 +200,21 @@ def test_version_option_prints_the_version() -> None:
     status, said = run("--version")
     assert status == 0
     assert said.startswith("placecell ")
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "words"),
+    [
+        ("PLACECELL_PORT", "abc", "port: found 'abc', expected a valid integer"),
+        ("PLACECELL_PORT", "90000", "port: found '90000', expected at most 65535"),
+        ("PLACECELL_LOG", "xml", "log: found 'xml', expected 'json' or 'text'"),
+        ("PLACECELL_ALSO", "group", "PLACECELL_ALSO: found 'group', expected JSON"),
+    ],
+)
+def test_B16_wrong_setting_shows_value_and_expectation(
+    monkeypatch: pytest.MonkeyPatch, variable: str, value: str, words: str
+) -> None:
+    monkeypatch.setenv(variable, value)
+    status, said = run("config")
+    assert status == 1
+    assert words in said
