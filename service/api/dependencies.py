@@ -154,4 +154,12 @@ async def map_write_of(
     return MapWrite(name, request, state, principal, writer, timing)
 
 
+async def upload_write_of(
+    name: Name, request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
+) -> MapWrite:
+    """Return the write request to an incomplete upload, which has no version and no conditions."""
+    return MapWrite(name, request, state, principal, state.engine.writer(principal), timing)
+
+
 MapWriteOf = Annotated[MapWrite, Depends(map_write_of)]
+UploadWriteOf = Annotated[MapWrite, Depends(upload_write_of)]

@@ -87,11 +87,11 @@ def invalid_values(found: list[dict[str, Any]]) -> Problem:
 
 
 def invalid_value(pointer: str, detail: str) -> Problem:
-    """Return the problem of one wrong value: 422 with a JSON pointer to it."""
+    """Return the problem of one wrong value: 422 with a JSON pointer to it, "" for the body."""
     return Problem(
         422,
         "invalid-request",
-        f"{pointer}: {detail}",
+        f"{pointer or 'The body'}: {detail}",
         [ProblemError(pointer=pointer, detail=detail)],
     )
 

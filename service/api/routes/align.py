@@ -17,7 +17,7 @@ from service.api.path_parameters import Name, OtherName
 from service.api.schemas.alignment import AlignmentOut, MergedOut, MergeRequest
 from service.api.state import State
 from service.core.auth import Principal
-from service.core.problems import Problem, invalid, invalid_value
+from service.core.problems import invalid, invalid_value
 from service.engine import ALIGN_SMALLER, MERGE_FEWER
 
 router = APIRouter(tags=["sharing"])
@@ -63,7 +63,7 @@ async def align(
     async with state.lanes.alignments.admit(request, (JSON,), timing) as body:
         if body.content:  # merge takes options in its body; here they would be ignored
             detail = "Align takes its options in the query (?motion=se3), not in a body."
-            raise Problem(422, "invalid-request", detail)
+            raise invalid_value("", detail)
         state.engine.check_alignments([name, other], ALIGN_SMALLER)
         answer = await state.run(_aligned, state, name, other, motion, pairs)
     timing.lap("verify")

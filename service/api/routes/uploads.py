@@ -7,7 +7,7 @@ from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.api.body.body import OCTETS
 from service.api.body.problem_json import documented
-from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf
+from service.api.dependencies import MapWriteOf, PrincipalOf, StateOf, UploadWriteOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
 from service.api.routes.maps import NEW_RESPONSE, put_response
@@ -50,7 +50,7 @@ async def list_uploads(
     openapi_extra=file_body(OCTETS),
 )
 async def put_part(
-    write: MapWriteOf,
+    write: UploadWriteOf,
     digest: Digest,
     offset: Annotated[
         int, Query(ge=0, le=1 << 53, description="Byte of the file at which the part begins.")
@@ -95,7 +95,7 @@ async def complete_upload(write: MapWriteOf, digest: Digest) -> Response:
     status_code=204,
     responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504),
 )
-async def delete_upload(write: MapWriteOf, digest: Digest) -> None:
+async def delete_upload(write: UploadWriteOf, digest: Digest) -> None:
     """Delete the received parts; the map is unchanged."""
     async with write.enter(write.state.lanes.edits):
         remove = write.state.engine.partial_uploads.remove

@@ -341,6 +341,16 @@ def test_B9_client_reports_limit_of_service_without_uploads(yard: CompactMap) ->
     assert caught.value.status == 413
 
 
+def test_parts_of_an_upload_have_no_preconditions(service: Any) -> None:
+    operations = service.get("/openapi.json").json()["paths"]["/maps/{map}/uploads/{digest}"]
+    conditional = {
+        method
+        for method, operation in operations.items()
+        if "if-match" in {each["name"] for each in operation["parameters"]}
+    }
+    assert conditional == {"post"}
+
+
 def test_only_new_and_reset_ids_of_the_client(service: Any, manifest: Manifest) -> None:
     client = client_of(forward_to(service))
     client.edit_map("yard", edit_of(random_codes(5), manifest.model_id, 0), create=True)

@@ -218,6 +218,7 @@ def test_align_refuses_options_in_a_body(stocked: Any, body: bytes) -> None:
     for headers in ({}, {"Content-Type": "application/json"}):
         answer = stocked.post("/maps/east/align/west", content=body, headers=headers)
         assert_problem(answer, 422, "invalid-request", "in the query (?motion=se3)")
+        assert [each["pointer"] for each in answer.json()["errors"]] == [""]
     packed = {"Content-Type": "application/msgpack"}
     answer = stocked.post("/maps/east/align/west", content=body, headers=packed)
     assert_problem(answer, 415, "unsupported-media-type")
