@@ -14,6 +14,7 @@ from placecell.segmentation.recording import Recording
 from tests.training_sets import make_shapes
 from training.data.augmentation import Augmentation
 from training.data.training_set import Source, TrainingSet
+from training.export.publishing import whole
 from training.methods import contrastive, group_based, siamese
 from training.methods.fit import Sgd
 from training.methods.networks import describe
@@ -153,7 +154,7 @@ def test_resumed_run_equals_an_uninterrupted_run(
     shapes: TrainingSet, other_views: TrainingSet, tmp_path: Path
 ) -> None:
     recipe = group_based.GroupBasedRecipe(epochs=3, sgd=SMALL)
-    whole = group_based.train(shapes, other_views, Run(tmp_path / "a", seed=1), recipe=recipe)
+    at_once = group_based.train(shapes, other_views, Run(tmp_path / "a", seed=1), recipe=recipe)
 
     class StoppedError(Exception):
         pass
@@ -169,7 +170,7 @@ def test_resumed_run_equals_an_uninterrupted_run(
     resumed = Run(tmp_path / "b", seed=1)
     network = group_based.train(shapes, other_views, resumed, recipe=recipe)
     assert len(resumed.history) == 3
-    assert describe(network, shapes) == pytest.approx(describe(whole, shapes), abs=1e-5)
+    assert describe(network, shapes) == pytest.approx(describe(at_once, shapes), abs=1e-5)
 
 
 def test_small_groups_are_left_out() -> None:
@@ -207,11 +208,11 @@ def test_different_parameters_and_shared_scans_are_refused() -> None:
         parameters=replace(recording.parameters, growing_radius=0.5),
         scan_hashes=tuple("ijklmnop"),
     )
-    whole = Source(recording, 0, recording.scans - 1)
+    all_scans = Source(recording, 0, recording.scans - 1)
     with pytest.raises(ValueError, match="different parameters"):
-        TrainingSet.of([whole, Source(other, 0, other.scans - 1)])
+        TrainingSet.of([all_scans, Source(other, 0, other.scans - 1)])
     with pytest.raises(ValueError, match="shares scans"):
-        TrainingSet.of([whole, Source(recording, 0, 0)])
+        TrainingSet.of([all_scans, Source(recording, 0, 0)])
 
 
 def test_split_keeps_groups_whole(shapes: TrainingSet) -> None:
@@ -233,3 +234,14 @@ def test_augmentation_drops_points_but_no_segment(shapes: TrainingSet) -> None:
     assert (same == as_it_is).all()
     assert (same_extents == extents).all()
     assert replace(gentle, yaw=0.3) != gentle
+
+
+def test_replaced_model_folder_keeps_its_confidence(tmp_path: Path) -> None:
+    folder = tmp_path / "context"
+    for constants in ("before", None):
+        with whole(folder) as unfinished:
+            (unfinished / "manifest.json").write_text("{}")
+            if constants is not None:
+                (unfinished / "confidence.json").write_text(constants)
+    assert (folder / "confidence.json").read_text() == "before"
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["context"]

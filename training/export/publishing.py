@@ -22,6 +22,7 @@ from placecell.descriptors.extractor import MODEL_FILE, Extractor, OnnxExtractor
 from placecell.descriptors.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from placecell.descriptors.quantizer import Quantizer
+from placecell.localization import confidence
 from training.data.training_set import Source, TrainingSet
 from training.export.card import write_card
 from training.methods.networks import describe
@@ -125,12 +126,17 @@ def fingerprint(data: Data, *settings: object) -> str:
 
 @contextmanager
 def whole(folder: Path) -> Iterator[Path]:
-    """Yield a temporary folder, which gets the final name only if the block succeeds."""
+    """Yield a temporary folder, which gets the final name only if the block succeeds.
+
+    A confidence file stays: models without one use the file in the default model's folder.
+    """
     unfinished = folder.with_name(folder.name + ".unfinished")
     shutil.rmtree(unfinished, ignore_errors=True)
     unfinished.mkdir(parents=True)
     yield unfinished
     if folder.exists():
+        if (folder / confidence.NAME).exists():
+            shutil.copy2(folder / confidence.NAME, unfinished)
         shutil.rmtree(folder)
     unfinished.rename(folder)
 
