@@ -35,7 +35,7 @@ PAIRS = 40_000_000
 """Largest number of candidate pairs compared in all maps together."""
 
 WORTH = 0.4
-"""PartOutcome of the best map's votes below which a map is not searched in full."""
+"""Share of the best map's votes below which a map is not searched in full."""
 
 
 _threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
