@@ -359,7 +359,10 @@ class Engine:
     def writer(
         self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
     ) -> MapWriter:
-        """Return a writer of maps, with the rights of a key and the conditions of a request."""
+        """Return a writer of maps, with the rights of a key and the conditions of a request.
+
+        The caller checks that the key may write the map (`Principal.check_write`).
+        """
         return MapWriter(self.maps, self.models, principal, conditions)
 
     def put_map(
@@ -371,7 +374,7 @@ class Engine:
     ) -> WriteResult:
         """Store a map, given as such or as its file; see `MapWriter.put`."""
         file = content if isinstance(content, bytes) else encode(content)
-        return self.writer(principal, conditions).put(name, file)
+        return self._writer_to(name, principal, conditions).put(name, file)
 
     def get_map(self, name: str, version: int | None = None) -> CompactMap:
         """Return a stored map, or one of its earlier versions.
@@ -398,7 +401,7 @@ class Engine:
     ) -> WriteResult:
         """Add, replace and remove segments of a map, all or none; see `MapWriter.edit`."""
         file = delta if isinstance(delta, bytes) else encode_delta(delta)
-        return self.writer(principal, conditions).edit(
+        return self._writer_to(name, principal, conditions).edit(
             name,
             file,
             EditOptions(robot=robot, create=create, deduplicate=deduplicate, only_new=only_new),
@@ -408,7 +411,7 @@ class Engine:
         self, name: str, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
     ) -> None:
         """Remove a map with all its versions; see `MapWriter.delete`."""
-        self.writer(principal, conditions).delete(name)
+        self._writer_to(name, principal, conditions).delete(name)
 
     def restore_map(
         self,
@@ -418,7 +421,7 @@ class Engine:
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Make a new version with the content of an earlier one; see `MapWriter.restore`."""
-        return self.writer(principal, conditions).restore(name, version)
+        return self._writer_to(name, principal, conditions).restore(name, version)
 
     def prune_map(
         self,
@@ -429,11 +432,11 @@ class Engine:
         conditions: Preconditions = NO_CONDITIONS,
     ) -> WriteResult:
         """Remove segments that were last seen before a time; see `MapWriter.prune`."""
-        return self.writer(principal, conditions).prune(name, unseen_since, dry_run)
+        return self._writer_to(name, principal, conditions).prune(name, unseen_since, dry_run)
 
     def compact_map(self, name: str, keep: int = 1, principal: Principal = ANYONE) -> MapSnapshot:
         """Drop all but the newest versions of a map; see `MapWriter.compact`."""
-        return self.writer(principal).compact(name, keep)
+        return self._writer_to(name, principal).compact(name, keep)
 
     def versions(self, name: str) -> list[Commit]:
         """Return the versions of a map that are kept, oldest first."""
@@ -456,12 +459,16 @@ class Engine:
         """Align maps with each other and write their segments into one map; see `Merger.merge`.
 
         Raises:
-            Problem: as `Merger.merge`; 413 if it is too much work.
+            Problem: as `Merger.merge`; 403 if a map is outside the scope of the principal; 413 if
+                it is too much work.
         """
+        writer = self._writer_to(name, principal, conditions)
+        for each in maps:
+            principal.check_map(each)
         options = parameters or AlignmentParameters()
         self.check_alignments([name, *maps], MERGE_FEWER, options)
         merger = Merger(
-            writer=self.writer(principal, conditions),
+            writer=writer,
             parameters=options,
             deduplicate=deduplicate,
             dry_run=dry_run,
@@ -483,3 +490,10 @@ class Engine:
         sizes = [len(each) for each in snapshots]
         cost = cost_of_aligning(sizes, K, parameters or AlignmentParameters())
         check_cost(cost, self.settings.limits.alignment_seconds, remedy)
+
+    def _writer_to(
+        self, name: str, principal: Principal, conditions: Preconditions = NO_CONDITIONS
+    ) -> MapWriter:
+        """Return a writer after the check that the principal may write a map; 403 if not."""
+        principal.check_write(name)
+        return self.writer(principal, conditions)

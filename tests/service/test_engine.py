@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from placecell_client import Delta
 
 import service.engine
 from placecell.descriptors.manifest import Manifest, ModelError
+from service.core.auth import Key, Principal
 from service.core.problems import Problem
 from service.core.settings import Settings
 from service.engine import Engine, StartError
@@ -147,6 +148,29 @@ def test_maps_are_aligned_and_merged(engine: Engine) -> None:
     assert planned.written is None
     merged = engine.merge_maps("site", ["a", "b"], deduplicate=False)
     assert merged.segments == planned.segments + 12 == len(engine.get_map("site"))
+
+
+def test_writes_outside_the_scope_of_a_principal_are_refused(engine: Engine) -> None:
+    reader = Principal("reader", Key(sha256="0" * 64))
+    yard_only = Principal("yard", Key(sha256="1" * 64, write=True, maps=("yard",)))
+    other = engine.put_map("other", yard_of(engine)).snapshot
+    nothing = Delta(other.layers.take(np.zeros(0, np.uint32)), np.zeros(0, np.uint32))
+    refused: list[Callable[[], object]] = [
+        lambda: engine.put_map("yard", yard_of(engine), principal=reader),
+        lambda: engine.put_map("other", yard_of(engine), principal=yard_only),
+        lambda: engine.edit_map("other", nothing, principal=yard_only),
+        lambda: engine.restore_map("other", 1, principal=yard_only),
+        lambda: engine.prune_map("other", 0.0, principal=yard_only),
+        lambda: engine.compact_map("other", principal=yard_only),
+        lambda: engine.delete_map("other", principal=yard_only),
+        lambda: engine.merge_maps("other", ["yard"], principal=yard_only),
+        lambda: engine.merge_maps("yard", ["other", "more"], principal=yard_only),
+    ]
+    for write in refused:
+        with pytest.raises(Problem) as caught:
+            write()
+        assert caught.value.status == 403
+    assert [each.name for each in engine.maps.all()] == ["other"]
 
 
 def test_session_of_one_robot_is_remembered(engine: Engine) -> None:
