@@ -29,8 +29,11 @@ test: install  ## Run all tests, with coverage; JOBS=N sets the parallel workers
 	$(PYTEST) --hypothesis-profile=ci --cov --cov-report=term
 
 FAST := tests/placecell tests/client tests/service
-test-fast: install  ## Run the tests that take a minute together: core, client, HTTP routes
-	$(PYTEST) --hypothesis-profile=ci -m "not slow and not integration and not recorded" $(FAST)
+# Folders of the fast tests are in memory where that is possible: they need not survive.
+IN_MEMORY := $(if $(wildcard /dev/shm),PYTEST_DEBUG_TEMPROOT=/dev/shm)
+test-fast: install  ## Run the fast tests in a minute: core, client, HTTP routes
+	$(IN_MEMORY) $(PYTEST) --hypothesis-profile=fast \
+		-m "not slow and not integration and not recorded" $(FAST)
 
 lint: install  ## Check style and types
 	$(BIN)/ruff check .

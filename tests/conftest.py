@@ -11,6 +11,9 @@ from collections.abc import Iterator
 from types import CodeType, FunctionType
 
 import pytest
+from hypothesis import settings
+
+settings.register_profile("fast", settings.get_profile("ci"), max_examples=20)
 
 if "PYTEST_XDIST_WORKER" in os.environ:
     # The workers already use all cores. Libraries read these variables when they are imported.

@@ -16,6 +16,8 @@ from placecell_client import AsyncClient, Client, Retries, ServiceError
 
 from tests.client.client_fakes import INFO, SUMMARY
 
+pytestmark = pytest.mark.slow  # by their sum
+
 PATIENCE = 30
 """Time limit of a test that should end at once, seconds; long enough on a busy machine."""
 LARGE = bytes(range(256)) * 4096

@@ -14,6 +14,8 @@ from service import server
 from service.api.admission.streaming import Answers
 from service.server import Protocol
 
+pytestmark = pytest.mark.slow  # by their sum
+
 Served = tuple[str, int]
 SECONDS = 60
 CLIENTS: list[asyncio.StreamWriter] = []

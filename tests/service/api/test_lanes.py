@@ -33,6 +33,8 @@ from tests.service.service_builders import (
     request_of,
 )
 
+pytestmark = pytest.mark.slow  # by their sum
+
 SCAN = request_of([cloud(0)])
 
 

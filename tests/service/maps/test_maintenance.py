@@ -17,6 +17,8 @@ from service.maps.cache import MapCache
 from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from tests.service.service_builders import edit_of, map_of, random_codes
 
+pytestmark = pytest.mark.slow  # by their sum
+
 EAGER = MaintenanceThresholds(recent=3, share=0.0, commits=1_000)
 
 

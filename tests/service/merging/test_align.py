@@ -26,6 +26,8 @@ from tests.service.merging.merged_map_builders import (
 )
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
+pytestmark = pytest.mark.slow  # by their sum
+
 
 @pytest.fixture(scope="module")
 def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -33,6 +33,8 @@ from tests.service.merging.merged_map_builders import (
 )
 from tests.service.service_builders import assert_problem, map_of, random_codes
 
+pytestmark = pytest.mark.slow  # by their sum
+
 NONE = np.zeros(0, np.uint32)
 
 
