@@ -1,22 +1,18 @@
 """The pages against the code: the ways of requests, dependencies, named files, lengths."""
 
 import re
-import sqlite3
 import tomllib
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-import faiss
 import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
 from tests.service.conftest import manifest, models_dir, start
-from tests.service.request_tracing import traced
-from tests.service.service_builders import cloud, map_of, random_codes, request_of
-from tests.service.test_request_paths import ended_by
+from tests.service.request_tracing import end_at_commit, trace_of_search, traced
+from tests.service.service_builders import map_of, random_codes
 
 __all__ = ["manifest", "models_dir", "start"]
 
@@ -62,15 +58,7 @@ def test_way_is_short_and_its_files_exist(title: str) -> None:
 def test_steps_of_a_match_are_those_of_a_traced_request(
     start: Callable[..., Any], models_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    manifest = Manifest.load(models_dir / "onnx")
-    with traced(("service/api/routes/match.py", "match")) as trace:
-        monkeypatch.setattr(faiss.IndexFlat, "search", ended_by(trace, faiss.IndexFlat.search))
-        with start(model="onnx") as service:
-            codes = random_codes(50, dimension=manifest.code_bytes)
-            yard = encode(map_of(codes, manifest.model_id))
-            assert service.put("/maps/yard", content=yard).status_code == 201
-            request = request_of([cloud(seed) for seed in range(8)])
-            assert service.post("/match", json=request).status_code == 200
+    trace = trace_of_search(start, models_dir, monkeypatch, "match")
     assert sorted(files_of(MATCH)) == sorted(trace.passed)
 
 
@@ -78,15 +66,7 @@ def test_steps_of_an_upload_are_those_of_a_traced_request(
     start: Callable[..., Any], manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with traced(("service/api/routes/maps.py", "put_map")) as trace:
-
-        class Connection(sqlite3.Connection):
-            def execute(self, sql: str, *parameters: Any) -> sqlite3.Cursor:
-                if sql == "COMMIT":
-                    trace.stop()
-                return super().execute(sql, *parameters)
-
-        connect = partial(sqlite3.connect, factory=Connection)
-        monkeypatch.setattr("service.maps.sqlite.database.sqlite3.connect", connect)
+        end_at_commit(trace, monkeypatch)
         with start() as service:
             yard = encode(map_of(random_codes(20), manifest.model_id))
             assert service.put("/maps/yard", content=yard).status_code == 201

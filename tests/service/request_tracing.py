@@ -9,15 +9,23 @@ the voxels of a segment, is called, but not passed.
 import importlib
 import inspect
 import opcode
+import sqlite3
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
+
+import faiss
+import pytest
+from placecell_client import encode
+
+from placecell.descriptors.manifest import Manifest
+from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -139,3 +147,49 @@ def traced(start: tuple[str, str]) -> Iterator[Trace]:
     finally:
         sys.setprofile(None)
         threading.setprofile(None)
+
+
+def ended_by(trace: Trace, function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function with a trace that ends at its first call."""
+
+    def stopping(*args: Any, **kwargs: Any) -> Any:
+        trace.stop()
+        return function(*args, **kwargs)
+
+    return stopping
+
+
+def end_at_commit(trace: Trace, monkeypatch: pytest.MonkeyPatch) -> None:
+    """End a trace at the commit of a transaction of SQLite."""
+
+    class Connection(sqlite3.Connection):
+        def execute(self, sql: str, *parameters: Any) -> sqlite3.Cursor:
+            if sql == "COMMIT":
+                trace.stop()
+            return super().execute(sql, *parameters)
+
+    connect = partial(sqlite3.connect, factory=Connection)
+    monkeypatch.setattr("service.maps.sqlite.database.sqlite3.connect", connect)
+
+
+def trace_of_search(
+    start: Callable[..., Any], models_dir: Path, monkeypatch: pytest.MonkeyPatch, path: str
+) -> Trace:
+    """Search a stored map for some segments; return the way from the route to FAISS.
+
+    Args:
+        start: starts a service.
+        models_dir: folder of the models, among them `onnx`.
+        monkeypatch: restores FAISS after the test.
+        path: `match` or `localize`.
+    """
+    manifest = Manifest.load(models_dir / "onnx")
+    with traced((f"service/api/routes/{path}.py", path)) as trace:
+        monkeypatch.setattr(faiss.IndexFlat, "search", ended_by(trace, faiss.IndexFlat.search))
+        with start(model="onnx") as service:
+            codes = random_codes(50, dimension=manifest.code_bytes)
+            yard = encode(map_of(codes, manifest.model_id))
+            assert service.put("/maps/yard", content=yard).status_code == 201
+            request = request_of([cloud(seed) for seed in range(8)])
+            assert service.post(f"/{path}", json=request).status_code == 200
+    return trace

@@ -1,17 +1,14 @@
 """The way of a request through the files stays short: docs/explanation/architecture.md tells it."""
 
-import sqlite3
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
-import faiss
 import pytest
 from placecell_client import encode
 
 from placecell.descriptors.extractor import OnnxExtractor
 from placecell.descriptors.manifest import Manifest
-from tests.service.request_tracing import Trace, traced
+from tests.service.request_tracing import end_at_commit, ended_by, trace_of_search, traced
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 MOST = 15
@@ -24,27 +21,11 @@ MOST_OF_REPLACEMENT = 15
 """Largest number of files that an upload passes that replaces a map: it is compared as well."""
 
 
-def ended_by(trace: Trace, function: Callable[..., Any]) -> Callable[..., Any]:
-    def stopping(*args: Any, **kwargs: Any) -> Any:
-        trace.stop()
-        return function(*args, **kwargs)
-
-    return stopping
-
-
 @pytest.mark.parametrize("path", ["match", "localize"])
 def test_search_passes_few_files_from_route_to_faiss(
     start: Callable[..., Any], models_dir: Any, monkeypatch: pytest.MonkeyPatch, path: str
 ) -> None:
-    manifest = Manifest.load(models_dir / "onnx")
-    with traced((f"service/api/routes/{path}.py", path)) as trace:
-        monkeypatch.setattr(faiss.IndexFlat, "search", ended_by(trace, faiss.IndexFlat.search))
-        with start(model="onnx") as service:
-            codes = random_codes(50, dimension=manifest.code_bytes)
-            yard = encode(map_of(codes, manifest.model_id))
-            assert service.put("/maps/yard", content=yard).status_code == 201
-            request = request_of([cloud(seed) for seed in range(8)])
-            assert service.post(f"/{path}", json=request).status_code == 200
+    trace = trace_of_search(start, models_dir, monkeypatch, path)
     assert trace.has_ended
     assert "service/maps/index.py" in trace.passed
     assert len(trace.passed) <= MOST, trace.passed
@@ -71,15 +52,7 @@ def test_upload_passes_few_files_from_route_to_sqlite(
     replaces: bool,
 ) -> None:
     with traced(("service/api/routes/maps.py", "put_map")) as trace:
-
-        class Connection(sqlite3.Connection):
-            def execute(self, sql: str, *parameters: Any) -> sqlite3.Cursor:
-                if sql == "COMMIT":
-                    trace.stop()
-                return super().execute(sql, *parameters)
-
-        connect = partial(sqlite3.connect, factory=Connection)
-        monkeypatch.setattr("service.maps.sqlite.database.sqlite3.connect", connect)
+        end_at_commit(trace, monkeypatch)
         with start() as service:
             for seed in range(1 + replaces):
                 trace.has_ended, trace.passed, trace.files = False, [], []
