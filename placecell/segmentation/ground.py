@@ -45,12 +45,36 @@ def ground_surface(lowest: Float32, parameters: Parameters) -> Float32:
     third_lowest = ndimage.rank_filter(filled, rank=2, size=5, mode="nearest")
     filled = np.where(filled < third_lowest - parameters.ground_clearance, third_lowest, filled)
     reach = round(parameters.ground_window / parameters.ground_cell / 2)
-    disk = np.hypot(*np.mgrid[-reach : reach + 1, -reach : reach + 1]) <= reach
     padded = (
         np.pad(filled, 2 * reach, mode="reflect", reflect_type="odd")
         if min(filled.shape) > 2 * reach
         else np.pad(filled, 2 * reach, mode="edge")
     )
-    opened = ndimage.grey_opening(padded, footprint=disk)
-    inner = opened[2 * reach : -2 * reach, 2 * reach : -2 * reach]
-    return np.asarray(inner, dtype=np.float32)
+    eroded = lowest_in_disk(padded, reach)
+    return -lowest_in_disk(-eroded, reach)
+
+
+def lowest_in_disk(heights: Float32, reach: int) -> Float32:
+    """Return the minimum over the disk around each cell, float32 (rows - 2 r, columns - 2 r).
+
+    A disk is a union of runs, one a row. So the minimum over the disk is the minimum of one-way
+    minima, each over a run of columns: some 60 passes over the grid in place of one comparison for
+    each of the disk's 700 cells.
+
+    Args:
+        heights: float32 (rows, columns), more than 2 r each.
+        reach: radius of the disk, cells.
+    """
+    rows, columns = (size - 2 * reach for size in heights.shape)
+    lowest = np.full((rows, columns), np.inf, dtype=np.float32)
+    run = heights[:, reach : reach + columns]
+    for half in range(reach + 1):
+        if half:
+            left, right = reach - half, reach + half
+            run = np.minimum(run, heights[:, left : left + columns])
+            run = np.minimum(run, heights[:, right : right + columns])
+        # The rows of the disk whose run is 2 half + 1 cells wide.
+        for row in range(-reach, reach + 1):
+            if half * half + row * row <= reach * reach < (half + 1) ** 2 + row * row:
+                np.minimum(lowest, run[reach + row : reach + row + rows], out=lowest)
+    return lowest

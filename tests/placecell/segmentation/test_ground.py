@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Bool, Float32
-from placecell.segmentation.ground import is_ground
+from placecell.segmentation.ground import is_ground, lowest_in_disk
 from tests.placecell.segment_builders import box, plane
 
 CAR = (4.4, 1.8, 1.5)
@@ -112,3 +113,13 @@ def test_map_narrower_than_the_window() -> None:
     of_ground, of_post = removed(plane(3), post)
     assert of_ground.all()
     assert not of_post[above(post, 0.31)].any()
+
+
+@pytest.mark.parametrize("reach", [0, 1, 5, 15])
+def test_minimum_over_runs_is_the_minimum_over_the_disk(reach: int) -> None:
+    shape = (2 * reach + 21, 2 * reach + 9)
+    heights = np.random.default_rng(0).normal(size=shape).astype(np.float32)
+    disk = np.hypot(*np.mgrid[-reach : reach + 1, -reach : reach + 1]) <= reach
+    expected = ndimage.grey_erosion(heights, footprint=disk)
+    inner = expected[reach : shape[0] - reach, reach : shape[1] - reach]
+    np.testing.assert_array_equal(lowest_in_disk(heights, reach), inner)
