@@ -62,5 +62,8 @@ def print_table(report: dict[str, Any]) -> None:
     if any("alone" in figures for figures in extractors.values()):
         alone = (figures.get("alone", figures)["top1"] for figures in extractors.values())
         table.add_row("top1, segments alone", *map(percent, alone))
+    errors = (figures["expected_calibration_error"] for figures in extractors.values())
+    shown = ("-" if error is None else f"{error:.3f}" for error in errors)
+    table.add_row("expected calibration error", *shown)
     table.add_row("seen in training", *("yes" if f["seen"] else "no" for f in extractors.values()))
     print_tables(table)

@@ -8,7 +8,7 @@ import typer
 
 from cli.common_options import Every, Model
 from cli.sources import clear_errors, show
-from cli.tables import JsonFile, new_table, print_tables, write_json
+from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
 
 def evaluate_poses(
@@ -93,6 +93,9 @@ def evaluate_poses(
     print_report(report)
 
 
+SHARES = ("best_pose_right", "told_share_of_right", "success_2m_5deg")
+
+
 def print_report(report: dict[str, Any]) -> None:
     """Print the figures."""
     where = "by blocks" if report["blocks"] else f"in the map of {report['map_drive']}"
@@ -105,6 +108,8 @@ def print_report(report: dict[str, Any]) -> None:
         share = report[name]
         shown = "-" if share is None else f"{share:.2%}"
         table.add_row(name.replace("_", " "), shown, f"{low:.2%} to {high:.2%}")
+    for name in SHARES:
+        table.add_row(name.replace("_", " "), percent(report[name]), "")
     print_tables(table)
     beyond = report["beyond_the_map"]
     if beyond["queries"]:
@@ -113,6 +118,11 @@ def print_report(report: dict[str, Any]) -> None:
             f"outside the map: {beyond['queries']:,} queries, {counts['localised_right']} right, "
             f"{counts['wrong_but_sure']} wrong but sure, {counts['not_localised']} not localized"
         )
+    error, score = (
+        "-" if report[name] is None else f"{report[name]:.3f}"
+        for name in ("expected_calibration_error", "brier")
+    )
+    typer.echo(f"Expected calibration error: {error}. Brier score: {score}.")
     typer.echo(
         f"Median error: {report['median_position_error_m']} m, {report['median_yaw_error_deg']} "
         f"deg. Time from descriptors to pose: {report['p50_ms']} ms (p50), "

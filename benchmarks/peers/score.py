@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.peers.exchange import Peer, PeerAnswer
-from evaluation.poses.report import OFF, Outcome, median, shares
+from evaluation.poses.report import OFF, Outcome, best_pose_shares, median, shares
 from placecell.core.types import Bool, Float64
 from placecell.localization import Pose
 
@@ -52,6 +52,7 @@ def score_peer(
     return {
         "name": peer.name,
         **shares([each.outcome for each in within]),
+        **best_pose_shares([each.outcome for each in within]),
         "median_position_error_m": median([each.meters for each in told]),
         "median_yaw_error_deg": median([each.degrees for each in told]),
         "p50_ms": round(float(p50), 1),

@@ -11,11 +11,15 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
+from evaluation.calibration import calibration_figures
 from placecell.core.types import Bool, Float64
 
 RIGHT = (1.0, 3.0)
 OFF = (3.0, 10.0)
 """Tolerances of a right pose, and of one that is not misleading: meters and degrees."""
+
+WIDE = (2.0, 5.0)
+"""Tolerances of a success in the literature on global registration: meters and degrees."""
 
 SURE = 0.9
 """Probability from which a pose counts as sure."""
@@ -57,6 +61,11 @@ class Outcome:
         return self.meters <= RIGHT[0] and self.degrees <= RIGHT[1]
 
     @property
+    def within_2m_5deg(self) -> bool:
+        """Return whether the best hypothesis is within 2 m and 5 degrees, localized or not."""
+        return self.meters <= WIDE[0] and self.degrees <= WIDE[1]
+
+    @property
     def wrong_but_sure(self) -> bool:
         """Return whether the pose is misleading: sure, but far off."""
         off = self.meters > OFF[0] or self.degrees > OFF[1]
@@ -73,6 +82,8 @@ def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     p50, p99 = (round(float(np.percentile(milliseconds, at)), 2) for at in (50, 99))
     return {
         **shares(within),
+        **best_pose_shares(within),
+        **calibration(outcomes),
         "reasons": reasons(within),
         "median_position_error_m": median([each.meters for each in told]),
         "median_yaw_error_deg": median([each.degrees for each in told]),
@@ -96,10 +107,45 @@ def shares(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     n = len(outcomes)
     return {
         "queries": n,
-        **{name: round(count / n, 5) if n else None for name, count in counts.items()},
+        **{name: share(count, n) for name, count in counts.items()},
         "counts": counts,
         "bounds_95": {name: bounds(count, n) for name, count in counts.items()},
     }
+
+
+def best_pose_shares(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
+    """Return how many best hypotheses are right, and what share of these is told.
+
+    `success_...` counts the poses that are told, `best_pose_...` the best hypotheses.
+    """
+    n = len(outcomes)
+    right = [each for each in outcomes if each.right]
+    near = [each for each in outcomes if each.within_2m_5deg]
+    told = sum(each.localized for each in right)
+    return {
+        "best_pose_right": share(len(right), n),
+        "told_share_of_right": share(told, len(right)),
+        "success_1m_3deg": share(told, n),
+        "success_2m_5deg": share(sum(each.localized for each in near), n),
+        "best_pose_2m_5deg": share(len(near), n),
+    }
+
+
+def calibration(outcomes: Sequence[Outcome]) -> dict[str, float | None]:
+    """Return the calibration of the stated probabilities of the best hypotheses, told or not.
+
+    A query without any hypothesis states no probability, so it does not count.
+    """
+    stated = [each for each in outcomes if np.isfinite(each.meters)]
+    return calibration_figures(
+        np.array([each.probability for each in stated]),
+        np.array([each.right for each in stated], dtype=bool),
+    )
+
+
+def share(count: int, n: int) -> float | None:
+    """Return a rounded share; None of nothing."""
+    return round(count / n, 5) if n else None
 
 
 def bounds(count: int, n: int) -> list[float]:

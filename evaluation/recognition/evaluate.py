@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.calibration import calibration_figures
 from evaluation.machine import machine
 from evaluation.recognition import retrieval as recognition
 from placecell.core.parameters import PROTOCOL_V1
@@ -34,6 +35,9 @@ def measure(
 ) -> dict[str, Any]:
     """Return all figures of one model; a figure that cannot be measured is None.
 
+    `expected_calibration_error` and `brier` are of the match probabilities of each segment with its
+    25 nearest; None without a pair classifier.
+
     For a model with a neighborhood, `alone` has the figures of segments with an empty neighborhood;
     its `top1_in_map` searches such segments in a map of segments with their neighborhood.
 
@@ -50,9 +54,10 @@ def measure(
         alone = manifest.quantizer.rounded(extractor.describe(segments, nothing))
         in_map = recognition.retrieve(steps, groups, queries=alone)
         figures["alone"] = retrieval(alone, segments, groups) | {"top1_in_map": mean(in_map.right)}
+    figures |= {"expected_calibration_error": None, "brier": None}
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
-        figures["candidate_calibration_error"] = calibration_error(classifier, codes, *nearest)
+        figures |= candidate_calibration(classifier, codes, *nearest)
     positive, negative = recognition.draw_pairs(
         groups, recognition.PAIRS, np.random.default_rng(seed)
     )
@@ -93,16 +98,18 @@ def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, An
     }
 
 
-def calibration_error(
+def candidate_calibration(
     classifier: PairClassifier, codes: Int8, matches: Int64, others: Int64
-) -> float | None:
-    """Return the calibration error of the stated probabilities; None if there are no pairs."""
+) -> dict[str, float | None]:
+    """Return the calibration of the match probabilities of pairs; None if there are no pairs."""
     pairs = np.concatenate([matches, others])
-    if not len(pairs):
-        return None
-    stated = classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
     truth = np.repeat([1.0, 0.0], [len(matches), len(others)])
-    return recognition.expected_calibration_error(stated, truth)[0]
+    stated = np.zeros(0)
+    if len(pairs):
+        stated = classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
+    figures = calibration_figures(stated, truth)
+    # The older key has the same value.
+    return {"candidate_calibration_error": figures["expected_calibration_error"]} | figures
 
 
 PAIR_FIGURES = (

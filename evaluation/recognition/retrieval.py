@@ -208,28 +208,3 @@ def best_threshold(positive: Float64, negative: Float64) -> float:
 def accuracy_at(threshold: float, positive: Float64, negative: Float64) -> float:
     """Return the balanced accuracy if pairs nearer than the threshold are matches."""
     return float(((positive <= threshold).mean() + (negative > threshold).mean()) / 2)
-
-
-def expected_calibration_error(
-    probability: Float64, matches: Float64, bins: int = 10
-) -> tuple[float, list[tuple[float, float, int]]]:
-    """Return the expected calibration error, and the points of the reliability diagram.
-
-    Returns:
-        The mean of |stated - true|, weighted by count; and per nonempty bin of equal width the mean
-        stated probability, the share of matches, and the count.
-    """
-    which = np.minimum((probability * bins).astype(int), bins - 1)
-    points = []
-    for index in range(bins):
-        inside = which == index
-        if inside.any():
-            points.append(
-                (
-                    float(probability[inside].mean()),
-                    float(matches[inside].mean()),
-                    int(inside.sum()),
-                )
-            )
-    error = sum(abs(stated - true) * count for stated, true, count in points) / len(matches)
-    return error, points

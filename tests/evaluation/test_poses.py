@@ -14,7 +14,9 @@ from evaluation.poses.evaluate import outcome_of, row_of
 from evaluation.poses.queries import Pair, PoseQuery, joined, random_frame, spread
 from evaluation.poses.report import (
     Outcome,
+    best_pose_shares,
     bounds,
+    calibration,
     precision_recall,
     reliability_of,
     report,
@@ -65,6 +67,39 @@ def test_right_is_within_a_meter_and_three_degrees(
     meters: float, degrees: float, right: bool
 ) -> None:
     assert outcome(meters, degrees).right is right
+
+
+def test_best_poses_count_whether_they_are_told_or_not() -> None:
+    wide = outcome(meters=2.0, degrees=5.0)
+    told = best_pose_shares([RIGHT, RIGHT, RIGHT, UNKNOWN, wide, OFF, TURNED, LOST])
+    assert told == {
+        "best_pose_right": 4 / 8,
+        "told_share_of_right": 3 / 4,
+        "success_1m_3deg": 3 / 8,
+        "success_2m_5deg": 4 / 8,
+        "best_pose_2m_5deg": 5 / 8,
+    }
+
+
+def test_best_poses_without_queries_are_undefined() -> None:
+    assert set(best_pose_shares([]).values()) == {None}
+    told = best_pose_shares([LOST])
+    assert (told["best_pose_right"], told["told_share_of_right"]) == (0.0, None)
+
+
+def test_calibration_of_best_poses_by_hand() -> None:
+    stated = [
+        outcome(probability=0.95),
+        outcome(meters=9, probability=0.95),
+        outcome(probability=0.4, reason="inconsistent"),
+        outcome(meters=9, probability=0.0, reason="inconsistent", mapped=False),
+        LOST,  # states no probability
+    ]
+    told = calibration(stated)
+    # Bins: 0.9 to 1 (two, half of them right), 0.4 to 0.5 (one, right), 0 to 0.1 (one, wrong).
+    assert told["expected_calibration_error"] == pytest.approx((2 * 0.45 + 0.6 + 0.0) / 4)
+    assert told["brier"] == pytest.approx((0.05**2 + 0.95**2 + 0.6**2 + 0.0) / 4)
+    assert calibration([LOST]) == {"expected_calibration_error": None, "brier": None}
 
 
 def test_bounds_are_those_of_the_binomial_distribution() -> None:
@@ -118,6 +153,10 @@ def test_queries_beyond_the_map_are_counted_apart() -> None:
     assert told["p50_ms"] == told["p99_ms"] == 5.0
     assert told["covariance_ratio"] == pytest.approx(3 / stats.chi2.median(4), abs=1e-4)
     assert sum(row["count"] for row in told["reliability"]) == 5
+    # Shares are of the mapped area; the calibration also has the queries beyond the map.
+    assert told["best_pose_right"] == pytest.approx(2 / 3, abs=1e-5)
+    assert told["expected_calibration_error"] == pytest.approx(0.01)
+    json.dumps(told, allow_nan=False)
 
 
 def test_pose_error_is_measured_at_the_sensor() -> None:

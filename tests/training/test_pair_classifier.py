@@ -8,7 +8,7 @@ import onnxruntime
 import pytest
 import torch
 
-from evaluation.recognition.retrieval import expected_calibration_error
+from evaluation.calibration import expected_calibration_error
 from placecell.descriptors.manifest import PAIR_FILE, Manifest
 from placecell.descriptors.pair_classifier import PairClassifier
 from placecell.descriptors.quantizer import Quantizer

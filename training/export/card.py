@@ -55,6 +55,10 @@ WHAT = {
 }
 
 
+CALIBRATION_FIGURES = ("candidate_calibration_error", "expected_calibration_error", "brier")
+"""Figures that the card leaves out: it states the calibration error of the pair classifier."""
+
+
 def write_card(folder: Path, manifest: Manifest) -> None:
     """Write the model card `README.md` into the model's folder."""
     training = manifest.training
@@ -66,7 +70,7 @@ def write_card(folder: Path, manifest: Manifest) -> None:
     figures = [
         f"| {name} | {value:.3f} |"
         for name, value in manifest.figures["validation"].items()
-        if isinstance(value, float) and name != "candidate_calibration_error"
+        if isinstance(value, float) and name not in CALIBRATION_FIGURES
     ]
     (folder / "README.md").write_text(
         CARD.format(

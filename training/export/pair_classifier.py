@@ -23,11 +23,8 @@ from sklearn.ensemble import RandomForestClassifier
 from sklearn.linear_model import LogisticRegression
 from torch import Tensor, nn
 
-from evaluation.recognition.retrieval import (
-    area_under_roc,
-    best_threshold,
-    expected_calibration_error,
-)
+from evaluation.calibration import expected_calibration_error
+from evaluation.recognition.retrieval import area_under_roc, best_threshold
 from placecell.core.types import Float32, Float64, Int64
 from training.export.onnx_graph import to_onnx
 
