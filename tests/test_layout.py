@@ -45,6 +45,7 @@ LAYERS = (
     ("town.streets",),
     ("town.objects",),
     ("town", "town.sensing"),
+    ("town.places",),
     ("town.drives",),
     ("service.core",),
     ("service.inference",),

@@ -17,8 +17,9 @@ def town(
     context: typer.Context,
     output: options.Output,
     seed: options.Seed = 7,
+    place: options.Place = "streets",
     scans: options.Scans = None,
-    spacing: options.Spacing = 1.0,
+    spacing: options.Spacing = None,
     columns: options.Columns = 1000,
     overwrite: options.Overwrite = False,
     meters: options.Meters = None,
@@ -38,6 +39,8 @@ def town(
 ) -> None:
     """Simulate robots that drive the same streets of a synthetic town in opposite directions.
 
+    --place simulates another place, such as a campus.
+
     The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. The LiDAR
     has 64 beams; parked cars change between the drives. The same seed gives the same files.
 
@@ -51,8 +54,11 @@ def town(
     with clear_errors():
         if meters is None:
             refuse_options_of_large_towns(context)
-            small_town(output, seed, scans or options.SCANS, spacing, columns, overwrite)
+            small_town(output, seed, place, scans or options.SCANS, spacing, columns, overwrite)
             return
+        if place != "streets":
+            raise ValueError(f"--meters builds streets only; leave out --place {place}.")
+        spacing = 1.0 if spacing is None else spacing
         if pairs and robots < 2:
             raise ValueError("--pairs needs two robots or more; increase --robots")
         from town import HDL_64E, City, Odometry, several_robots
@@ -108,14 +114,21 @@ def refuse_options_of_large_towns(context: typer.Context) -> None:
 
 
 def small_town(
-    output: Path, seed: int, scans: int, spacing: float, columns: int, overwrite: bool
+    output: Path,
+    seed: int,
+    place: str,
+    scans: int,
+    spacing: float | None,
+    columns: int,
+    overwrite: bool,
 ) -> None:
-    """Simulate two robots in the small town."""
+    """Simulate two robots in the small town or in a place beside its streets."""
     from town import two_robots
 
     drives = two_robots(
         output,
         seed=seed,
+        place=place,
         scans=scans,
         spacing=spacing,
         columns=columns,

@@ -14,13 +14,24 @@ Output = Annotated[Path, typer.Argument(help="Folder for the drives.")]
 Seed = Annotated[
     int, typer.Option(min=0, help="Random seed of town, route, parked cars and sensor noise.")
 ]
+Place = Annotated[
+    str,
+    typer.Option(metavar="NAME", help="Place: streets or campus."),
+]
 Scans = Annotated[
     int | None,
     typer.Option(
         min=1, help=f"Scans per drive. (default: {SCANS}; in a large town the whole route)"
     ),
 ]
-Spacing = Annotated[float, typer.Option(min=0.05, help="Distance between scans, meters.")]
+Spacing = Annotated[
+    float | None,
+    typer.Option(
+        min=0.05,
+        help="Distance between scans, meters. (default: 1.0 on streets; each other place has its "
+        "own, see docs/explanation/town.md)",
+    ),
+]
 Columns = Annotated[int, typer.Option(min=16, help="Azimuth steps per revolution of the sensor.")]
 Overwrite = Annotated[bool, typer.Option(help="Replace existing drives.")]
 Meters = Annotated[

@@ -14,6 +14,7 @@ from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.drives.oncoming import Oncoming
 from town.geometry.scene import Layers, Scene, Scenes, Surfaces
+from town.places.place import Place
 from town.sensing.lidar import HDL_64E, Lidar
 from town.sensing.odometry import ODOMETRY_FILE, Odometry
 from town.streets.route import Route
@@ -38,7 +39,7 @@ FILES = ("calib.txt", "poses.txt", ODOMETRY_FILE, "times.txt", ORIGIN_FILE)
 
 def write_drive(
     folder: Path,
-    town: Town | City,
+    town: Town | City | Place,
     route: Route,
     *,
     traffic_seed: int,
@@ -67,7 +68,7 @@ def write_drive(
 
     Args:
         folder: folder of the drive, created if it is missing.
-        town: town or large town.
+        town: town, large town or place.
         route: route of the robot.
         traffic_seed: seed of the parked cars and people.
         scans: number of scans.

@@ -7,10 +7,10 @@ from string import ascii_lowercase
 from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.drives.drive import check, write_drive
+from town.places.catalog import STREETS, kind_of
 from town.sensing.lidar import HDL_64E, Lidar
 from town.sensing.odometry import Odometry
 from town.streets.route import Route, arc_lengths
-from town.town import Town
 
 
 def two_robots(
@@ -18,19 +18,21 @@ def two_robots(
     seed: int = 7,
     scans: int = 120,
     *,
-    spacing: float = 1.0,
+    spacing: float | None = None,
     columns: int = 1000,
+    place: str = STREETS,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> tuple[Path, Path]:
-    """Write `robot_a` and `robot_b`: the same streets in opposite directions, with other cars.
+    """Write `robot_a` and `robot_b`: the same way in opposite directions, with other cars.
 
     Args:
         folder: parent folder of both drives.
         seed: seed of town, route, parked cars and noise.
         scans: number of scans of each drive.
-        spacing: distance between scans, meters.
+        spacing: distance between scans, meters; None for the place's own.
         columns: number of azimuth steps of the sensor.
+        place: name of the place, see `town.places`.
         overwrite: replace existing drives.
         progress: function that shows the progress.
 
@@ -39,14 +41,13 @@ def two_robots(
 
     Raises:
         FileExistsError: A drive exists, and `overwrite` is not set.
+        ValueError: There is no such place.
     """
-    town = Town.build(seed)
+    kind = kind_of(place)
+    spacing = kind.spacing if spacing is None else spacing
     # The inner lane of a turn is shorter than the center line.
-    length = 1.08 * scans * spacing + 4.0
-    route = Route.wander(town.plan, town.terrain, length + 20.0, seed).cut(
-        start=10.0, length=length
-    )
-    lidar = replace(HDL_64E, columns=columns)
+    town, route = kind.build(seed, 1.08 * scans * spacing + 4.0)
+    lidar = replace(HDL_64E, columns=columns, height=kind.sensor_height)
     drives = []
     for number, (name, way) in enumerate([("robot_a", route), ("robot_b", route.reversed())]):
         drive = write_drive(

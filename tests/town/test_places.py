@@ -1,0 +1,100 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from placecell.core.types import Float64
+from town.drives.robots import two_robots
+from town.geometry.scene import Scene
+from town.places import PLACES, Place, build_place
+from town.streets.route import Route
+
+OTHERS = [name for name in PLACES if name != "streets"]
+
+
+@pytest.fixture(scope="module", params=OTHERS)
+def built(request: pytest.FixtureRequest) -> tuple[str, Place, Route]:
+    place, route = build_place(request.param, seed=3, meters=120.0)
+    assert isinstance(place, Place)
+    return request.param, place, route
+
+
+def places_of(route: Route) -> Float64:
+    """Return places along the lanes of both robots, (n, 2), a meter apart."""
+    return np.concatenate(
+        [
+            way.poses(np.arange(0.0, way.length()), 0.0)[:, :3, 3]
+            for way in (route, route.reversed())
+        ]
+    )
+
+
+def test_same_seed_gives_the_same_place(built: tuple[str, Place, Route]) -> None:
+    name, place, route = built
+    again, same_route = build_place(name, seed=3, meters=120.0)
+    assert isinstance(again, Place)
+    assert (again.mesh(1).triangles == place.mesh(1).triangles).all()
+    assert (again.mesh(1).reflectance == place.mesh(1).reflectance).all()
+    assert (same_route.center == route.center).all()
+
+
+def test_other_seed_gives_another_place(built: tuple[str, Place, Route]) -> None:
+    name, place, _ = built
+    other, _ = build_place(name, seed=4, meters=120.0)
+    assert isinstance(other, Place)
+    assert len(other.mesh(1)) != len(place.mesh(1))
+
+
+def test_route_is_long_enough_in_both_directions(built: tuple[str, Place, Route]) -> None:
+    _, _, route = built
+    assert min(route.length(), route.reversed().length()) >= 110.0
+
+
+def test_route_runs_on_free_ground(built: tuple[str, Place, Route]) -> None:
+    """No surface from 0.3 m to 1.8 m above the ground comes within 0.3 m of either robot."""
+    _, place, route = built
+    scene = Scene(place.mesh(1))
+    angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    rays = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1).astype(np.float32)
+    for height in (0.3, 0.8, 1.3, 1.8):
+        origins = np.repeat(places_of(route) + (0, 0, height), len(rays), axis=0)
+        directions = np.tile(rays, (len(origins) // len(rays), 1))
+        ranges, _ = scene.cast(origins.astype(np.float32), directions)
+        assert ranges.min() > 0.3
+
+
+def test_robot_has_ground_below_and_is_not_inside_an_object(
+    built: tuple[str, Place, Route],
+) -> None:
+    _, place, route = built
+    scene = Scene(place.mesh(1))
+    origins = (places_of(route) + (0, 0, 0.5)).astype(np.float32)
+    down = np.tile(np.array([[0, 0, -1]], dtype=np.float32), (len(origins), 1))
+    ranges, hit = scene.cast(origins, down)
+    assert (hit < len(place.ground)).all()
+    np.testing.assert_allclose(ranges, 0.5, atol=0.05)
+
+
+def test_movable_objects_differ_between_drives(built: tuple[str, Place, Route]) -> None:
+    _, place, _ = built
+    one, other = (
+        np.array([thing.mesh.bounds().mean(axis=0) for thing in place.movables(seed)])
+        for seed in (1, 2)
+    )
+    assert len(one) > 20
+    apart = np.linalg.norm(one[:, None] - other[None], axis=2).min(axis=1)
+    assert np.mean(apart > 0.5) > 0.25
+    assert {thing.kind for thing in place.movables(1)} >= {"person"}
+
+
+def test_meshes_are_finite_and_shades_are_valid(built: tuple[str, Place, Route]) -> None:
+    _, place, _ = built
+    mesh = place.mesh(1)
+    assert np.isfinite(mesh.triangles).all()
+    assert 0 < mesh.reflectance.min() <= mesh.reflectance.max() <= 1
+
+
+def test_unknown_place_is_refused_and_the_names_are_listed(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"Invalid place 'moon': expected one of streets, campus"):
+        two_robots(tmp_path, place="moon", scans=2)
+    assert not list(tmp_path.iterdir())
