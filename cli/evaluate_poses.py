@@ -39,6 +39,14 @@ def evaluate_poses(
         int | None,
         typer.Option(min=1, help="Number of queries, spread evenly. (default: all captures)"),
     ] = None,
+    max_false_acceptance: Annotated[
+        float | None,
+        typer.Option(
+            help="Largest expected share of queries with a false pose, off by more than 3 m or 10 "
+            "degrees; more than 0 and at most 0.5. (default: 0.001, or the smallest share that the "
+            "model supports)"
+        ),
+    ] = None,
     seed: Annotated[
         int, typer.Option(help="Random seed for the query robot's coordinate frame.")
     ] = 0,
@@ -81,7 +89,9 @@ def evaluate_poses(
         if motion not in {"yaw", "se3"}:
             raise ValueError(f"Invalid --motion {motion!r}: expected yaw or se3.")
         pair = Pair.of(map_drive, query_drive, every, (map_recording, query_recording), show)
-        parameters = LocalizationParameters(model="se3" if motion == "se3" else "yaw")
+        parameters = LocalizationParameters(
+            model="se3" if motion == "se3" else "yaw", max_false_acceptance=max_false_acceptance
+        )
         folder = model_folder(model or DEFAULT_MODEL)
         report, rows = evaluate(pair, folder, k, parameters, session, queries, seed, progress=show)
         write_json(report, json_file)

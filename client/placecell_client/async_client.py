@@ -118,10 +118,13 @@ class AsyncClient(BaseClient):
         k: int = 25,
         motion: Motion = "yaw",
         session: str | None = None,
+        max_false_acceptance: float | None = None,
     ) -> Localizations:
         """See `Client.localize`."""
         return await self._send(
-            self._calls.localize(description, segments, sensors, maps, k, motion, session)
+            self._calls.localize(
+                description, segments, sensors, maps, k, motion, session, max_false_acceptance
+            )
         )
 
     async def maps(self) -> Maps:

@@ -174,6 +174,7 @@ class Client(BaseClient):
         k: int = 25,
         motion: Motion = "yaw",
         session: str | None = None,
+        max_false_acceptance: float | None = None,
     ) -> Localizations:
         """Localize the robot: compute the pose of its frame in each map.
 
@@ -190,6 +191,9 @@ class Client(BaseClient):
                 `se3` (all six).
             session: Id that only this robot uses. Requests of one session have their segments in
                 one odometry frame; the requests of the last seconds support each other.
+            max_false_acceptance: Largest expected share of requests that get a false pose, off by
+                more than 3 m or 10 degrees; more than 0 and at most 0.5. Default: 0.001, or the
+                smallest value that the model supports.
 
         Returns:
             One result per map, most probable first: the pose with its covariance and probability,
@@ -199,7 +203,9 @@ class Client(BaseClient):
             ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
         return self._send(
-            self._calls.localize(description, segments, sensors, maps, k, motion, session)
+            self._calls.localize(
+                description, segments, sensors, maps, k, motion, session, max_false_acceptance
+            )
         )
 
     def maps(self) -> Maps:

@@ -16,6 +16,7 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.localization.acceptance import Acceptance, check_risk
 from placecell.localization.hypothesis import Hypothesis
 
 NAME = "confidence.json"
@@ -25,6 +26,9 @@ PACKAGED = Path(__file__).with_name(NAME)
 
 SHIPPED = PACKAGED if PACKAGED.is_file() else MODELS_FOLDER / DEFAULT_MODEL / NAME
 """Constants of the default model."""
+
+DEFAULT_RISK = 0.001
+"""Default of `max_false_acceptance`."""
 
 FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
 
@@ -63,6 +67,8 @@ class Confidence:
         weights: weight of each standardized feature.
         bias: value added to the weighted sum.
         highest: largest probability that the number of fitting cases justifies.
+        features: names of the features, of `FEATURES`.
+        acceptance: calibration of the threshold; None in a file of an earlier version.
     """
 
     means: tuple[float, ...]
@@ -70,16 +76,46 @@ class Confidence:
     weights: tuple[float, ...]
     bias: float
     highest: float
+    features: tuple[str, ...] = FEATURES
+    acceptance: Acceptance | None = None
 
     def probability(self, features: Float64) -> float:
         """Return the probability that a pose with these features is right."""
         return float(self.probabilities(features[None])[0])
 
     def probabilities(self, features: Float64) -> Float64:
-        """Return the probability of each pose, float64 (n,), from features, float64 (n, 6)."""
-        standard = (features - np.array(self.means)) / np.array(self.deviations)
+        """Return the probability of each pose, float64 (n,).
+
+        Args:
+            features: float64 (n, features), in the order of `FEATURES`.
+        """
+        own = features[:, [FEATURES.index(name) for name in self.features]]
+        standard = (own - np.array(self.means)) / np.array(self.deviations)
         logits = np.clip(standard @ np.array(self.weights) + self.bias, -500.0, 500.0)
-        return np.asarray(np.minimum(1 / (1 + np.exp(-logits)), self.highest))
+        return np.asarray(self.highest / (1 + np.exp(-logits)))
+
+    def threshold(self, risk: float | None, without: float) -> tuple[float, float | None]:
+        """Return the probability that a pose must exceed, and the risk that it stands for.
+
+        Args:
+            risk: `max_false_acceptance`; None for the default.
+            without: threshold of a model without calibration.
+
+        Raises:
+            ValueError: The risk is out of range, or the model's calibration does not support it.
+        """
+        if risk is not None:
+            check_risk(risk)
+        if self.acceptance is None:
+            if risk is not None:
+                raise ValueError(
+                    "The model has no calibration for max_false_acceptance. Fit one with "
+                    "'placecell fit-confidence --model NAME'."
+                )
+            return without, None
+        if risk is None:
+            risk = max(DEFAULT_RISK, self.acceptance.smallest_risk)
+        return self.acceptance.threshold(risk), risk
 
     @classmethod
     def load(cls, file: Path = SHIPPED, model_id: str | None = None) -> Self:
@@ -89,11 +125,15 @@ class Confidence:
             model_id: model that the file must be fitted for; None for any.
 
         Raises:
-            ValueError: The file has other features, or was fitted for another model.
+            ValueError: The file has unknown features, or was fitted for another model.
         """
         content = json.loads(file.read_text())
-        if tuple(content["features"]) != FEATURES:
-            raise ValueError(f"{file}: has the features {content['features']}, expected {FEATURES}")
+        unknown = sorted(set(content["features"]) - set(FEATURES))
+        if unknown:
+            raise ValueError(
+                f"{file}: unknown features {', '.join(unknown)}; expected some of "
+                f"{', '.join(FEATURES)}. Fit the file again with 'placecell fit-confidence'."
+            )
         fitted_for = content["fitted_on"]["model_id"]
         if model_id not in {None, fitted_for}:
             raise ValueError(f"{file}: for model {fitted_for}, not {model_id}")
@@ -104,6 +144,8 @@ class Confidence:
             tuple(model["weights"]),
             model["bias"],
             model["highest"],
+            tuple(content["features"]),
+            Acceptance.of_json(content["acceptance"]) if "acceptance" in content else None,
         )
 
 

@@ -176,7 +176,7 @@ def judge_jointly(
     alone = [
         judge(places.hypotheses, places.usable, parameters, query.confidence, query.evidence)
         if places.hypotheses and number not in only_rivals
-        else unknown(places.usable, parameters)
+        else unknown(places.usable, parameters, query.confidence)
         for number, (query, places) in enumerate(zip(queries, found, strict=True))
     ]
     groups = _same_places(found, parameters, link)
@@ -306,7 +306,7 @@ def _against(
         probability = min(probability, 0.5)
     else:
         probability = min(probability, doubt)
-        if reason is None and probability < parameters.least_probability:
+        if reason is None and probability <= own.threshold:
             reason = "inconsistent"
             detail = (
                 f"The best pose, with {len(own.best)} of {usable} segments as inliers, is "

@@ -35,6 +35,9 @@ class Localization:
         best: best hypothesis, even if it is rejected; None if there is none.
         second: best hypothesis at another place.
         probability: probability that the best hypothesis is right, within 1 m and 3 degrees.
+        threshold: probability that a pose must exceed.
+        risk: largest expected share of queries with a false pose that the threshold stands for;
+            None if the model has no calibration.
         reason: reason why the robot is not localized; None if it is.
         detail: the reason in words; empty if the robot is localized.
         features: features of the probability (`features_of`); None without a hypothesis.
@@ -44,6 +47,8 @@ class Localization:
     best: Hypothesis | None
     second: Hypothesis | None
     probability: float
+    threshold: float
+    risk: float | None
     reason: Reason | None
     detail: str
     features: Float64 | None
@@ -73,13 +78,15 @@ def localize(
 
     Raises:
         Cancelled: The request is late, or its client disconnected.
+        ValueError: `max_false_acceptance` is out of range, or smaller than the model supports.
     """
+    confidence = confidence or shipped()
     places = find_places(candidates, parameters, evidence)
     if not places.hypotheses:
-        return unknown(places.usable, parameters)
+        return unknown(places.usable, parameters, confidence)
     there = there or CandidateSegments(candidates)
     hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
-    return judge(hypotheses, places.usable, parameters, confidence or shipped(), evidence)
+    return judge(hypotheses, places.usable, parameters, confidence, evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,7 +116,9 @@ def find_places(
     )
 
 
-def unknown(usable: int, parameters: LocalizationParameters) -> Localization:
+def unknown(
+    usable: int, parameters: LocalizationParameters, confidence: Confidence
+) -> Localization:
     """Return the localization of a map without any hypothesis."""
     if usable < parameters.least_segments:
         reason: Reason = "too-few-segments"
@@ -120,7 +129,15 @@ def unknown(usable: int, parameters: LocalizationParameters) -> Localization:
     else:
         reason = "inconsistent"
         detail = "No geometrically consistent match was found in the map."
-    return Localization(None, None, 0.0, reason, detail, None, ())
+    threshold, risk = threshold_of(parameters, confidence)
+    return Localization(None, None, 0.0, threshold, risk, reason, detail, None, ())
+
+
+def threshold_of(
+    parameters: LocalizationParameters, confidence: Confidence
+) -> tuple[float, float | None]:
+    """Return the probability that a pose must exceed, and its risk (`Confidence.threshold`)."""
+    return confidence.threshold(parameters.max_false_acceptance, parameters.least_probability)
 
 
 def judge(
@@ -146,6 +163,7 @@ def judge(
     rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
     features = features_of(best, total, rival, usable)
     probability = confidence.probability(features)
+    threshold, risk = threshold_of(parameters, confidence)
     reason: Reason | None = None
     detail = ""
     if rival >= parameters.ambiguous:
@@ -156,13 +174,15 @@ def judge(
         reason = "inconsistent"
         detail = f"The {len(best)} inlier segments do not determine the rotation."
         probability = min(probability, chance_of_direction(best.rotation_deviation))
-    elif probability < parameters.least_probability:
+    elif probability <= threshold:
         reason = "inconsistent"
         detail = (
             f"The best pose, with {len(best)} of {usable} segments as inliers, is unlikely to be "
             "right."
         )
-    return Localization(best, second, probability, reason, detail, features, tuple(hypotheses))
+    return Localization(
+        best, second, probability, threshold, risk, reason, detail, features, tuple(hypotheses)
+    )
 
 
 def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Float64:

@@ -66,8 +66,12 @@ class LocalizationParameters:
     """Relative score from which a second place makes the result ambiguous."""
     undetermined_yaw: float = 5.0
     """Standard deviation of the rotation above which it counts as undetermined."""
+    max_false_acceptance: float | None = None
+    """Largest expected share of queries with a false pose (see `acceptance`), more than 0 and at
+    most 0.5. None: 0.001, or the smallest share that the model's calibration supports."""
     least_probability: float = 0.5
-    """Smallest probability of a pose that is returned."""
+    """Smallest probability of a pose that is returned by a model without calibration, and of a pose
+    that competes with other maps."""
 
     # Judgment of several maps together.
     distinct: float = 0.05

@@ -7,10 +7,16 @@ import numpy as np
 
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
-from placecell.localization import Candidates, Localization, LocalizationParameters
+from placecell.localization import (
+    Candidates,
+    Confidence,
+    Localization,
+    LocalizationParameters,
+)
 from placecell.localization.evidence import Evidence, middle_of
 from placecell.localization.joint import JointLocalization, MapQuery, localize_jointly
-from placecell.localization.localize import unknown
+from placecell.localization.localize import threshold_of, unknown
+from service.core.problems import invalid_value
 from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
 from service.inference.match_probability import match_probabilities
@@ -169,7 +175,12 @@ def localize(
         parameters: parameters of the localization.
         timing: stopwatch of the request.
         session: earlier requests of the same robot.
+
+    Raises:
+        Problem: 422 if a model's calibration does not support the parameters'
+            `max_false_acceptance`.
     """
+    check_risk(query.selection, parameters)
     groups: list[ModelQuery] = []
     middles: dict[str, Float64] = {}
     for (model, searched), described in zip(query.selection.searched, descriptors, strict=True):
@@ -201,6 +212,19 @@ def localize(
         errors={index: descriptors[0].errors[index] for index in sorted(errors)},
         dropped_points=descriptors[0].dropped_points,
     )
+
+
+def check_risk(selection: MapSelection, parameters: LocalizationParameters) -> None:
+    """Check that the calibration of each searched model supports `max_false_acceptance`.
+
+    Raises:
+        Problem: 422 if one does not.
+    """
+    for model, _ in selection.searched:
+        try:
+            threshold_of(parameters, model.confidence)
+        except ValueError as error:
+            raise invalid_value("/max_false_acceptance", f"{error}") from error
 
 
 def localize_among(
@@ -257,7 +281,8 @@ def localize_among(
             of_map = full.get((number, place))
             if of_map is None:
                 usable = len(group.codes) if len(snapshot) else 0
-                of_map = JointLocalization(not_searched(usable, parameters, len(chosen)), 0.0)
+                told = not_searched(usable, parameters, group.model.confidence, len(chosen))
+                of_map = JointLocalization(told, 0.0)
             answers.append(
                 MapLocalization(
                     snapshot=snapshot,
@@ -272,9 +297,11 @@ def localize_among(
     return sorted(answers, key=_sort_key)
 
 
-def not_searched(usable: int, parameters: LocalizationParameters, full: int) -> Localization:
+def not_searched(
+    usable: int, parameters: LocalizationParameters, confidence: Confidence, full: int
+) -> Localization:
     """Return the localization of a map that was not searched in full."""
-    told = unknown(usable, parameters)
+    told = unknown(usable, parameters, confidence)
     if told.reason != "inconsistent" or not full:
         return told
     detail = (

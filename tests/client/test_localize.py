@@ -29,6 +29,7 @@ def test_localize_sends_codes_with_centroids() -> None:
             "motion": "yaw",
             "maps": ["yard"],
             "session": "ann-7",
+            "max_false_acceptance": 0.01,
             "model_id": "m",
             "codes": [[3, 4], [5, 6]],
             "centroids": [[1, 2, 3], [4, 5, 6]],
@@ -39,7 +40,9 @@ def test_localize_sends_codes_with_centroids() -> None:
         )
 
     with client_of(answer, encoding="json") as client:
-        found = client.localize(DESCRIBED, maps=["yard"], session="ann-7")
+        found = client.localize(
+            DESCRIBED, maps=["yard"], session="ann-7", max_false_acceptance=0.01
+        )
     # Indices are those of the description; its first segment could not be used.
     assert found.maps[0].inliers.queries.tolist() == [2]
     assert found.maps[0].inliers.ids.tolist() == [9]

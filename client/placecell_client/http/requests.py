@@ -133,11 +133,14 @@ class Calls:
         k: int,
         motion: Motion,
         session: str | None,
+        max_false_acceptance: float | None,
     ) -> Call[Localizations]:
         """Build `POST /localize`."""
         body = _search(maps, k) | {"motion": motion}
         if session is not None:
             body["session"] = session
+        if max_false_acceptance is not None:
+            body["max_false_acceptance"] = max_false_acceptance
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             centroids = centroids_of(description.centroids[rows], self.encoding)

@@ -111,6 +111,9 @@ class Localization:
         others: Other hypotheses: the second-best one; without a pose, the best one first.
         rival: Best hypothesis in another map of the request; None if there is none, or if the
             service is older than this field.
+        threshold: Probability that a pose must exceed; None if the service is older.
+        max_false_acceptance: Largest expected share of requests that get a false pose at this
+            threshold; None if the model has no calibration, or if the service is older.
     """
 
     map: str
@@ -124,6 +127,8 @@ class Localization:
     inliers: Inliers
     others: tuple[Hypothesis, ...]
     rival: Rival | None = None
+    threshold: float | None = None
+    max_false_acceptance: float | None = None
 
     def covariance_at(self, point: ArrayLike) -> NDArray[np.float64]:
         """Return the covariance of a transformed point, such as the sensor position.
@@ -206,7 +211,10 @@ def localization_of(item: dict[str, Any]) -> Localization:
             Hypothesis(pose_of(each["pose"]), each["score"], each["inliers"])
             for each in item["others"]
         ),
-        rival=_rival_of(item.get("rival")),  # older services have no such field
+        # Older services have no such fields.
+        rival=_rival_of(item.get("rival")),
+        threshold=item.get("threshold"),
+        max_false_acceptance=item.get("max_false_acceptance"),
     )
 
 

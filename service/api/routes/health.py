@@ -8,12 +8,20 @@ from fastapi.responses import PlainTextResponse
 from placecell_client.maps.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
-from placecell.descriptors.manifest import Manifest
+from placecell.localization import Confidence
 from service.api.body.problem_json import documented
 from service.api.dependencies import PrincipalOf, StateOf
-from service.api.schemas.info import CostsOut, HealthResponse, InfoResponse, MapFileOut, ModelOut
+from service.api.schemas.info import (
+    AcceptanceOut,
+    CostsOut,
+    HealthResponse,
+    InfoResponse,
+    MapFileOut,
+    ModelOut,
+)
 from service.core.cost import MACHINE, RATES
 from service.core.problems import Problem
+from service.inference.model_registry import Model
 
 router = APIRouter(tags=["health"])
 
@@ -66,7 +74,7 @@ async def metrics(state: StateOf) -> Response:
 async def info(request: Request, state: StateOf, principal: PrincipalOf) -> InfoResponse:
     """Return the facts that a client needs before its first request."""
     del principal  # any key may read them
-    models = [_model_out(model.manifest) for model in state.engine.models.all()]
+    models = [_model_out(model) for model in state.engine.models.all()]
     return InfoResponse(
         version=request.app.version,
         model=models[0],
@@ -77,7 +85,8 @@ async def info(request: Request, state: StateOf, principal: PrincipalOf) -> Info
     )
 
 
-def _model_out(manifest: Manifest) -> ModelOut:
+def _model_out(model: Model) -> ModelOut:
+    manifest = model.manifest
     return ModelOut(
         model_id=manifest.model_id,
         name=manifest.name,
@@ -90,4 +99,18 @@ def _model_out(manifest: Manifest) -> ModelOut:
         step=manifest.quantizer.step,
         pair_threshold=manifest.pair_threshold,
         preprocessing=manifest.preprocessing,
+        acceptance=_acceptance_out(model.confidence),
+    )
+
+
+def _acceptance_out(confidence: Confidence) -> AcceptanceOut | None:
+    if confidence.acceptance is None:
+        return None
+    threshold, risk = confidence.threshold(None, 0.0)
+    assert risk is not None  # the model has a calibration
+    return AcceptanceOut(
+        max_false_acceptance=risk,
+        smallest=confidence.acceptance.smallest_risk,
+        threshold=threshold,
+        queries=confidence.acceptance.queries,
     )

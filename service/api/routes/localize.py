@@ -82,7 +82,9 @@ def _search(
         query=query,
         descriptors=descriptors,
         timing=timing,
-        parameters=LocalizationParameters(model=request.motion),
+        parameters=LocalizationParameters(
+            model=request.motion, max_false_acceptance=request.max_false_acceptance
+        ),
         session=request.session,
         principal=principal,
     )
@@ -126,6 +128,8 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
         "reason": found.reason,
         "detail": found.detail,
         "probability": found.probability,
+        "threshold": found.threshold,
+        "max_false_acceptance": found.risk,
         "pose": None if pose is None else pose_of(pose),
         "covariance": None if pose is None or best is None else best.covariance.tolist(),
         "score": 0.0 if best is None else best.score,

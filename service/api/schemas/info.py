@@ -7,6 +7,17 @@ from pydantic import BaseModel, Field
 from service.core.settings import Limits
 
 
+class AcceptanceOut(BaseModel):
+    """Calibration of the acceptance of poses; see `max_false_acceptance` of `/localize`."""
+
+    max_false_acceptance: float = Field(
+        description="Default: largest expected share of requests that get a false pose."
+    )
+    smallest: float = Field(description="Smallest `max_false_acceptance` that a request may have.")
+    threshold: float = Field(description="Probability that a pose must exceed by default.")
+    queries: int = Field(description="Number of calibration queries.")
+
+
 class ModelOut(BaseModel):
     """Summary of a loaded model's manifest."""
 
@@ -28,6 +39,9 @@ class ModelOut(BaseModel):
         description="Descriptor distance below which a pair counts as a match."
     )
     preprocessing: dict[str, Any]
+    acceptance: AcceptanceOut | None = Field(
+        description="Calibration of `max_false_acceptance`. Null if the model has none."
+    )
 
 
 class MapFileOut(BaseModel):

@@ -4,6 +4,7 @@ from typing import Annotated, Generic, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from placecell.localization.acceptance import LARGEST_RISK
 from placecell.localization.localize import Reason
 from service.api.schemas.recognition import (
     EXAMPLE,
@@ -39,6 +40,17 @@ class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Ce
         None,
         description="Id of the robot's own choice for its requests in one odometry frame. Requests "
         "of the last seconds with the same id support each other.",
+    )
+
+    max_false_acceptance: float | None = Field(
+        None,
+        gt=0,
+        le=LARGEST_RISK,
+        strict=True,
+        allow_inf_nan=False,
+        description="Largest expected share of requests that get a false pose, off by more than "
+        "3 m or 10 degrees. A larger value returns more poses. Null: 0.001, or the smallest value "
+        "that the model's calibration supports.",
     )
 
     @model_validator(mode="after")
@@ -102,6 +114,14 @@ class LocalizationOut(BaseModel):
     probability: float = Field(
         description="Probability that the best hypothesis is right: in the right map, within 1 m "
         "and 3 degrees. All maps of the request are judged together."
+    )
+    threshold: float = Field(
+        description="Probability that a pose must exceed to be returned. It follows from "
+        "`max_false_acceptance` and the model's calibration."
+    )
+    max_false_acceptance: float | None = Field(
+        description="Largest expected share of requests that get a false pose at this threshold. "
+        "Null if the model has no calibration."
     )
     pose: PoseOut | None = Field(
         description="Pose of the request's frame in the map's frame. Null if the robot is not "

@@ -4,6 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from placecell.core.types import Float64
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from placecell.localization.confidence import (
@@ -17,21 +18,29 @@ from placecell.localization.confidence import (
 from placecell.localization.hypothesis import Hypothesis
 from placecell.localization.pose import Pose
 
-MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99)
+MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99, ("score", "inliers"))
+"""Model of two of the features."""
+
+
+def all_features(score: float, inliers: float) -> Float64:
+    """Return a row of features; the model does not use the others."""
+    row = np.full(len(FEATURES), 7.0)
+    row[FEATURES.index("score")], row[FEATURES.index("inliers")] = score, inliers
+    return row
 
 
 def test_the_logistic_model_by_hand() -> None:
     # 2 - (3 - 1) / 2 + 0.5 = 1.5
-    assert MODEL.probability(np.array([2.0, 3.0])) == pytest.approx(1 / (1 + np.exp(-1.5)))
+    assert MODEL.probability(all_features(2, 3)) == pytest.approx(0.99 / (1 + np.exp(-1.5)))
 
 
 def test_probability_is_at_most_the_highest() -> None:
-    assert MODEL.probability(np.array([1e9, 0.0])) == 0.99
-    assert MODEL.probability(np.array([-1e9, 0.0])) == pytest.approx(0)
+    assert MODEL.probability(all_features(1e9, 0)) == 0.99
+    assert MODEL.probability(all_features(-1e9, 0)) == pytest.approx(0)
 
 
 def test_many_features_at_once_equal_single_ones() -> None:
-    features = np.array([[2.0, 3.0], [0.0, 0.0]])
+    features = np.array([all_features(2, 3), all_features(0, 0)])
     alone = [MODEL.probability(each) for each in features]
     assert MODEL.probabilities(features).tolist() == pytest.approx(alone)
 

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64, Int8, Int64
 from placecell.descriptors.manifest import Manifest
-from placecell.localization import Pose
+from placecell.localization import LocalizationParameters, Pose
 from tests.service.core.test_auth import made
 from tests.service.service_builders import (
     MSGPACK,
@@ -135,6 +135,20 @@ def test_motion_se3_gives_all_six_degrees_of_freedom(
     pose = told["pose"]
     turned = Rotation.from_quat(pose["rotation"]).apply(lying) + pose["translation"]
     np.testing.assert_allclose(turned, content.centroids[:40], atol=0.2)
+
+
+def test_answer_states_its_threshold_and_risk(stocked: Any, body: Any) -> None:
+    confidence = stocked.app.state.placecell.engine.models.default.confidence
+    (told,) = stocked.post("/localize", json=body).json()["localizations"]
+    expected = confidence.threshold(None, LocalizationParameters().least_probability)
+    assert (told["threshold"], told["max_false_acceptance"]) == expected
+
+
+@pytest.mark.parametrize("risk", [0, -0.1, 0.6, "0.1", True])
+def test_risk_out_of_range_is_refused(stocked: Any, body: Any, risk: object) -> None:
+    response = stocked.post("/localize", json=body | {"max_false_acceptance": risk})
+    assert_problem(response, 422, "invalid-request")
+    assert response.json()["errors"][0]["pointer"] == "/max_false_acceptance"
 
 
 def test_noise_is_inconsistent(stocked: Any, manifest: Manifest) -> None:

@@ -1,0 +1,93 @@
+"""Acceptance: the smallest probability of a returned pose, by conformal risk control.
+
+The risk is the share of queries whose answer is a false pose: off by more than 3 m or 10 degrees.
+On n calibration queries, whose probabilities come from models that were not fitted on them, k false
+poses have a probability above a threshold. The smallest threshold is used for which
+
+    (k + 1) / (n + 1) <= alpha
+
+Then the expected risk of a further query is at most alpha, if it is like the calibration queries.
+Source: Angelopoulos, Bates, Fisch, Lei, Schuster: *Conformal risk control*. ICLR 2024.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from placecell.core.types import Bool, Float64
+
+LARGEST_RISK = 0.5
+"""Largest share of false poses that a caller may accept."""
+
+KEPT = 2_000
+"""Largest number of false poses whose probabilities a file keeps: the most probable ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class Acceptance:
+    """Calibration queries of a model.
+
+    Attributes:
+        queries: number of calibration queries.
+        false: probabilities of the false poses, largest first; at most the `KEPT` largest.
+    """
+
+    queries: int
+    false: tuple[float, ...]
+
+    @classmethod
+    def of(cls, probabilities: Float64, false: Bool) -> Self:
+        """Build from the queries' probabilities, float64 (n,), and which poses are false."""
+        wrong = np.sort(probabilities[false])[::-1][:KEPT]
+        # Rounded up, so that no threshold is below the probability that it excludes.
+        return cls(len(probabilities), tuple((np.ceil(wrong * 1e9) / 1e9).tolist()))
+
+    @property
+    def smallest_risk(self) -> float:
+        """Smallest `max_false_acceptance` that the number of queries supports."""
+        return 1 / (self.queries + 1)
+
+    def threshold(self, risk: float) -> float:
+        """Return the probability that a pose must exceed for the risk to be at most `risk`.
+
+        Args:
+            risk: `max_false_acceptance`, more than 0 and at most 0.5.
+
+        Raises:
+            ValueError: The risk is out of range, or smaller than the queries support.
+        """
+        check_risk(risk)
+        # The tolerance admits a risk of exactly 1 / (n + 1) in spite of rounding.
+        allowed = int(np.floor(risk * (self.queries + 1) + 1e-9)) - 1
+        if allowed < 0:
+            raise ValueError(
+                f"Invalid max_false_acceptance {risk:g}: the model's {self.queries:,} calibration "
+                f"queries support {self.smallest_risk:.2g} or more."
+            )
+        if allowed < len(self.false):
+            return self.false[allowed]
+        # All false poses are allowed, or more than the file keeps.
+        return self.false[-1] if len(self.false) == KEPT else 0.0
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the content for `confidence.json`."""
+        return {"queries": self.queries, "false": list(self.false)}
+
+    @classmethod
+    def of_json(cls, content: dict[str, Any]) -> Self:
+        """Read the content of `confidence.json`."""
+        return cls(int(content["queries"]), tuple(float(each) for each in content["false"]))
+
+
+def check_risk(risk: float) -> None:
+    """Check the range of `max_false_acceptance`.
+
+    Raises:
+        ValueError: It is not more than 0 and at most 0.5.
+    """
+    if not 0 < risk <= LARGEST_RISK:
+        raise ValueError(
+            f"Invalid max_false_acceptance {risk:g}: expected more than 0 and at most "
+            f"{LARGEST_RISK:g}."
+        )
