@@ -39,7 +39,7 @@ def town(
 ) -> None:
     """Simulate robots that drive the same streets of a synthetic town in opposite directions.
 
-    --place simulates another place, such as a campus.
+    --place simulates another place: a campus, a garden or a car park.
 
     The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. The LiDAR
     has 64 beams; parked cars change between the drives. The same seed gives the same files.

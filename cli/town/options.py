@@ -16,7 +16,7 @@ Seed = Annotated[
 ]
 Place = Annotated[
     str,
-    typer.Option(metavar="NAME", help="Place: streets or campus."),
+    typer.Option(metavar="NAME", help="Place: streets, campus, garden or car-park."),
 ]
 Scans = Annotated[
     int | None,

@@ -12,9 +12,10 @@ from town.objects.furniture import (
     traffic_sign,
 )
 from town.objects.park import bench, notice_board, picnic_table, sculpture, shed
-from town.objects.vegetation import bush, hedge, tree
+from town.objects.vegetation import bush, tree
 from town.places.builder import Builder, span
 from town.places.buildings import OUT, large_building
+from town.places.edging import Edging, edge_paths
 from town.places.paths import Walkways
 from town.places.place import Place
 from town.streets.route import Route
@@ -22,6 +23,22 @@ from town.streets.terrain import Terrain
 
 PATH_WIDTH = 4.5
 """Width of the free ground along a path, meters."""
+
+BUILDINGS = 15
+"""Largest number of buildings."""
+
+BESIDE = (
+    Edging("lamp post", lamp_post, 0.26, 0.5),
+    Edging("bench", bench, 0.16, 1.2),
+    Edging("tree", tree, 0.2, 1.2),
+    Edging("bicycles", bicycles, 0.1, 1.6),
+    Edging("notice board", notice_board, 0.08, 1.2),
+    Edging("dustbins", dustbins, 0.06, 1.2),
+    Edging("cabinet", cabinet, 0.06, 1.2),
+    Edging("bollards", bollards, 0.04, 1.2),
+    Edging("traffic sign", traffic_sign, 0.04, 0.5),
+)
+"""Kinds of objects beside the paths."""
 
 
 def campus(seed: int, meters: float) -> tuple[Place, Route]:
@@ -35,7 +52,7 @@ def campus(seed: int, meters: float) -> tuple[Place, Route]:
     beyond = (area[0] - 35.0, area[1] - 35.0, area[2] + 35.0, area[3] + 35.0)
     add_buildings(builder, paths)
     add_lawns(builder, paths)
-    line_paths(builder, paths)
+    edge_paths(builder, paths.lines, BESIDE, PATH_WIDTH)
     builder.scatter("tree", tree, 90, 2.2, beyond)
     builder.scatter("bush", bush, 60, 1.4, beyond)
     builder.sprinkle("person", person, 90, 0.5, area)
@@ -44,12 +61,12 @@ def campus(seed: int, meters: float) -> tuple[Place, Route]:
 
 
 def add_buildings(builder: Builder, paths: Walkways) -> None:
-    """Add a building in most gaps between the paths, with bicycles and a few cars beside it."""
+    """Add buildings between the paths, at right angles or nearly so."""
     rng = builder.rng
     area = span(paths.nodes)
     built = 0
-    for _ in range(400):
-        if built == 15:
+    for _ in range(20 * BUILDINGS):
+        if built == BUILDINGS:
             return
         width, depth = float(rng.uniform(16.0, 44.0)), float(rng.uniform(10.0, 18.0))
         x, y = rng.uniform(np.array(area[:2]) - 25.0, np.array(area[2:]) + 25.0).tolist()
@@ -75,53 +92,3 @@ def add_lawns(builder: Builder, paths: Walkways) -> None:
         builder.scatter(kind, make, count, radius, area)
     builder.sprinkle("parked car", car, 16, 3.2, area)
     builder.sprinkle("bicycles", bicycles, 14, 1.8, area)
-
-
-def line_paths(builder: Builder, paths: Walkways) -> None:
-    """Add lamps, benches, signs, hedges and rows of trees beside the paths."""
-    rng = builder.rng
-    makers = (
-        ("lamp post", lamp_post, 0.26, 0.5),
-        ("bench", bench, 0.16, 1.2),
-        ("tree", tree, 0.2, 1.2),
-        ("bicycles", bicycles, 0.1, 1.6),
-        ("notice board", notice_board, 0.08, 1.2),
-        ("dustbins", dustbins, 0.06, 1.2),
-        ("cabinet", cabinet, 0.06, 1.2),
-        ("bollards", bollards, 0.04, 1.2),
-        ("traffic sign", traffic_sign, 0.04, 0.5),
-    )
-    shares = np.array([share for _, _, share, _ in makers])
-    for line in paths.lines:
-        ahead = line[-1] - line[0]
-        length = float(np.linalg.norm(ahead))
-        heading = float(np.arctan2(ahead[1], ahead[0]))
-        right = np.array([ahead[1], -ahead[0]]) / length
-        for side in (-1.0, 1.0):
-            row = bool(rng.random() < 0.3)
-            for along in np.arange(4.0, length - 4.0, float(rng.uniform(6.0, 10.0))):
-                kind, make, _, radius = makers[int(rng.choice(len(makers), p=shares))]
-                if row:
-                    kind, make, radius = "tree", tree, 1.2
-                share = (along + float(rng.uniform(-1.5, 1.5))) / length * (len(line) - 1)
-                middle = [np.interp(share, np.arange(len(line)), line[:, axis]) for axis in (0, 1)]
-                away = PATH_WIDTH / 2 + radius + float(rng.uniform(0.1, 1.2))
-                x, y = (np.array(middle) + side * away * right).tolist()
-                turn = heading + (0.0 if side > 0 else np.pi) + np.pi
-                builder.stand(kind, make, x, y, radius, turn)
-            if rng.random() < 0.25:
-                add_hedge(builder, line, side)
-
-
-def add_hedge(builder: Builder, line: np.ndarray, side: float) -> None:
-    """Add a piece of hedge along a path, where the ground is free."""
-    rng = builder.rng
-    first = int(rng.integers(0, len(line) - 2))
-    start, end = line[first], line[first + 2]
-    ahead = end - start
-    length = float(np.linalg.norm(ahead))
-    right = np.array([ahead[1], -ahead[0]]) / length
-    x, y = ((start + end) / 2 + side * (PATH_WIDTH / 2 + 1.6) * right).tolist()
-    heading = float(np.arctan2(ahead[1], ahead[0]))
-    mesh = hedge(rng, length)
-    builder.block("hedge", mesh.moved(y=0.6), (length, 1.2), x, y, heading, 0.2)

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from town.places.campus import campus
+from town.places.car_park import car_park
+from town.places.garden import garden
 from town.places.place import Place
 from town.streets.route import Route
 from town.town import Town
@@ -40,6 +42,8 @@ def streets(seed: int, meters: float) -> tuple[Town, Route]:
 PLACES: dict[str, PlaceKind] = {
     STREETS: PlaceKind(streets, spacing=1.0, sensor_height=1.73),
     "campus": PlaceKind(campus, spacing=0.7, sensor_height=1.5),
+    "garden": PlaceKind(garden, spacing=0.4, sensor_height=1.4),
+    "car-park": PlaceKind(car_park, spacing=0.7, sensor_height=1.73),
 }
 """Places by name."""
 
