@@ -26,7 +26,15 @@ SOURCE_HELP = (
     "@FIRST:LAST selects the groups that lie wholly within these scans, both included."
 )
 
-TOWN_HELP = " town:SEED is a simulated drive through the synthetic town with that seed."
+TOWN_HELP = (
+    " town:SEED is a simulated drive through the synthetic town with that seed, and "
+    "town:SEED:SENSOR:PLACE one with another sensor or in another place, such as town:11:vlp-16 or "
+    "town:11:os1-64:campus."
+)
+
+DEFAULT_SENSOR = "hdl-64e"
+
+DEFAULT_PLACE = "streets"
 
 TOWN_SCANS = 300
 """Number of scans of each robot's drive through a training town."""
@@ -110,20 +118,50 @@ def sources(texts: Iterable[str]) -> "list[Source]":
 
     found = []
     for text in texts:
-        if match := re.fullmatch(r"town:(\d+)", text):
-            recording, _ = town_recordings(int(match[1]), TOWN_SCANS)
+        if text.startswith("town:"):
+            seed, sensor, place = parse_town(text)
+            recording, _ = town_recordings(seed, TOWN_SCANS, sensor, place)
             found.append(Source(replace(recording, name=text), 0, recording.scans - 1))
         else:
             found.append(source(text))
     return found
 
 
-def town_recordings(seed: int, scans: int) -> "list[Recording]":
-    """Simulate two robots in a synthetic town and return their recordings."""
-    from town import two_robots
+def parse_town(text: str) -> tuple[int, str, str]:
+    """Parse town:SEED, town:SEED:SENSOR or town:SEED:SENSOR:PLACE.
+
+    Returns:
+        The seed and the names of the sensor and the place.
+
+    Raises:
+        ValueError: the text has another form, or the sensor or the place is unknown.
+    """
+    from town import sensor
+    from town.places.catalog import kind_of
+
+    match = re.fullmatch(r"town:(\d+)(?::([^:]+))?(?::([^:]+))?", text)
+    if not match:
+        raise ValueError(
+            f"Invalid town {text!r}: expected town:SEED, town:SEED:SENSOR or "
+            "town:SEED:SENSOR:PLACE, such as town:11:vlp-16."
+        )
+    seed, name, place = match.groups(default="")
+    sensor(name or DEFAULT_SENSOR)
+    kind_of(place or DEFAULT_PLACE)
+    return int(seed), name or DEFAULT_SENSOR, place or DEFAULT_PLACE
+
+
+def town_recordings(
+    seed: int, scans: int, sensor: str = DEFAULT_SENSOR, place: str = DEFAULT_PLACE
+) -> "list[Recording]":
+    """Simulate two robots in a synthetic town or place and return their recordings."""
+    import town
 
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drives = two_robots(Path(folder), seed=seed, scans=scans, progress=show)
+        lidar = town.sensor(sensor)
+        drives = town.two_robots(
+            Path(folder), seed=seed, scans=scans, place=place, lidar=lidar, progress=show
+        )
         return [load(drive) for drive in drives]
 
 

@@ -1,4 +1,4 @@
-"""Synthetic town with a simulated spinning LiDAR: drives for demos, tests and training.
+"""Synthetic town with a simulated LiDAR: drives for demos, tests and training.
 
 Seeds determine everything: one the town, a second the parked cars, a third the sensor noise. The
 same seeds give the same files, byte for byte.
@@ -11,8 +11,8 @@ writes two drives along the same streets in opposite directions, in the KITTI od
     route = Route.wander(town.plan, town.terrain, length=400.0)
     write_drive(Path("out/drive"), town, route, traffic_seed=1, scans=350)
 
-writes one drive. A large town has tens of kilometers of streets. Only the part near the sensor is
-built:
+writes one drive. The sensor is an HDL-64E; `lidar=sensor("vlp-16")` selects another one. A large
+town has tens of kilometers of streets. Only the part near the sensor is built:
 
     city = City.build(seed=7, meters=20_000.0)
     route = city.route(city.planner.every_street())
@@ -33,6 +33,7 @@ from town.geometry.scene import Scene
 from town.objects.block import SceneObject
 from town.sensing.lidar import HDL_64E, Lidar
 from town.sensing.odometry import ODOMETRY_FILE, Odometry
+from town.sensing.sensors import SENSORS, sensor
 from town.streets.planner import Planner
 from town.streets.route import Route
 from town.town import Town
@@ -41,6 +42,7 @@ __all__ = [
     "HDL_64E",
     "ODOMETRY_FILE",
     "ORIGIN_FILE",
+    "SENSORS",
     "City",
     "Lidar",
     "Mesh",
@@ -54,6 +56,7 @@ __all__ = [
     "Traversal",
     "draw_pairs",
     "read_origin",
+    "sensor",
     "several_robots",
     "two_robots",
     "way_of",

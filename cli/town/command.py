@@ -2,8 +2,6 @@
 
 import json
 import time
-from dataclasses import replace
-from pathlib import Path
 
 import typer
 
@@ -20,8 +18,14 @@ def town(
     place: options.Place = "streets",
     scans: options.Scans = None,
     spacing: options.Spacing = None,
-    columns: options.Columns = 1000,
     overwrite: options.Overwrite = False,
+    sensor: options.Sensor = "hdl-64e",
+    mount: options.Mount = None,
+    columns: options.Columns = None,
+    rain: options.Rain = 0.0,
+    dropout: options.Dropout = None,
+    speed: options.Speed = None,
+    distortion: options.Distortion = False,
     meters: options.Meters = None,
     look_alikes: options.LookAlikes = 0.25,
     route: options.RouteText = "all",
@@ -29,7 +33,6 @@ def town(
     robots: options.Robots = 2,
     lane: options.Lane = 1.6,
     oncoming: options.Oncoming = 10.0,
-    rain: options.Rain = 0.0,
     yaw_drift: options.YawDrift = 0.05,
     scale_drift: options.ScaleDrift = 0.01,
     pairs: options.Pairs = 0,
@@ -41,34 +44,55 @@ def town(
 
     --place simulates another place: a campus, a garden or a car park.
 
-    The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. The LiDAR
-    has 64 beams; parked cars change between the drives. The same seed gives the same files.
+    The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. Parked
+    cars change between the drives. The same seed gives the same files. --sensor selects the LiDAR:
+
+        placecell town out/town16 --sensor vlp-16 --mount 0.5
 
     With --meters the town is large, and each drive has a second pose file, poses_odometry.txt, with
     drifting odometry. This example has 5 km of streets; each street is driven in both directions:
 
         placecell town out/town5 --meters 5000 --picture out/town5.png
 
-    A scan takes about 1 MB and 25 ms. See docs/explanation/town.md.
+    A scan of hdl-64e takes about 1 MB and 25 ms. See docs/explanation/town.md.
     """
     with clear_errors():
+        import town as simulation
+
+        lidar = simulation.sensor(sensor, columns=columns, mount=mount, rain=rain, dropout=dropout)
         if meters is None:
             refuse_options_of_large_towns(context)
-            small_town(output, seed, place, scans or options.SCANS, spacing, columns, overwrite)
+            drives = simulation.two_robots(
+                output,
+                seed=seed,
+                place=place,
+                scans=scans or options.SCANS,
+                spacing=spacing,
+                lidar=lidar,
+                mount=mount,
+                speed=speed,
+                distortion=distortion,
+                overwrite=overwrite,
+                progress=show,
+            )
+            for drive in drives:
+                typer.echo(f"Drive {drive} has {scans or options.SCANS} scans.")
             return
         if place != "streets":
             raise ValueError(f"--meters builds streets only; leave out --place {place}.")
         spacing = 1.0 if spacing is None else spacing
         if pairs and robots < 2:
             raise ValueError("--pairs needs two robots or more; increase --robots")
-        from town import HDL_64E, City, Odometry, several_robots
-
-        city = City.build(seed, meters, look_alikes)
+        city = simulation.City.build(seed, meters, look_alikes)
         way = city.route(planned(city, route), lane)
         # Draw the pairs before the simulation, because there may be none.
-        drawn = pairs_of(city, way, scans, spacing, start, pairs, pair_meters) if pairs else None
+        drawn = (
+            pairs_of(city, way, scans, spacing, start, pairs, pair_meters, lidar.height)
+            if pairs
+            else None
+        )
         started = time.perf_counter()
-        drives = several_robots(
+        driven = simulation.several_robots(
             output,
             city,
             way,
@@ -76,9 +100,11 @@ def town(
             start=start,
             scans=scans,
             spacing=spacing,
-            lidar=replace(HDL_64E, columns=columns, rain=rain),
-            odometry=Odometry(yaw_drift, scale_drift),
+            lidar=lidar,
+            odometry=simulation.Odometry(yaw_drift, scale_drift),
             oncoming=oncoming,
+            speed=speed,
+            distortion=distortion,
             overwrite=overwrite,
             progress=show,
         )
@@ -87,7 +113,7 @@ def town(
             "street_metres": round(city.network.meters(), 1),
             "streets": len(city.network.streets),
             "route_metres": round(way.length(), 1),
-            "scans": {drive.name: len(list((drive / "velodyne").iterdir())) for drive in drives},
+            "scans": {drive.name: len(list((drive / "velodyne").iterdir())) for drive in driven},
             "seconds": round(time.perf_counter() - started, 1),
         }
         if drawn:
@@ -95,7 +121,7 @@ def town(
         if picture:
             from town.drives.picture import draw_plan
 
-            draw_plan(picture, city, way, drives)
+            draw_plan(picture, city, way, driven)
         write_json(figures, json_file)
     typer.echo(json.dumps(figures))
 
@@ -111,29 +137,3 @@ def refuse_options_of_large_towns(context: typer.Context) -> None:
         given = source is not None and source.name == "COMMANDLINE"
         if given and getattr(parameter, "rich_help_panel", None) == options.LARGE:
             raise ValueError(f"{parameter.opts[0]} needs a large town: give --meters too")
-
-
-def small_town(
-    output: Path,
-    seed: int,
-    place: str,
-    scans: int,
-    spacing: float | None,
-    columns: int,
-    overwrite: bool,
-) -> None:
-    """Simulate two robots in the small town or in a place beside its streets."""
-    from town import two_robots
-
-    drives = two_robots(
-        output,
-        seed=seed,
-        place=place,
-        scans=scans,
-        spacing=spacing,
-        columns=columns,
-        overwrite=overwrite,
-        progress=show,
-    )
-    for drive in drives:
-        typer.echo(f"Drive {drive} has {scans} scans.")

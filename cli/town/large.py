@@ -41,12 +41,13 @@ def pairs_of(
     start: float,
     count: int,
     meters: float,
+    height: float,
 ) -> dict[str, Any]:
     """Draw pairs of stretches from the first two robots' drives along a route."""
     from town import Traversal, draw_pairs, way_of
 
     ways = [way_of(number, route, scans, spacing, start) for number in (0, 1)]
-    a, b = (Traversal.of(*way, spacing) for way in ways)
+    a, b = (Traversal.of(*way, spacing, height) for way in ways)
     overlapping, apart = draw_pairs(city, a, b, count, meters, city.seed)
     return {
         "seed": city.seed,

@@ -8,6 +8,8 @@ import typer
 SCANS = 120
 """Default number of scans of a drive through the small town."""
 
+SENSOR = "Sensor"
+
 LARGE = "Large town (with --meters)"
 
 Output = Annotated[Path, typer.Argument(help="Folder for the drives.")]
@@ -32,7 +34,68 @@ Spacing = Annotated[
         "own, see docs/explanation/town.md)",
     ),
 ]
-Columns = Annotated[int, typer.Option(min=16, help="Azimuth steps per revolution of the sensor.")]
+Sensor = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME",
+        help="Sensor: hdl-64e, hdl-32e, vlp-16, os0-32, os0-64, os0-128, os1-32, os1-64, os1-128 "
+        "or solid-state. docs/explanation/sensors.md describes them.",
+        rich_help_panel=SENSOR,
+    ),
+]
+Mount = Annotated[
+    float | None,
+    typer.Option(
+        help="Height of the sensor above the ground, meters, 0.3 to 3. (default: that of the "
+        "sensor's usual carrier, 1.73 for hdl-64e; at most that of the place's usual robot)",
+        rich_help_panel=SENSOR,
+    ),
+]
+Columns = Annotated[
+    int | None,
+    typer.Option(
+        min=16,
+        help="Azimuth steps per revolution, or shots of each laser of solid-state; fewer thin the "
+        "scans. (default: the sensor's own: 1000 for hdl-64e)",
+        rich_help_panel=SENSOR,
+    ),
+]
+Rain = Annotated[
+    float,
+    typer.Option(
+        min=0.0,
+        max=100.0,
+        help="Rain, millimeters per hour; it hides far and dark surfaces.",
+        rich_help_panel=SENSOR,
+    ),
+]
+Dropout = Annotated[
+    float | None,
+    typer.Option(
+        min=0.0,
+        max=0.99,
+        help="Share of the returns that are lost at random. (default: the sensor's own: 0.02 for "
+        "hdl-64e)",
+        rich_help_panel=SENSOR,
+    ),
+]
+Speed = Annotated[
+    float | None,
+    typer.Option(
+        help="Speed of the robots, m/s. A sweep takes 0.1 s. (default: 10 times --spacing, so "
+        "each sweep begins where the last one ended)",
+        rich_help_panel=SENSOR,
+    ),
+]
+Distortion = Annotated[
+    bool,
+    typer.Option(
+        "--distortion",
+        help="Write raw sweeps, distorted by the robot's motion, with a fifth column: the time of "
+        "each point in seconds from the time of its scan. (default: deskewed scans)",
+        rich_help_panel=SENSOR,
+    ),
+]
 Overwrite = Annotated[bool, typer.Option(help="Replace existing drives.")]
 Meters = Annotated[
     float | None,
@@ -93,15 +156,6 @@ Oncoming = Annotated[
         min=0.0,
         max=100.0,
         help="Oncoming cars per kilometer.",
-        rich_help_panel=LARGE,
-    ),
-]
-Rain = Annotated[
-    float,
-    typer.Option(
-        min=0.0,
-        max=100.0,
-        help="Rain, millimeters per hour; it hides far and dark surfaces.",
         rich_help_panel=LARGE,
     ),
 ]

@@ -70,8 +70,8 @@ def small_town() -> tuple[Recording, Recording]:
 def towns(monkeypatch: pytest.MonkeyPatch, small_town: tuple[Recording, Recording]) -> None:
     """Replace the drives of `town:5` by shorter ones that are simulated once."""
 
-    def driven(seed: int, scans: int) -> list[Recording]:
-        assert (seed, scans) == (5, TOWN_SCANS)
+    def driven(seed: int, scans: int, sensor: str, place: str) -> list[Recording]:
+        assert (seed, scans, sensor, place) == (5, TOWN_SCANS, "hdl-64e", "streets")
         return [*small_town]
 
     monkeypatch.setattr("cli.sources.town_recordings", driven)

@@ -94,7 +94,11 @@ def test_route_has_the_length_asked_for(tmp_path: Path, route: str, meters: floa
     ("words", "said"),
     [
         (["--robots", 3], "--robots needs a large town: give --meters too"),
-        (["--rain", 3], "--rain needs a large town"),
+        (["--sensor", "hdl-65"], "expected one of hdl-64e, hdl-32e, vlp-16, os0-32"),
+        (["--mount", 0.2], "expected 0.3 to 3.0 m above the ground"),
+        (["--mount", "nan"], "expected 0.3 to 3.0 m above the ground"),
+        (["--speed", 11], "a speed above 0 and at most 10 m/s"),
+        (["--meters", 700, "--speed", 0], "a speed above 0 and at most 10 m/s"),
         (["--pairs", 1], "--pairs needs a large town"),
         (["--meters", 0], "m of streets"),
         (["--meters", "nan"], "m of streets"),

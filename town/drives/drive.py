@@ -15,7 +15,7 @@ from town.city import City
 from town.drives.oncoming import Oncoming
 from town.geometry.scene import Layers, Scene, Scenes, Surfaces
 from town.places.place import Place
-from town.sensing.lidar import HDL_64E, Lidar
+from town.sensing.lidar import HDL_64E, SWEEP_SECONDS, Lidar
 from town.sensing.odometry import ODOMETRY_FILE, Odometry
 from town.streets.route import Route
 from town.town import Town
@@ -29,8 +29,6 @@ SENSOR_TO_CAMERA = np.array(
     ]
 )
 """`Tr` of KITTI's sequence 00: sensor to left camera. Poses are written for that camera."""
-
-SCANS_PER_SECOND = 10.0
 
 ORIGIN_FILE = "origin.txt"
 
@@ -49,6 +47,8 @@ def write_drive(
     odometry: Odometry | None = None,
     oncoming: float = 0.0,
     lidar: Lidar = HDL_64E,
+    speed: float | None = None,
+    distortion: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> Path:
@@ -62,6 +62,10 @@ def write_drive(
     The drive's world frame (that of the poses, as `placecell.datasets` reads them) has its origin
     at the sensor of the first scan and its x axis along the first heading. It is level, because a
     robot knows the direction of gravity; so the first pose has the slope of the street.
+
+    With `distortion`, a scan is the raw sweep: each point is in the sensor frame at its own time.
+    The files have a fifth column, the time of each point in seconds from the scan's time in
+    `times.txt`. A scan's time and pose are always those of the middle of its sweep.
 
     With an odometry, `poses_odometry.txt` has the estimated poses in the form of `poses.txt`. The
     first pose is exact. `KittiOdometry(folder, ODOMETRY_FILE)` reads them.
@@ -77,6 +81,8 @@ def write_drive(
         odometry: errors of the odometry; None for no odometry.
         oncoming: number of oncoming cars per kilometer of the route.
         lidar: simulated sensor.
+        speed: speed of the robot, m/s; None for `spacing` meters in a sweep of 0.1 s.
+        distortion: write raw sweeps with the time of each point.
         overwrite: replace the drive in the folder.
         progress: function that shows the progress.
 
@@ -85,26 +91,31 @@ def write_drive(
 
     Raises:
         FileExistsError: The folder is not empty, and `overwrite` is not set.
-        ValueError: The route is too short, or the number of scans or cars is out of range.
+        ValueError: The route is too short, or the number of scans or cars or the speed is out of
+            range.
     """
-    check(folder, route, scans, spacing, overwrite)
+    check(folder, route, scans, spacing, overwrite, speed)
     cars = Oncoming.draw(route, oncoming, traffic_seed)
     clear(folder)
     distances = scan_distances(scans, spacing)
     poses = route.poses(distances, lidar.height)
     scenes = town.scenes(traffic_seed, lidar.max_range)
+    times = scan_times(scans, spacing, speed)
+    swept = spacing if speed is None else speed * SWEEP_SECONDS
     for scan in progress(range(scans), scans, f"scans of {folder.name}"):
         rng = np.random.default_rng([noise_seed, scan])
-        sweep = route.poses(distances[scan] + spacing * lidar.sweep_times(), lidar.height)
-        scene = seen_from(poses[scan, :2, 3], scenes, cars, scan / SCANS_PER_SECOND)
-        points = lidar.scan(scene, sweep, poses[scan], rng)
+        sweep = route.poses(distances[scan] + swept * lidar.sweep_times(), lidar.height)
+        scene = seen_from(poses[scan, :2, 3], scenes, cars, float(times[scan]))
+        if distortion:
+            points = lidar.raw_scan(scene, sweep, rng, float(times[scan]))
+        else:
+            points = lidar.scan(scene, sweep, poses[scan], rng, float(times[scan]))
         (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
     origin = levelled(poses[0])
     (folder / "poses.txt").write_text(matrix_lines(as_camera(poses, origin)))
     if odometry is not None:
         believed = odometry.poses(poses, noise_seed)
         (folder / ODOMETRY_FILE).write_text(matrix_lines(as_camera(believed, origin)))
-    times = np.arange(scans) / SCANS_PER_SECOND
     (folder / ORIGIN_FILE).write_text(matrix_lines(origin[None]))
     (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))
     (folder / "times.txt").write_text("".join(f"{time:.6e}\n" for time in times))
@@ -126,13 +137,40 @@ def scan_distances(scans: int, spacing: float) -> Float64:
     return np.asarray(spacing * (np.arange(scans, dtype=np.float64) + 0.5))
 
 
-def check(folder: Path, route: Route, scans: int, spacing: float, overwrite: bool) -> None:
+def scan_times(scans: int, spacing: float, speed: float | None) -> Float64:
+    """Return the time of the middle of each scan's sweep, (scans,), seconds from the first.
+
+    Args:
+        scans: number of scans.
+        spacing: distance between scans, meters.
+        speed: speed of the robot, m/s; None if each sweep begins where the last one ended.
+    """
+    if speed is None:
+        return np.asarray(np.arange(scans) / (1 / SWEEP_SECONDS))
+    return np.asarray(np.arange(scans) * (spacing / speed))
+
+
+def check(
+    folder: Path,
+    route: Route,
+    scans: int,
+    spacing: float,
+    overwrite: bool,
+    speed: float | None = None,
+) -> None:
     """Check that a drive can be written.
 
     Raises:
         FileExistsError: The folder is not empty, and `overwrite` is not set.
-        ValueError: The route is too short, or the number of scans is not positive.
+        ValueError: The route is too short, the number of scans is not positive, or the sweeps
+            would overlap.
     """
+    fastest = spacing / SWEEP_SECONDS
+    if speed is not None and not 0 < speed <= fastest * (1 + 1e-9):
+        raise ValueError(
+            f"Invalid speed {speed} m/s: a sweep takes {SWEEP_SECONDS} s, so scans {spacing} m "
+            f"apart need a speed above 0 and at most {fastest:g} m/s."
+        )
     if scans < 1:
         raise ValueError(f"Invalid number of scans: expected at least 1, not {scans}")
     if route.length() < scans * spacing:

@@ -19,8 +19,12 @@ def two_robots(
     scans: int = 120,
     *,
     spacing: float | None = None,
-    columns: int = 1000,
     place: str = STREETS,
+    lidar: Lidar = HDL_64E,
+    mount: float | None = None,
+    columns: int | None = None,
+    speed: float | None = None,
+    distortion: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> tuple[Path, Path]:
@@ -31,8 +35,13 @@ def two_robots(
         seed: seed of town, route, parked cars and noise.
         scans: number of scans of each drive.
         spacing: distance between scans, meters; None for the place's own.
-        columns: number of azimuth steps of the sensor.
         place: name of the place, see `town.places`.
+        lidar: simulated sensor.
+        mount: height of the sensor above the ground, meters; None for the lower one of the sensor's
+            own and the usual one of the place.
+        columns: number of azimuth steps; None for the sensor's own.
+        speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
+        distortion: write raw sweeps with the time of each point.
         overwrite: replace existing drives.
         progress: function that shows the progress.
 
@@ -47,7 +56,11 @@ def two_robots(
     spacing = kind.spacing if spacing is None else spacing
     # The inner lane of a turn is shorter than the center line.
     town, route = kind.build(seed, 1.08 * scans * spacing + 4.0)
-    lidar = replace(HDL_64E, columns=columns, height=kind.sensor_height)
+    lidar = replace(
+        lidar,
+        columns=lidar.columns if columns is None else columns,
+        height=min(lidar.height, kind.sensor_height) if mount is None else mount,
+    )
     drives = []
     for number, (name, way) in enumerate([("robot_a", route), ("robot_b", route.reversed())]):
         drive = write_drive(
@@ -59,6 +72,8 @@ def two_robots(
             scans=scans,
             spacing=spacing,
             lidar=lidar,
+            speed=speed,
+            distortion=distortion,
             overwrite=overwrite,
             progress=progress,
         )
@@ -78,6 +93,8 @@ def several_robots(
     lidar: Lidar = HDL_64E,
     odometry: Odometry | None = None,
     oncoming: float = 0.0,
+    speed: float | None = None,
+    distortion: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> list[Path]:
@@ -96,6 +113,8 @@ def several_robots(
         spacing: distance between scans, meters.
         odometry: errors of the odometry; None for no odometry.
         oncoming: number of oncoming cars per kilometer.
+        speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
+        distortion: write raw sweeps with the time of each point.
         overwrite: replace existing drives.
         progress: function that shows the progress.
 
@@ -114,7 +133,7 @@ def several_robots(
     ways = [way_of(number, route, scans, spacing, start) for number in range(robots)]
     for drive, (way, count) in zip(drives, ways, strict=True):
         # Check all before the first drive, which may take hours.
-        check(drive, way, count, spacing, overwrite)
+        check(drive, way, count, spacing, overwrite, speed)
     for number, (drive, (way, count)) in enumerate(zip(drives, ways, strict=True)):
         write_drive(
             drive,
@@ -127,6 +146,8 @@ def several_robots(
             lidar=lidar,
             odometry=odometry,
             oncoming=oncoming,
+            speed=speed,
+            distortion=distortion,
             overwrite=overwrite,
             progress=progress,
         )

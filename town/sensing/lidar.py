@@ -1,4 +1,4 @@
-"""Simulated spinning LiDAR, modeled on the Velodyne HDL-64E of KITTI.
+"""Simulated spinning LiDAR; its defaults are those of the Velodyne HDL-64E of KITTI.
 
 Sensor frame: x ahead, y left, z up, meters; the origin is where the beams meet.
 """
@@ -6,9 +6,13 @@ Sensor frame: x ahead, y left, z up, meters; the origin is where the beams meet.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64
 from town.geometry.scene import Surfaces
+
+SWEEP_SECONDS = 0.1
+"""Duration of a sweep, seconds: all sensors are simulated at 10 Hz."""
 
 
 def hdl_64e_elevations() -> tuple[float, ...]:
@@ -22,9 +26,9 @@ def hdl_64e_elevations() -> tuple[float, ...]:
 class Lidar:
     """Sensor that sweeps its beams once around, clockwise, beginning behind the robot.
 
-    The sensor moves during the sweep: each column is fired from the position at its time. The
-    points are then deskewed with the true motion (KITTI: with the measured motion). A scan is in
-    the sensor frame at the middle of its sweep.
+    The sensor moves during the sweep: each column is fired from the position at its time. `scan`
+    deskews the points with the true motion (KITTI: with the measured motion); they are in the
+    sensor frame at the middle of the sweep. `raw_scan` leaves them as measured, with their times.
 
     Attributes:
         columns: number of azimuth steps per revolution.
@@ -57,8 +61,15 @@ class Lidar:
         """Return each column's time, (columns,), in revolutions from the middle of the sweep."""
         return (np.arange(self.columns) + 0.5) / self.columns - 0.5
 
-    def directions(self) -> Float32:
-        """Beam directions, unit vectors in the sensor frame, float32 (columns, beams, 3)."""
+    def directions(self, time: float = 0.0) -> Float32:  # noqa: ARG002
+        """Return the beam directions of a sweep: unit vectors, sensor frame.
+
+        Args:
+            time: time of the middle of the sweep, seconds; a spinning sensor repeats its pattern.
+
+        Returns:
+            float32 (columns, beams, 3).
+        """
         azimuth = -2 * np.pi * self.sweep_times()[:, None]
         elevation = np.radians(self.elevations)[None, :]
         ahead = np.cos(elevation) * np.cos(azimuth)
@@ -66,20 +77,66 @@ class Lidar:
         up = np.broadcast_to(np.sin(elevation), ahead.shape)
         return np.stack([ahead, left, up], axis=-1).astype(np.float32)
 
-    def scan(self, scene: Surfaces, sweep: Float64, pose: Float64, rng: np.random.Generator) \
-            -> Float32:  # fmt: skip
-        """Simulate one revolution.
+    def scan(
+        self,
+        scene: Surfaces,
+        sweep: Float64,
+        pose: Float64,
+        rng: np.random.Generator,
+        time: float = 0.0,
+    ) -> Float32:
+        """Simulate one sweep and deskew it with the true motion.
 
         Args:
             scene: surfaces in range.
             sweep: (columns, 4, 4), sensor to town at each column's time.
             pose: (4, 4), sensor to town at the middle of the sweep.
             rng: random number generator of the noise.
+            time: time of the middle of the sweep, seconds.
 
         Returns:
             float32 (n, 4), x, y, z in the sensor frame of `pose`, meters, and reflectance, 0 to 1.
         """
-        directions = self.directions()
+        directions = self.directions(time)
+        kept, measured, reflectance = self._returns(scene, sweep, directions, rng)
+        relative = np.linalg.inv(pose) @ sweep
+        turned = np.matmul(directions, relative[:, :3, :3].astype(np.float32).transpose(0, 2, 1))
+        column = kept // len(self.elevations)
+        points = np.empty((len(column), 4), dtype=np.float32)
+        points[:, :3] = turned.reshape(-1, 3)[kept] * measured[:, None]
+        points[:, :3] += relative[column, :3, 3].astype(np.float32)
+        points[:, 3] = reflectance
+        return points
+
+    def raw_scan(
+        self, scene: Surfaces, sweep: Float64, rng: np.random.Generator, time: float = 0.0
+    ) -> Float32:
+        """Simulate one sweep without deskewing: the points are distorted by the motion.
+
+        With the same arguments, `scan` returns the same points deskewed, in the same order.
+
+        Args:
+            scene: surfaces in range.
+            sweep: (columns, 4, 4), sensor to town at each column's time.
+            rng: random number generator of the noise.
+            time: time of the middle of the sweep, seconds.
+
+        Returns:
+            float32 (n, 5): x, y, z in the sensor frame at the time of the point, meters;
+            reflectance, 0 to 1; time of the point from the middle of the sweep, seconds.
+        """
+        directions = self.directions(time)
+        kept, measured, reflectance = self._returns(scene, sweep, directions, rng)
+        points = np.empty((len(kept), 5), dtype=np.float32)
+        points[:, :3] = directions.reshape(-1, 3)[kept] * measured[:, None]
+        points[:, 3] = reflectance
+        points[:, 4] = SWEEP_SECONDS * self.sweep_times()[kept // len(self.elevations)]
+        return points
+
+    def _returns(
+        self, scene: Surfaces, sweep: Float64, directions: Float32, rng: np.random.Generator
+    ) -> tuple[NDArray[np.intp], Float32, Float32]:
+        """Return the rays that return, and the measured range and reflectance of each."""
         rotations = sweep[:, :3, :3].astype(np.float32)
         cast = np.matmul(directions, rotations.transpose(0, 2, 1))
         origins = np.broadcast_to(sweep[:, None, :3, 3].astype(np.float32), cast.shape)
@@ -97,14 +154,8 @@ class Lidar:
         )
         bright = reflectance * np.exp(-lost)
         kept &= bright * np.float32(self.range_at_tenth**2) >= np.float32(0.1) * ranges**2
-        relative = np.linalg.inv(pose) @ sweep
-        turned = np.matmul(directions, relative[:, :3, :3].astype(np.float32).transpose(0, 2, 1))
-        column = np.flatnonzero(kept) // len(self.elevations)
-        points = np.empty((len(column), 4), dtype=np.float32)
-        points[:, :3] = turned.reshape(-1, 3)[kept] * measured[kept, None]
-        points[:, :3] += relative[column, :3, 3].astype(np.float32)
-        points[:, 3] = reflectance[kept]
-        return points
+        rays = np.flatnonzero(kept)
+        return rays, measured[rays].astype(np.float32, copy=False), reflectance[rays]
 
 
 HDL_64E = Lidar()
