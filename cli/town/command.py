@@ -16,6 +16,8 @@ def town(
     output: options.Output,
     seed: options.Seed = 7,
     place: options.Place = "streets",
+    floor: options.Floor = 0,
+    differing: options.Differing = 0.3,
     scans: options.Scans = None,
     spacing: options.Spacing = None,
     overwrite: options.Overwrite = False,
@@ -42,7 +44,7 @@ def town(
 ) -> None:
     """Simulate robots that drive the same streets of a synthetic town in opposite directions.
 
-    --place simulates another place: a campus, a garden or a car park.
+    --place simulates another place: a campus, a garden, an indoor floor or a car park.
 
     The command writes OUTPUT/robot_a and OUTPUT/robot_b in the KITTI odometry layout. Parked
     cars change between the drives. The same seed gives the same files. --sensor selects the LiDAR:
@@ -66,6 +68,8 @@ def town(
                 output,
                 seed=seed,
                 place=place,
+                floor=floor,
+                differing=differing,
                 scans=scans or options.SCANS,
                 spacing=spacing,
                 lidar=lidar,

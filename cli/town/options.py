@@ -10,6 +10,8 @@ SCANS = 120
 
 SENSOR = "Sensor"
 
+INDOOR = "Indoor floor (with --place indoor)"
+
 LARGE = "Large town (with --meters)"
 
 Output = Annotated[Path, typer.Argument(help="Folder for the drives.")]
@@ -18,7 +20,26 @@ Seed = Annotated[
 ]
 Place = Annotated[
     str,
-    typer.Option(metavar="NAME", help="Place: streets, campus, garden or car-park."),
+    typer.Option(metavar="NAME", help="Place: streets, campus, garden, indoor or car-park."),
+]
+Floor = Annotated[
+    int,
+    typer.Option(
+        min=0,
+        help="Floor of an indoor place. All floors of a seed have the same walls and the same "
+        "route.",
+        rich_help_panel=INDOOR,
+    ),
+]
+Differing = Annotated[
+    float,
+    typer.Option(
+        min=0.0,
+        max=1.0,
+        help="Share of the furniture that differs between floor 0 and another floor, 0 to 1. "
+        "What people move always differs.",
+        rich_help_panel=INDOOR,
+    ),
 ]
 Scans = Annotated[
     int | None,

@@ -98,3 +98,61 @@ def test_unknown_place_is_refused_and_the_names_are_listed(tmp_path: Path) -> No
     with pytest.raises(ValueError, match=r"Invalid place 'moon': expected one of streets, campus"):
         two_robots(tmp_path, place="moon", scans=2)
     assert not list(tmp_path.iterdir())
+
+
+def indoor_floor(floor: int, differing: float) -> tuple[Place, Route]:
+    place, route = build_place("indoor", 5, 60.0, floor, differing)
+    assert isinstance(place, Place)
+    return place, route
+
+
+def parts(place: Place, kind: str, among: bool = True) -> list[bytes]:
+    """Return the meshes of one kind of static object, or of all other kinds."""
+    return [each.mesh.triangles.tobytes() for each in place.objects if (each.kind == kind) == among]
+
+
+def test_floors_have_the_same_walls_and_route_and_differ_in_their_furniture() -> None:
+    (ground, route), (first, same_route) = indoor_floor(0, 0.3), indoor_floor(1, 0.3)
+    assert parts(ground, "wall") == parts(first, "wall")
+    assert (route.center == same_route.center).all()
+    here, there = parts(ground, "wall", among=False), parts(first, "wall", among=False)
+    fixed = {"ceiling", "column", "wall"}
+    furniture = sum(each.kind not in fixed for each in ground.objects)
+    changed = sum(one != other for one, other in zip(here, there, strict=True))
+    assert 0.15 * furniture < changed < 0.45 * furniture
+    assert not np.array_equal(ground.mesh(1).triangles, first.mesh(1).triangles)
+
+
+def test_share_of_zero_makes_floors_that_differ_in_movable_objects_only() -> None:
+    (ground, _), (second, _) = indoor_floor(0, 0.0), indoor_floor(2, 0.0)
+    assert parts(ground, "") == parts(second, "")
+    assert parts(ground, "", among=False) == parts(second, "", among=False)
+    assert not np.array_equal(ground.mesh(1).triangles, second.mesh(1).triangles)
+
+
+def test_indoor_floor_has_a_ceiling_over_the_whole_route() -> None:
+    place, route = indoor_floor(0, 0.3)
+    origins = (places_of(route) + (0, 0, 1.0)).astype(np.float32)
+    up = np.tile(np.array([[0, 0, 1]], dtype=np.float32), (len(origins), 1))
+    ranges, _ = Scene(place.mesh(1)).cast(origins, up)
+    assert 1.1 < ranges.min() <= ranges.max() < 5.5
+
+
+@pytest.mark.parametrize(
+    ("name", "floor", "differing", "said"),
+    [
+        ("campus", 1, 0.3, "Invalid floor 1: the place 'campus' has floor 0 only"),
+        ("indoor", -1, 0.3, "Invalid floor -1"),
+        ("indoor", 0, 1.5, "share 1.5"),
+    ],
+)
+def test_floor_or_share_out_of_range_is_refused(
+    name: str, floor: int, differing: float, said: str
+) -> None:
+    with pytest.raises(ValueError, match=said):
+        build_place(name, 1, 10.0, floor, differing)
+
+
+def test_sensor_that_is_too_high_for_the_doors_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"Invalid mount 2\.5 m: .*'indoor' up to 2\.0 m"):
+        two_robots(tmp_path, place="indoor", scans=2, mount=2.5)

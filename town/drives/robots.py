@@ -7,7 +7,8 @@ from string import ascii_lowercase
 from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.drives.drive import check, write_drive
-from town.places.catalog import STREETS, kind_of
+from town.places.catalog import STREETS, build_place, kind_of
+from town.places.indoor.floor import DIFFERING
 from town.sensing.lidar import HDL_64E, Lidar
 from town.sensing.odometry import Odometry
 from town.streets.route import Route, arc_lengths
@@ -20,6 +21,8 @@ def two_robots(
     *,
     spacing: float | None = None,
     place: str = STREETS,
+    floor: int = 0,
+    differing: float = DIFFERING,
     lidar: Lidar = HDL_64E,
     mount: float | None = None,
     columns: int | None = None,
@@ -36,6 +39,8 @@ def two_robots(
         scans: number of scans of each drive.
         spacing: distance between scans, meters; None for the place's own.
         place: name of the place, see `town.places`.
+        floor: number of the floor of an indoor place.
+        differing: share of the furniture that differs between floor 0 and another floor, 0 to 1.
         lidar: simulated sensor.
         mount: height of the sensor above the ground, meters; None for the lower one of the sensor's
             own and the usual one of the place.
@@ -50,12 +55,17 @@ def two_robots(
 
     Raises:
         FileExistsError: A drive exists, and `overwrite` is not set.
-        ValueError: There is no such place.
+        ValueError: There is no such place or floor, or the sensor is mounted too high for it.
     """
     kind = kind_of(place)
+    if mount is not None and mount > kind.headroom:
+        raise ValueError(
+            f"Invalid mount {mount} m: a sensor passes everywhere in the place {place!r} up to "
+            f"{kind.headroom} m."
+        )
     spacing = kind.spacing if spacing is None else spacing
     # The inner lane of a turn is shorter than the center line.
-    town, route = kind.build(seed, 1.08 * scans * spacing + 4.0)
+    town, route = build_place(place, seed, 1.08 * scans * spacing + 4.0, floor, differing)
     lidar = replace(
         lidar,
         columns=lidar.columns if columns is None else columns,

@@ -1,0 +1,1 @@
+"""Indoor floors: walls, rooms, halls, furniture, and the floors of one building."""
