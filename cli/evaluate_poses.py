@@ -1,18 +1,30 @@
 """`placecell evaluate-poses`: measures how well a robot is localized in a map."""
 
 import json
+import tempfile
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cli.common_options import Every, Model
-from cli.sources import clear_errors, show
+from cli.sources import clear_errors, parse_town, show
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
+
+if TYPE_CHECKING:
+    from evaluation.poses.queries import Pair
+
+TOWN = "Simulated drives (town:SEED)"
 
 
 def evaluate_poses(
-    map_drive: Annotated[Path, typer.Argument(help="Drive folder for the map.")],
+    map_drive: Annotated[
+        Path,
+        typer.Argument(
+            help="Drive folder for the map. town:SEED or town:SEED:SENSOR:PLACE simulates two "
+            "robots that drive the same way in opposite directions: A makes the map, B localizes."
+        ),
+    ],
     query_drive: Annotated[
         Path | None,
         typer.Argument(
@@ -61,6 +73,43 @@ def evaluate_poses(
         Path | None,
         typer.Option(metavar="FILE", help="Recording of QUERY_DRIVE from 'placecell prepare'."),
     ] = None,
+    map_sensor: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Sensor of robot A, as of 'placecell town --sensor'. (default: that of "
+            "town:SEED:SENSOR, else hdl-64e)",
+            rich_help_panel=TOWN,
+        ),
+    ] = None,
+    query_sensor: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Sensor of robot B. (default: that of --map-sensor)",
+            rich_help_panel=TOWN,
+        ),
+    ] = None,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Place, as of 'placecell town --place'. (default: that of town:SEED:SENSOR:PLACE, "
+            "else streets)",
+            rich_help_panel=TOWN,
+        ),
+    ] = None,
+    scans: Annotated[
+        int | None,
+        typer.Option(min=1, help="Scans of each drive. (default: 300)", rich_help_panel=TOWN),
+    ] = None,
+    cache: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder that keeps the prepared drives for the next call. (default: none)",
+            rich_help_panel=TOWN,
+        ),
+    ] = None,
     json_file: JsonFile = None,
     answers: Annotated[
         Path | None,
@@ -77,6 +126,10 @@ def evaluate_poses(
 ) -> None:
     """Measure localization: each capture of one drive is localized in the map of another drive.
 
+    This example localizes a robot with an OS1-64 in the map of a robot with a VLP-16:
+
+        placecell evaluate-poses town:301 --map-sensor vlp-16 --query-sensor os1-64
+
     The command runs the service's code in its own process. docs/results/localization.md defines
     the figures.
     """
@@ -88,7 +141,22 @@ def evaluate_poses(
     with clear_errors():
         if motion not in {"yaw", "se3"}:
             raise ValueError(f"Invalid --motion {motion!r}: expected yaw or se3.")
-        pair = Pair.of(map_drive, query_drive, every, (map_recording, query_recording), show)
+        recordings = (map_recording, query_recording)
+        simulated = (map_sensor, query_sensor, place, scans, cache)
+        if str(map_drive).startswith("town:"):
+            if query_drive or any(recordings):
+                raise ValueError(
+                    f"{map_drive} is both drives. Omit QUERY_DRIVE, --map-recording and "
+                    "--query-recording."
+                )
+            pair = pair_of_town(str(map_drive), every, *simulated)
+        elif any(value is not None for value in simulated):
+            raise ValueError(
+                "--map-sensor, --query-sensor, --place, --scans and --cache need a simulated "
+                "drive. Give town:SEED as MAP_DRIVE."
+            )
+        else:
+            pair = Pair.of(map_drive, query_drive, every, recordings, show)
         parameters = LocalizationParameters(
             model="se3" if motion == "se3" else "yaw", max_false_acceptance=max_false_acceptance
         )
@@ -101,6 +169,29 @@ def evaluate_poses(
         if plot:
             draw(report, plot)
     print_report(report)
+
+
+def pair_of_town(
+    text: str,
+    every: int | None,
+    map_sensor: str | None,
+    query_sensor: str | None,
+    place: str | None,
+    scans: int | None,
+    cache: Path | None,
+) -> "Pair":
+    """Simulate the robots of town:SEED:SENSOR:PLACE, or read them from the cache.
+
+    Raises:
+        ValueError: the text has another form, or a sensor or the place is unknown.
+    """
+    from evaluation.poses.town_drives import SCANS, TownDrives
+
+    seed, sensor, named = parse_town(text)
+    mapping = map_sensor or sensor
+    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
+        drives = TownDrives(cache or Path(folder), seed, place or named, scans or SCANS, every)
+        return drives.pair(mapping, query_sensor or mapping, show)
 
 
 SHARES = ("best_pose_right", "told_share_of_right", "success_2m_5deg")

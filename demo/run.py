@@ -9,8 +9,7 @@ from placecell_client import Client, encode
 
 from demo.meeting import Meeting, localize_and_merge
 from demo.score import Score, score
-from evaluation.poses.robot import Robot, ask
-from placecell.datasets import Drive
+from evaluation.poses.robot import DrivePath, Robot, ask
 from service.child_process import running_service
 
 MAP = "robot_a"
@@ -96,6 +95,6 @@ def run_demo(
     return DemoResult(result, figures, meeting)
 
 
-def is_short(drive: Drive) -> bool:
+def is_short(drive: DrivePath) -> bool:
     """Return whether a drive has less than two whole blocks."""
     return drive.path_length() < SHORT_METERS

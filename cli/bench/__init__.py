@@ -15,6 +15,7 @@ from cli.bench.maps import maps
 from cli.bench.peers import peers
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
+from cli.bench.sensors import sensors
 from cli.bench.serve import serve
 from cli.bench.soak import soak
 from cli.bench.town import town
@@ -32,6 +33,7 @@ bench.command()(takes_drives(ladder))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
 bench.command()(pose_tables)
+bench.command()(sensors)
 bench.command()(takes_drives(align))
 bench.command()(town)
 bench.command()(takes_drives(views))

@@ -83,6 +83,8 @@ def evaluate(
     told = {
         "map_drive": pair.mapper.drive.folder.name,
         "query_drive": pair.asker.drive.folder.name,
+        "map_sensor": pair.mapper.sensor,
+        "query_sensor": pair.asker.sensor,
         "blocks": pair.blocks,
         "protocol": first.protocol,
         "every": first.frame_step,

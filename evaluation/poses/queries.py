@@ -1,6 +1,6 @@
 """Pose queries: descriptors of the segments around a robot, and its true pose in a map."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
@@ -25,6 +25,27 @@ from service.maps.snapshot import MapSnapshot
 
 MAPPED_METERS = 10.0
 """Distance to the mapping robot's path within which a query is in the mapped area, meters."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DescribedCapture:
+    """Descriptors of the segments that a robot saw at one moment, in the frame of its drive.
+
+    Attributes:
+        scan: scan of the drive.
+        time: time of the scan, seconds.
+        meters: distance driven so far, meters.
+        codes: int8 (n, code bytes), codes of all segments around the robot.
+        centroids: float64 (n, 3), their centroids, meters.
+        sensor: float64 (3,), sensor position.
+    """
+
+    scan: int
+    time: float
+    meters: float
+    codes: Int8
+    centroids: Float64
+    sensor: Float64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,31 +142,59 @@ class Pair:
             frame: transform from the drive's frame to the robot's own frame.
             most: largest number of queries, spread evenly; None: all.
         """
-        drive = self.asker.drive
-        steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
-        meters = np.concatenate([[0.0], np.cumsum(steps)])
+        yield from self.posed(described_captures(self.asker, engine, most), frame)
+
+    def posed(self, captures: Iterable[DescribedCapture], frame: Pose) -> Iterator[PoseQuery]:
+        """Yield the query of each capture of the asking robot, with its true pose in the map.
+
+        Args:
+            captures: the captures, in the drive's frame.
+            frame: transform from the drive's frame to the robot's own frame.
+        """
         to_map = (
             Pose.of_matrix(self.mapper.to_common)
             .inverse()
             .after(Pose.of_matrix(self.asker.to_common))
         )
         positions = cKDTree(self.mapper.drive.poses[self.mapper.frames, :3, 3])
-        asked = set(spread(len(self.asker.frames), most).tolist())
-        for number, (scan, segments, _) in enumerate(self.asker.views()):
-            if number not in asked:
-                continue
-            codes, centroids = described(engine, segments)
-            where = drive.poses[scan, :3, 3]
-            near, _ = positions.query(to_map.apply(where))
+        for capture in captures:
+            near, _ = positions.query(to_map.apply(capture.sensor))
             yield PoseQuery(
+                scan=capture.scan,
+                time=capture.time,
+                meters=capture.meters,
+                codes=capture.codes,
+                centroids=frame.apply(capture.centroids),
+                sensor=frame.apply(capture.sensor),
+                truth=to_map.after(frame.inverse()),
+                mapped=self.blocks or bool(near <= MAPPED_METERS),
+            )
+
+
+def described_captures(
+    robot: Robot, engine: Engine, most: int | None = None
+) -> Iterator[DescribedCapture]:
+    """Yield the captures of a robot, also those without segments, in the frame of its drive.
+
+    Args:
+        robot: the robot.
+        engine: describes the segments.
+        most: largest number of captures, spread evenly; None: all.
+    """
+    drive = robot.drive
+    steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
+    meters = np.concatenate([[0.0], np.cumsum(steps)])
+    asked = set(spread(len(robot.frames), most).tolist())
+    for number, (scan, segments, _) in enumerate(robot.views()):
+        if number in asked:
+            codes, centroids = described(engine, segments)
+            yield DescribedCapture(
                 scan=scan,
                 time=float(drive.times[scan]),
                 meters=float(meters[scan]),
                 codes=codes,
-                centroids=frame.apply(centroids),
-                sensor=frame.apply(where),
-                truth=to_map.after(frame.inverse()),
-                mapped=self.blocks or bool(near <= MAPPED_METERS),
+                centroids=centroids,
+                sensor=drive.poses[scan, :3, 3],
             )
 
 

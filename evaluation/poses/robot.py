@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -12,7 +13,6 @@ from scipy.spatial.transform import Rotation
 
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8
-from placecell.datasets import Drive
 from placecell.segmentation.recording import Recording
 
 
@@ -42,6 +42,25 @@ class SegmentDescriber(Protocol):
         """Return facts about the service, among them its model's preprocessing."""
 
 
+class DrivePath(Protocol):
+    """Path of a drive: a `Drive`, or what is kept of it.
+
+    Attributes:
+        folder: folder of the drive.
+        poses: float64 (scans, 4, 4), sensor to the drive's world.
+        times: float64 (scans,), seconds.
+    """
+
+    folder: Path
+    poses: Float64
+    times: Float64
+
+    def __len__(self) -> int: ...
+
+    def path_length(self) -> float:
+        """Return the length of the path, meters."""
+
+
 @dataclass(frozen=True, slots=True)
 class Robot:
     """A robot with its drive.
@@ -52,12 +71,14 @@ class Robot:
         recordings: segments of the drive, or of parts of it.
         to_common: transform (4, 4) from the drive's frame to a frame that all robots share. Only
             the score uses it; the service never gets it.
+        sensor: name of the simulated sensor; None if it is not known.
     """
 
     name: str
-    drive: Drive
+    drive: DrivePath
     recordings: Sequence[Recording]
     to_common: Float64
+    sensor: str | None = None
 
     def views(self) -> Iterator[tuple[int, Segments, np.ndarray]]:
         """Yield scan and segments of each capture, and which segments are no duplicates."""
