@@ -104,6 +104,8 @@ def test_rosette_does_not_repeat_from_scan_to_scan() -> None:
     assert not np.allclose(lidar.directions(0.0), lidar.directions(0.1), atol=0.1)
     assert len(np.unique(np.round(scan(lidar, 0.1)[:, :3], 2), axis=0)) > 2000
     np.testing.assert_array_equal(scan(lidar, 0.1), scan(lidar, 0.1))
+    # 300 scans are whole revolutions of both prisms: 3,647 and 2,332.
+    assert lidar.directions(0.1) == pytest.approx(lidar.directions(30.1), abs=1e-5)
 
 
 def test_spinning_sensor_repeats_its_pattern() -> None:

@@ -12,8 +12,8 @@ from town.sensing.lidar import SWEEP_SECONDS, Lidar
 class Rosette(Lidar):
     """Sensor that looks ahead and steers its lasers by two rotating prisms (Risley prisms).
 
-    Each prism deflects the lasers by half of `half_view`, in the direction of its own rotation. The
-    two speeds have a common period far above the length of a scan, so each scan draws other lines.
+    Each prism deflects the lasers by half of `half_view`, in the direction of its own rotation. By
+    the default speeds the pattern repeats after 300 scans, so each scan draws other lines.
     `elevations` are the angles between the parallel lasers and the axis, and `columns` is the
     number of shots of each laser in a scan.
 
