@@ -121,9 +121,28 @@ def test_wrong_option_values_are_refused(
     assert not (tmp_path / "drives").exists()
 
 
+def test_small_town_takes_sensor_rain_and_distortion(tmp_path: Path) -> None:
+    words = ("--scans", 2, "--sensor", "vlp-16", "--columns", 300, "--spacing", 0.5)
+    run(tmp_path / "dry", *words)
+    run(tmp_path / "wet", *words, "--rain", 40, "--mount", 0.4)
+    run(tmp_path / "raw", *words, "--distortion", "--speed", 2, "--dropout", 0.5)
+    sizes = {
+        name: (tmp_path / name / "robot_a" / "velodyne" / "000000.bin").stat().st_size / bytes_each
+        for name, bytes_each in (("dry", 16), ("wet", 16), ("raw", 20))
+    }
+    assert sizes["wet"] < sizes["dry"] <= 300 * 16
+    assert sizes["raw"] == pytest.approx(0.5 / 0.98 * sizes["dry"], rel=0.1)
+    raw = open_drive(tmp_path / "raw" / "robot_a")
+    assert raw.times.tolist() == [0.0, 0.25]
+    assert raw.point_layout.point_bytes == 20
+
+
 def test_help_shows_an_example() -> None:
     shown = " ".join(run("--help").output.split())
     assert "--meters 5000" in shown
+    assert "--sensor vlp-16 --mount 0.5" in shown
+    assert "os1-128 or solid-state" in shown
+    assert "--distortion" in shown
     assert "poses_odometry.txt" in shown
 
 
