@@ -50,6 +50,16 @@ def test_route_is_long_enough_in_both_directions(built: tuple[str, Place, Route]
     assert min(route.length(), route.reversed().length()) >= 110.0
 
 
+def test_robots_of_a_drive_meet_on_the_same_way(built: tuple[str, Place, Route]) -> None:
+    """Robot B begins where robot A ends, so most of its places were seen by robot A."""
+    _, _, route = built
+    at = np.arange(0.0, 100.0)
+    a, b = (way.poses(at, height=0.0)[:, :2, 3] for way in (route, route.reversed()))
+    nearest = np.linalg.norm(b[:, None] - a[None], axis=2).min(axis=1)
+    assert np.mean(nearest < 3.5) > 0.7
+    assert route.length() < 135.0
+
+
 def test_route_runs_on_free_ground(built: tuple[str, Place, Route]) -> None:
     """No surface from 0.3 m to 1.8 m above the ground comes within 0.3 m of either robot."""
     _, place, route = built

@@ -70,7 +70,7 @@ class Walkways:
         """Draw a random walk without U-turns, as a smooth line.
 
         Args:
-            meters: smallest length of the line, meters.
+            meters: length of the line, meters; it is up to a step longer.
             rng: random number generator.
             radius: distance from a corner at which the line begins to turn, meters.
 
@@ -89,7 +89,8 @@ class Walkways:
             walked += float(arc_lengths(line)[-1])
             points = np.concatenate([points, line[1:]])
             at = int(self.ends[path, int(forward)])
-        return smooth(points, radius)
+        line = smooth(points, radius)
+        return line[arc_lengths(line) <= meters + STEP]
 
     def points(self) -> Float64:
         """Return points on all paths, (n, 2), at most 0.5 m apart."""
