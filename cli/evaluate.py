@@ -1,12 +1,15 @@
 """`placecell evaluate`: measures how well extractors recognize the segments of a drive."""
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from cli.common_options import Drive, Every, Models
-from cli.sources import clear_errors, load, parse_scans
+from cli.sources import clear_errors, load, parse_scans, show
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
+
+PLACES = "Place recognition"
 
 ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
 
@@ -23,13 +26,40 @@ def evaluate(
     ] = None,
     every: Every = None,
     model: Models = None,
+    protocol: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Measure place recognition by the rules of a publication in place of segment "
+            "recognition: kitti-loops, mulran or helipr.",
+            rich_help_panel=PLACES,
+        ),
+    ] = None,
+    map_drive: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Drive folder for the map. (default: loop closures, in what DRIVE saw before)",
+            rich_help_panel=PLACES,
+        ),
+    ] = None,
     json_file: JsonFile = None,
     seed: Annotated[int, typer.Option(help="Random seed for the drawn pairs.")] = 0,
 ) -> None:
     """Measure extractors on a drive, with the eigenvalue baseline for comparison.
 
     docs/results/recognition.md defines the figures.
+
+    With --protocol, each capture is localized, and the nearest map frame counts as retrieved. Run
+    it on sequences of KITTI odometry, MulRan or HeLiPR:
+
+        placecell evaluate sequences/00 --protocol kitti-loops
+
+        placecell evaluate Town03/LiDAR/Aeva --map-drive Town01/LiDAR/Ouster --protocol helipr
     """
+    if protocol is not None or map_drive is not None:
+        evaluate_protocol(drive, map_drive, protocol, scans, every, model or [], json_file, seed)
+        return
     from evaluation.recognition.evaluate import evaluate as evaluate_recording
     from evaluation.recognition.evaluate import open_models
 
@@ -42,6 +72,54 @@ def evaluate(
         report = evaluate_recording(load(drive, every), limits, models, seed)
         write_json(report, json_file)
     print_table(report)
+
+
+def evaluate_protocol(
+    drive: Path,
+    map_drive: Path | None,
+    name: str | None,
+    scans: str | None,
+    every: int | None,
+    models: list[str],
+    json_file: Path | None,
+    seed: int,
+) -> None:
+    """Measure place recognition by a published protocol."""
+    from evaluation.poses.place_recognition import PROTOCOLS
+    from evaluation.poses.places import evaluate_places, robots_of_places
+    from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+
+    with clear_errors():
+        if name not in PROTOCOLS:
+            raise ValueError(
+                f"Invalid --protocol {name!r}: expected one of {', '.join(PROTOCOLS)}."
+                if name
+                else "--map-drive needs --protocol."
+            )
+        if scans is not None:
+            raise ValueError("--scans selects groups of segments. Omit it with --protocol.")
+        if drive.is_file():
+            raise ValueError(f"{drive}: --protocol needs the drive's folder, not a recording.")
+        folders = {each: model_folder(each) for each in models or [DEFAULT_MODEL]}
+        pair = robots_of_places(drive, map_drive, every, show)
+        reports = {
+            each: evaluate_places(pair, folder, PROTOCOLS[name], seed, progress=show)
+            for each, folder in folders.items()
+        }
+        write_json({"evaluation": name, "models": reports}, json_file)
+    table = new_table("", *reports)
+    for row in ("recall_at_1", "f1_max", "f1_max_precision", "f1_max_recall"):
+        table.add_row(row, *(percent(figures[row]) for figures in reports.values()))
+    for radius in next(iter(reports.values()))["recall_at_1_within_m"]:
+        shown = (percent(figures["recall_at_1_within_m"][radius]) for figures in reports.values())
+        table.add_row(f"recall_at_1 within {radius} m", *shown)
+    first = next(iter(reports.values()))
+    typer.echo(
+        f"{first['query_drive']} in the map of {first['map_drive']}, {name}: "
+        f"{first['queries']:,} queries, {first['revisits']:,} revisits within "
+        f"{first['revisit_m']:g} m"
+    )
+    print_tables(table)
 
 
 def print_table(report: dict[str, Any]) -> None:

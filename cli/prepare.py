@@ -12,7 +12,7 @@ from cli.tables import JsonFile, write_json
 
 def prepare(
     drives: Annotated[
-        list[Path], typer.Argument(help="Drive folders in the KITTI odometry or raw layout.")
+        list[Path], typer.Argument(help="Drive folders in the KITTI, MulRan or HeLiPR layout.")
     ],
     output: Annotated[
         Path,

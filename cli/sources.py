@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
 
 SOURCE_HELP = (
-    "Drive folder (KITTI odometry or raw layout) or recording file from 'placecell prepare'. "
+    "Drive folder (KITTI, MulRan or HeLiPR layout) or recording file from 'placecell prepare'. "
     "@FIRST:LAST selects the groups that lie wholly within these scans, both included."
 )
 

@@ -91,14 +91,14 @@ def stretches(map_drive: Path, query_drive: Path | None, radius: float | None) -
     import numpy as np
 
     from benchmarks.peers.frames import stretches_of_one, stretches_of_two
-    from evaluation.poses.queries import origin_of
+    from evaluation.poses.queries import to_common
     from placecell.datasets import open_drive
 
     mapped = open_drive(map_drive)
     if query_drive is None:
         return stretches_of_one(mapped, radius)
     asking = open_drive(query_drive)
-    to_map = np.linalg.inv(origin_of(map_drive)) @ origin_of(query_drive)
+    to_map = np.linalg.inv(to_common(mapped)) @ to_common(asking)
     return stretches_of_two(mapped, asking, to_map, radius)
 
 

@@ -9,6 +9,7 @@ from placecell_client import encode
 
 from evaluation.figure import figure
 from evaluation.machine import machine
+from evaluation.poses.place_recognition import PROTOCOLS, place_answer, place_figures
 from evaluation.poses.queries import (
     MAPPED_METERS,
     DriveSession,
@@ -70,13 +71,15 @@ def evaluate(
         # A warm-up compiles all loops before the measurement.
         localize_query(engine, fullest, MAP, k, parameters)
         memory = DriveSession(RequestHistory(parameters)) if session else None
-        outcomes = []
+        frames = pair.mapper.drive.poses[pair.mapper.frames, :3, 3]
+        outcomes, places = [], []
         for number in progress(range(len(queries)), len(queries), "localizing"):
             query = queries[number]
             if memory is not None:
                 memory.time = query.time
             found, milliseconds = localize_query(engine, query, MAP, k, parameters, memory)
             outcomes.append(outcome_of(found, query, milliseconds))
+            places.append(place_answer(found, query, frames))
     first = pair.asker.recordings[0].parameters
     robots = (pair.mapper, pair.asker)
     recordings = [recording for robot in robots for recording in robot.recordings]
@@ -104,7 +107,8 @@ def evaluate(
         "mapped_metres": None if pair.blocks else MAPPED_METERS,
     }
     rows = [row_of(*each) for each in zip(queries, outcomes, strict=True)]
-    return told | report(outcomes), rows
+    recognized = {"place_recognition": place_figures(places, PROTOCOLS["kitti-loops"])}
+    return told | report(outcomes) | recognized, rows
 
 
 JSON_KEYS = {"meters": "metres", "normalized": "normalised"}

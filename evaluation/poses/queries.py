@@ -15,7 +15,7 @@ from evaluation.poses.robot import Robot, clouds
 from evaluation.poses.robots import robots_of_drive
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
-from placecell.datasets import open_drive
+from placecell.datasets import Drive, open_drive
 from placecell.localization import Hypothesis, Localization, LocalizationParameters, Pose
 from placecell.localization.evidence import Evidence, RequestHistory
 from placecell.segmentation.pipeline import Progress, silent
@@ -121,13 +121,12 @@ class Pair:
                 )
             mapper, asker = robots_of_drive(map_folder, progress, every)
             return cls(mapper, asker, blocks=True)
-        folders = (map_folder, query_folder)
-        origins = [origin_of(folder) for folder in folders]
+        drives = [open_drive(folder) for folder in (map_folder, query_folder)]
+        frames = [to_common(drive) for drive in drives]
         robots = []
-        for folder, origin, file in zip(folders, origins, prepared, strict=True):
-            drive = open_drive(folder)
+        for drive, frame, file in zip(drives, frames, prepared, strict=True):
             recording = recording_of(drive, every, file, progress)
-            robots.append(Robot(folder.name, drive, [recording], origin))
+            robots.append(Robot(drive.folder.name, drive, [recording], frame))
         return cls(robots[0], robots[1], blocks=False)
 
     def swapped(self) -> Self:
@@ -260,21 +259,25 @@ def random_frame(seed: int) -> Pose:
     return Pose.of_yaw(random.uniform(-np.pi, np.pi), random.uniform(-1000, 1000, 3))
 
 
-def origin_of(folder: Path) -> Float64:
-    """Read the transform (4, 4) from the frame of a drive to that of its town.
+def to_common(drive: Drive) -> Float64:
+    """Return the transform (4, 4) from the frame of a drive to one that it shares with others.
 
     Raises:
-        ValueError: the drive is of no town, so it has no common frame with another drive; or the
-            file of the transform is unreadable.
+        ValueError: the drive is of no town and its poses are not georeferenced, so it has no common
+            frame with another drive; or the file of the transform is unreadable.
     """
     from town import ORIGIN_FILE, read_origin
 
-    if not (folder / ORIGIN_FILE).exists():
+    if drive.georeferenced:
+        frame = np.eye(4)
+        frame[:3, 3] = drive.origin
+        return frame
+    if not (drive.folder / ORIGIN_FILE).exists():
         raise ValueError(
-            f"{folder} has no {ORIGIN_FILE}, so its transform to another drive is unknown. Give "
-            "one drive only; it is then split into blocks."
+            f"{drive.folder} has no {ORIGIN_FILE}, so its transform to another drive is unknown. "
+            "Give one drive only; it is then split into blocks."
         )
-    return read_origin(folder)
+    return read_origin(drive.folder)
 
 
 def joined(maps: Sequence[CompactMap], shifts: Sequence[Float64]) -> CompactMap:

@@ -2,6 +2,7 @@
 
 import hashlib
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -49,6 +50,8 @@ class Drive(ABC):
         times: time of each scan, float64 (scans,), seconds.
         options: options for reading the files.
         point_layout: layout of the scan files.
+        georeferenced: whether all drives of a place share the frame of the file's poses, such as
+            UTM coordinates.
     """
 
     name: ClassVar[str]
@@ -61,6 +64,7 @@ class Drive(ABC):
     times: Float64
     options: ScanOptions = ScanOptions()
     point_layout: PointLayout = KITTI
+    georeferenced: bool = False
 
     @classmethod
     @abstractmethod
@@ -88,8 +92,20 @@ class Drive(ABC):
         if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:
             how = "as stated" if self.options.states_layout else "found from their values"
             self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
-        for index, size in enumerate(sizes):
-            if size <= 0 or size % self.point_layout.point_bytes:
+        self.check_sizes([self.point_layout.point_bytes] * len(sizes), sizes)
+
+    def check_sizes(self, point_bytes: Sequence[int], sizes: Sequence[int]) -> None:
+        """Skip the scans whose size shows that they cannot be used.
+
+        Args:
+            point_bytes: bytes of a point, per scan.
+            sizes: bytes of each scan file; -1 if it cannot be read.
+
+        Raises:
+            DriveError: most scans cannot be used, or one cannot and the options are strict.
+        """
+        for index, (each, size) in enumerate(zip(point_bytes, sizes, strict=True)):
+            if size <= 0 or size % each:
                 self.skip(index, size_problem(size))
         self.check_usable(range(len(self)))
         if self.dropouts.skipped:
@@ -105,7 +121,7 @@ class Drive(ABC):
                 point is not finite.
         """
         try:
-            points = self.point_layout.read(self.scan_files[index])
+            points = self.read_points(index)
             usable = usable_points(points, self.scan_files[index])
         except DriveError as error:
             self.skip(index, str(error).rpartition(": ")[2])
@@ -118,6 +134,14 @@ class Drive(ABC):
                 )
             self.dropouts.dropped[index] = bad
         return usable
+
+    def read_points(self, index: int) -> Float32:
+        """Read the points of a scan file, float32 (n, 3), meters; values may be not finite.
+
+        Raises:
+            DriveError: the file is missing, unreadable, empty or cut short.
+        """
+        return self.point_layout.read(self.scan_files[index])
 
     def skip(self, index: int, why: str) -> None:
         """Record that a scan cannot be used.
