@@ -1,19 +1,21 @@
 """Evaluation of recognition on a drive: `placecell evaluate`, by a named protocol (paper IV-B)."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.special import expit
 
-from evaluation.calibration import calibration_figures
+from evaluation.calibration import calibration_figures, expected_calibration_error
 from evaluation.machine import machine
 from evaluation.recognition import retrieval as recognition
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
-from placecell.core.types import Float32, Int8, Int64
+from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.descriptors.extractor import Extractor, load_extractor
+from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.pair_classifier import PairClassifier, load_pair_classifier
 from placecell.descriptors.shipped_models import (
     BASELINE,
@@ -22,6 +24,7 @@ from placecell.descriptors.shipped_models import (
     model_folder,
     shipped_models,
 )
+from placecell.descriptors.site_calibration import SiteCalibration, SiteConstants, calibrate
 from placecell.segmentation.recording import Recording
 
 
@@ -32,11 +35,17 @@ def measure(
     groups: Int64,
     seed: int,
     neighborhood: Float32 | None = None,
+    captures: Int64 | None = None,
 ) -> dict[str, Any]:
     """Return all figures of one model; a figure that cannot be measured is None.
 
+    With the captures of the segments, and a model that has site constants, match probabilities are
+    calibrated by the segments themselves, as the service does with a map. No label is used. The
+    figures by the model's pair classifier alone then have the suffix `_uncalibrated`.
+
     `expected_calibration_error` and `brier` are of the match probabilities of each segment with its
-    25 nearest; None without a pair classifier.
+    25 nearest; None without a pair classifier. `pair_calibration_error` is that of the drawn pairs,
+    with even odds.
 
     For a model with a neighborhood, `alone` has the figures of segments with an empty neighborhood;
     its `top1_in_map` searches such segments in a map of segments with their neighborhood.
@@ -55,9 +64,15 @@ def measure(
         in_map = recognition.retrieve(steps, groups, queries=alone)
         figures["alone"] = retrieval(alone, segments, groups) | {"top1_in_map": mean(in_map.right)}
     figures |= {"expected_calibration_error": None, "brier": None}
+    site = site_of(manifest, codes, segments, captures)
     if classifier is not None:
         nearest = recognition.nearest_pairs(stored, groups, np.arange(len(groups)))
-        figures |= candidate_calibration(classifier, codes, *nearest)
+        uncalibrated = candidate_calibration(classifier.probabilities, codes, *nearest)
+        figures |= uncalibrated
+        if site is not None:
+            figures |= {f"{name}_uncalibrated": uncalibrated[name] for name in CALIBRATION_FIGURES}
+            figures |= candidate_calibration(site.pair_probabilities, codes, *nearest)
+            figures["site_calibration"] = site.as_dict()
     positive, negative = recognition.draw_pairs(
         groups, recognition.PAIRS, np.random.default_rng(seed)
     )
@@ -81,7 +96,39 @@ def measure(
             ),
             "pair_by": "classifier",
         }
+        if site is not None:
+            paired |= with_site(site, codes, positive, negative) | {
+                f"{name}_uncalibrated": paired[name] for name in ("pair_auc", "pair_accuracy")
+            }
     return figures | paired | by_distance
+
+
+def site_of(
+    manifest: Manifest, codes: Int8, segments: Segments, captures: Int64 | None
+) -> SiteCalibration | None:
+    """Calibrate a drive by its segments; None without captures, or if the model has no constants.
+
+    The groups, which are labels, are not used.
+    """
+    constants = SiteConstants.of(manifest)
+    if captures is None or constants is None:
+        return None
+    return calibrate(codes, segments.centroids(), captures, manifest.quantizer, constants)
+
+
+def with_site(
+    site: SiteCalibration, codes: Int8, positive: Int64, negative: Int64
+) -> dict[str, float]:
+    """Return the figures of the drawn pairs, which are matches with even odds."""
+    pairs = np.concatenate([positive, negative])
+    ratios = site.pair_log_ratios(codes[pairs[:, 0]], codes[pairs[:, 1]])
+    likely, unlikely = ratios[: len(positive)], ratios[len(positive) :]
+    truth = np.repeat([1.0, 0.0], [len(positive), len(negative)])
+    return {
+        "pair_auc": recognition.area_under_roc(likely, unlikely),
+        "pair_accuracy": recognition.accuracy_at(0.0, -likely, -unlikely),
+        "pair_calibration_error": expected_calibration_error(expit(ratios), truth)[0],
+    }
 
 
 def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
@@ -99,18 +146,20 @@ def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, An
 
 
 def candidate_calibration(
-    classifier: PairClassifier, codes: Int8, matches: Int64, others: Int64
+    probabilities: Callable[[Int8, Int8], Float64], codes: Int8, matches: Int64, others: Int64
 ) -> dict[str, float | None]:
     """Return the calibration of the match probabilities of pairs; None if there are no pairs."""
     pairs = np.concatenate([matches, others])
     truth = np.repeat([1.0, 0.0], [len(matches), len(others)])
     stated = np.zeros(0)
     if len(pairs):
-        stated = classifier.probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
+        stated = probabilities(codes[pairs[:, 0]], codes[pairs[:, 1]])
     figures = calibration_figures(stated, truth)
     # The older key has the same value.
     return {"candidate_calibration_error": figures["expected_calibration_error"]} | figures
 
+
+CALIBRATION_FIGURES = ("expected_calibration_error", "brier")
 
 PAIR_FIGURES = (
     "pair_auc",
@@ -191,7 +240,9 @@ def evaluate(
     for name, (extractor, classifier) in models.items():
         around = extractor.manifest.neighborhood
         seen = None if around is None else recording.neighborhood(around)[chosen]
-        figures = measure(extractor, classifier, segments, groups, seed, seen)
+        figures = measure(
+            extractor, classifier, segments, groups, seed, seen, recording.captures[chosen]
+        )
         figures["seen"] = extractor.manifest.has_seen(recording.scan_hashes[first : last + 1])
         extractors[name] = figures
     return {

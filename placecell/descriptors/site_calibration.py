@@ -170,6 +170,16 @@ class SiteCalibration:
             "log_prior": self.log_prior,
         }
 
+    def typical(self, codes: Int8) -> tuple[float, float]:
+        """Return the mean and the deviation of the distances to the nearest free negatives.
+
+        Both are averages over these queries, for `SiteConstants`; (0, 0) without free negatives.
+        """
+        nearest = self._nearest(self.queries(codes).squared)
+        if not nearest.size:
+            return 0.0, 0.0
+        return float(nearest.mean()), float(np.sqrt(nearest.var(axis=1).mean()))
+
     @cached_property
     def _cohort_levels(self) -> Float32:
         return self.quantizer.levels(self.cohort).astype(np.float32)
@@ -181,26 +191,29 @@ class SiteCalibration:
             codes: codes of the queries, int8 (q, code bytes).
         """
         levels = self.quantizer.levels(codes).astype(np.float32)
-        constants = self.constants
         # Levels are integers, so float32 products are exact and do not depend on the batch.
         squared = _squared(levels)[:, None] + _squared(self._cohort_levels)[None]
         squared -= 2 * levels @ self._cohort_levels.T
-        count = min(max(2, round(NEAREST_SHARE * len(self.cohort))), len(self.cohort) - 1)
-        if count < 1:
-            means, deviations = np.ones((2, len(codes)))
-            return QueryDistances(
-                levels, squared, means * constants.mean, deviations * constants.deviation
-            )
-        nearest = np.sort(np.partition(squared, count, axis=1)[:, : count + 1], axis=1)[:, 1:]
-        distances = self.quantizer.step * np.sqrt(nearest.astype(np.float64))
-        means = distances.mean(axis=1)
-        variances = distances.var(axis=1)
+        nearest = self._nearest(squared)
+        count = nearest.shape[1]
+        means, variances = np.zeros((2, len(codes)))
+        if count:
+            means, variances = nearest.mean(axis=1), nearest.var(axis=1)
+        constants = self.constants
         return QueryDistances(
             levels,
             squared,
             _shrunk(means, constants.mean, count, MEAN_PRIOR),
             np.sqrt(_shrunk(variances, constants.deviation**2, count, DEVIATION_PRIOR)),
         )
+
+    def _nearest(self, squared: Float32) -> Float64:
+        """Return the distances to the nearest free negatives, (q, k), without the nearest one."""
+        count = min(max(2, round(NEAREST_SHARE * len(self.cohort))), len(self.cohort) - 1)
+        if count < 1:
+            return np.zeros((len(squared), 0))
+        nearest = np.sort(np.partition(squared, count, axis=1)[:, : count + 1], axis=1)[:, 1:]
+        return np.asarray(self.quantizer.step * np.sqrt(nearest.astype(np.float64)))
 
     def log_ratios(self, queries: QueryDistances, rows: Int64, others: Int8) -> Float64:
         """Return the log-likelihood ratio of each pair, float64 (n,): above 0 for a match.
@@ -225,6 +238,15 @@ class SiteCalibration:
     def probabilities(self, queries: QueryDistances, rows: Int64, others: Int8) -> Float64:
         """Return the match probability of each pair, float64 (n,); see `log_ratios`."""
         return np.asarray(expit(self.log_ratios(queries, rows, others) + self.log_prior))
+
+    def pair_log_ratios(self, a: Int8, b: Int8) -> Float64:
+        """Return the log-likelihood ratio of each pair of codes; the first one is the query."""
+        queries, rows = np.unique(a, axis=0, return_inverse=True)
+        return self.log_ratios(self.queries(queries), rows.reshape(-1), b)
+
+    def pair_probabilities(self, a: Int8, b: Int8) -> Float64:
+        """Return the match probability of each pair of codes; the first one is the query."""
+        return np.asarray(expit(self.pair_log_ratios(a, b) + self.log_prior))
 
 
 def sample_rows(count: int) -> Int64:
@@ -330,7 +352,8 @@ def _cohort(centroids: Float64, captures: Int64, order: Int64) -> Int64:
     """Return the cohort: segments in this order that are no further view of an earlier one."""
     rows = order[: 4 * COHORT]
     places, captures = centroids[rows], captures[rows]
-    free, kept = np.ones(len(rows), dtype=bool), []
+    free = np.ones(len(rows), dtype=bool)
+    kept: list[int] = []
     while free.any() and len(kept) < COHORT:
         index = int(free.argmax())
         kept.append(index)

@@ -67,6 +67,7 @@ class TrainingSet:
         neighborhood: float32 (segments, size): neighborhood of each segment in its capture,
             duplicates included, as in a robot's request; None if it was not computed.
         synthetic: bool (segments,): True for segments of synthetic towns; None if unknown.
+        drives: int64 (segments,): index of each segment's source; None if unknown.
     """
 
     segments: Segments
@@ -74,6 +75,7 @@ class TrainingSet:
     parameters: Parameters
     neighborhood: Float32 | None = None
     synthetic: Bool | None = None
+    drives: Int64 | None = None
 
     @classmethod
     def of(
@@ -109,6 +111,7 @@ class TrainingSet:
             sources[0].recording.parameters,
             np.concatenate(around) if around else None,
             np.repeat([source.synthetic for source in sources], [len(part) for part in parts]),
+            np.repeat(np.arange(len(sources)), [len(part) for part in parts]),
         )
 
     def __len__(self) -> int:
@@ -129,7 +132,10 @@ class TrainingSet:
         labels = np.unique(self.groups[indices], return_inverse=True)[1]
         around = None if self.neighborhood is None else self.neighborhood[indices]
         made_up = None if self.synthetic is None else self.synthetic[indices]
-        return TrainingSet(self.segments.take(indices), labels, self.parameters, around, made_up)
+        drives = None if self.drives is None else self.drives[indices]
+        return TrainingSet(
+            self.segments.take(indices), labels, self.parameters, around, made_up, drives
+        )
 
     def group_sizes(self) -> Int64:
         """Return the number of segments of each group, int64 (groups,)."""

@@ -22,6 +22,7 @@ from placecell.descriptors.extractor import MODEL_FILE, Extractor, OnnxExtractor
 from placecell.descriptors.manifest import FULL_FILE, PAIR_FILE, Manifest, preprocessing_of
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from placecell.descriptors.quantizer import Quantizer
+from placecell.descriptors.site_calibration import SiteConstants
 from placecell.localization import confidence
 from training.data.training_set import Source, TrainingSet
 from training.export.card import write_card
@@ -32,6 +33,9 @@ VALIDATION_SHARE = 0.1
 """Share of the groups that are held out for validation."""
 
 SPLIT_SEED = 0
+
+NORMALIZED = "normalized distance"
+"""Name of the distance that a site's own segments normalize, among the kinds of pair classifier."""
 
 STORED_DIMENSION = 32
 """Number of stored dimensions out of 64; with 8 bits each, 32 bytes per segment."""
@@ -228,6 +232,7 @@ def finish(
 ) -> Manifest:
     """Add pair classifier, thresholds and validation figures to a model folder; save it."""
     from training.export.pair_classifier import DescriptorPairs, HeldOut, choose
+    from training.export.site_constants import fit_site_constants, sites_of
 
     manifest.save(folder)
     extractor = load_extractor(folder)
@@ -256,6 +261,9 @@ def finish(
     chosen = choose(
         pairs_of(data.training, learned), calibration, selection, head, folder / PAIR_FILE
     ) | {"database": len(database), "nearest": retrieval.CANDIDATES}
+    codes = manifest.quantizer.encode(np.concatenate([learned, held_out]))
+    sites = sites_of(data.training, data.validation, codes)
+    chosen |= site_entry(chosen, fit_site_constants(sites, manifest.quantizer))
     distances = pairs_of(data.validation, held_out)
     is_match = distances.matches > 0.5
     lengths = distances.distances()
@@ -278,6 +286,20 @@ def finish(
     manifest.save(folder)
     write_card(folder, manifest)
     return manifest
+
+
+def site_entry(pair: dict[str, Any], fitted: tuple[SiteConstants, float] | None) -> dict[str, Any]:
+    """Return the manifest's entries of the site constants.
+
+    Without constants, or if a forest or a network separates the pairs better than the normalized
+    distance, the match probability stays that of the pair classifier.
+    """
+    if fitted is None:
+        return {}
+    constants, auc = fitted
+    compared = {"auc": pair["auc"] | {NORMALIZED: auc}}
+    is_best = pair["kind"] == "distance" or auc >= max(pair["auc"].values())
+    return compared | ({"site": constants.as_dict()} if is_best else {})
 
 
 def stored_descriptors(extractor: Extractor, data: TrainingSet) -> Float32:
