@@ -5,7 +5,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-OWN = ("queries", "right", "wrong but sure", "not localized", "median error", "until localized")
+OWN = (
+    "queries",
+    "right",
+    "wrong but sure",
+    "not localized",
+    "best pose right",
+    "told of these",
+    "calibration error",
+    "median error",
+    "until localized",
+)
 
 
 def read_reports(folder: Path) -> dict[str, dict[str, Any]]:
@@ -36,25 +46,43 @@ def comparison_table(cases: Mapping[str, Mapping[str, dict[str, Any]]]) -> Itera
 def full_table(cases: Mapping[str, dict[str, Any]]) -> Iterator[str]:
     """Yield a Markdown table of one system: a row per case, with 95% bounds.
 
+    If a report names its sensors, the table has a column for them, and its rows are ordered by it.
+
     Args:
         cases: reports of `evaluate-poses`, or rows of `bench peers`, by case.
     """
-    yield from head(["", *OWN])
-    for name, report in cases.items():
+    sensors = {name: sensors_of_report(report) for name, report in cases.items()}
+    known = any(sensors.values())
+    yield from head(["", *(["sensors"] if known else []), *OWN])
+    for name in sorted(cases, key=sensors.__getitem__):
+        report = cases[name]
         meters, degrees = report["median_position_error_m"], report["median_yaw_error_deg"]
         # Peers have no such figure, because their own rule decides which poses are sure.
         until = report.get("metres_until_localised", {"p95": None})
+        error = report.get("expected_calibration_error")
         yield line(
             [
                 name,
+                *([sensors[name] or "-"] if known else []),
                 f"{report['queries']:,}",
                 *(bounded(report, key) for key in report["bounds_95"]),
+                percent(report.get("best_pose_right"), 2),
+                percent(report.get("told_share_of_right"), 2),
+                "-" if error is None else f"{error:.3f}",
                 "-" if meters is None else f"{meters:.2f} m, {degrees:.2f} deg",
                 "-"
                 if until["p95"] is None
                 else f"{until['median']:.0f} m; 95%: {until['p95']:.0f}",
             ]
         )
+
+
+def sensors_of_report(report: Mapping[str, Any]) -> str:
+    """Return the sensor of the queries, and that of the map if it is another; empty if unknown."""
+    asking, mapping = report.get("query_sensor"), report.get("map_sensor")
+    if not asking:
+        return ""
+    return asking if mapping in {asking, None} else f"{asking} in the map of {mapping}"
 
 
 def both(figures: Mapping[str, Any]) -> str:

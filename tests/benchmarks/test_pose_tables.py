@@ -54,8 +54,30 @@ def test_full_table_states_bounds() -> None:
     never = {"metres_until_localised": {"median": None, "p95": None, "never": 9}}
     _, _, told, untold = full_table({"town": REPORT, "lost": REPORT | nothing | never})
     assert "3,012 | 96.12 (95.37 to 96.78) | 0.03 (0.00 to 0.18) | 3.00 (2.42 to 3.67)" in told
-    assert "| 0.07 m, 0.15 deg | 0 m; 95%: 4 |" in told
+    # This report is older than the figures of the best poses.
+    assert "| - | - | - | 0.07 m, 0.15 deg | 0 m; 95%: 4 |" in told
     assert untold.endswith("| - | - |")
+
+
+def test_full_table_states_best_poses_and_orders_by_sensor() -> None:
+    best = {
+        "best_pose_right": 0.98,
+        "told_share_of_right": 0.9808,
+        "expected_calibration_error": 0.0123,
+    }
+    both = {"map_sensor": "vlp-16", "query_sensor": "os1-64"}
+    same = {"map_sensor": "hdl-64e", "query_sensor": "hdl-64e"}
+    cases = {"cross": REPORT | best | both, "one": REPORT | same, "recorded": REPORT}
+    header, _, *rows = full_table(cases)
+    assert header.startswith(
+        "|  | sensors | queries | right | wrong but sure | not localized | best"
+    )
+    assert [row.split(" | ")[:2] for row in rows] == [
+        ["| recorded", "-"],
+        ["| one", "hdl-64e"],
+        ["| cross", "os1-64 in the map of vlp-16"],
+    ]
+    assert "| 98.00 | 98.08 | 0.012 | 0.07 m" in rows[2]
 
 
 def test_shares_without_queries_are_a_dash() -> None:
@@ -69,7 +91,7 @@ def test_shares_without_queries_are_a_dash() -> None:
     }
     assert list(comparison_table({"town": {"context": beyond}}))[-1] == "| context | - / - |"
     *_, row = full_table({"town": beyond})
-    assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'} - | - |"
+    assert row == f"| town | 0 |{3 * ' - (0.00 to 100.00) |'}{5 * ' - |'}"
 
 
 def test_peer_has_no_distance_until_localized() -> None:
