@@ -29,6 +29,7 @@ from placecell_client.results.localization import (
     Localization,
     Localizations,
     Pose,
+    PossiblePlace,
     Rival,
 )
 from placecell_client.results.merge import MapLoop, Merge, MergedPart, MergePair
@@ -63,6 +64,7 @@ __all__ = [
     "Overlap",
     "PartialUpload",
     "Pose",
+    "PossiblePlace",
     "PrecisionWarning",
     "Retries",
     "Rival",

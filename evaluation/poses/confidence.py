@@ -1,43 +1,33 @@
 """Fit of the pose probability: `placecell fit-confidence`.
 
-In each town, two robots drive the same streets in opposite directions. Each capture of one robot is
-localized in the other's map, with all segments and with a few, and in a joined map of all towns.
-It is also localized where no answer is right: in the map of another town, and in the other's map
-without the segments near the robot, where at best a similar street is found.
+The probability is a logistic model of the best hypothesis' features, fitted on the cases of several
+sensors and places (`cases`). Each sensor is left out of the fit once: the probabilities of its
+cases then calibrate the acceptance of poses, and show how well the model carries over.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from placecell_client.maps.edit import take
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from evaluation.calibration import calibration_figures
 from evaluation.machine import machine
-from evaluation.poses.queries import Pair, PoseQuery, joined, localize_query, random_frame
-from evaluation.poses.report import RIGHT, reliability_of
-from placecell.core.types import Bool, Float64, Int64
-from placecell.localization import Confidence, LocalizationParameters, Pose
-from placecell.localization.confidence import FEATURES
+from evaluation.poses.cases import Cases, FitPair, K, ask
+from evaluation.poses.report import SURE, reliability_of
+from placecell.core.types import Bool, Float64
+from placecell.localization import Confidence
+from placecell.localization.acceptance import Acceptance
+from placecell.localization.confidence import DEFAULT_RISK, FEATURES, SegmentNeeds
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
-FEW = (6, 8, 12, 20)
-"""Numbers of segments drawn from a capture."""
-
-APART = 3_000.0
-"""Distance between the towns of the joined map, meters."""
-
-NEAR = 80.0
-"""Radius around the robot that is removed from a map without a right answer, meters."""
-
-K = 25
-"""Candidates per segment."""
-
-QUERIES = 150
-"""Queries of each robot in each town, spread evenly: more towns teach more than more captures."""
+FITTED = ("score", "margin", "spread", "surprise", "ahead")
+"""Features of the model. `share` and `residual` depend on the sensor: unmatched segments and
+centroid noise are more frequent on real sensors than in the town."""
 
 PENALTY = 1.0
 """Factor of the squared weights in the loss."""
@@ -46,67 +36,147 @@ SIGNS = {name: -1.0 if name == "residual" else 1.0 for name in FEATURES}
 """Sign of each weight: more agreement and a smaller residual never lower the probability. Without
 this, correlated features could get weights of opposite signs, which do not generalize."""
 
+TOLD = 0.9
+"""Share of the right poses that is returned from the number of segments that a robot needs."""
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Cases:
-    """Best hypotheses of queries.
-
-    Attributes:
-        features: float64 (n, features), features of the hypotheses.
-        right: bool (n,), whether the hypothesis is right.
-        towns: int64 (n,), town of the query.
-    """
-
-    features: Float64
-    right: Bool
-    towns: Int64
+MOST_NEEDED = 60
+"""Largest number of segments that a robot is said to need."""
 
 
 def fit(
-    pairs: Sequence[Pair], model: Path, seed: int = 0, *, progress: Progress = silent
+    pairs: Sequence[FitPair],
+    model: Path,
+    most: int,
+    seed: int = 0,
+    *,
+    progress: Progress = silent,
 ) -> dict[str, Any]:
     """Fit the logistic model; return the content of `confidence.json`.
-
-    The held-out figures are of towns that the model was not fitted on, each left out in turn.
 
     Args:
         pairs: the robots of two or more towns.
         model: folder of the model.
+        most: largest number of captures of each robot, spread evenly.
         seed: random seed.
         progress: wraps the loop.
     """
     with Engine.temporary(model) as engine:
-        cases = ask(pairs, engine, seed, progress)
+        cases = ask(pairs, engine, most, seed, progress)
         model_id = engine.model.id
-    held_out = np.zeros(len(cases.right))
-    for town in np.unique(cases.towns):
-        rest, here = cases.towns != town, cases.towns == town
-        held_out[here] = logistic(cases.features[rest], cases.right[rest], 1.0).probabilities(
-            cases.features[here]
-        )
+    content = fit_cases(cases)
+    content["fitted_on"] = {
+        "towns": [pair.town for pair in pairs],
+        "sensors": [pair.sensor for pair in pairs],
+        "places": [pair.place for pair in pairs],
+        "look_alikes": [pair.look_alikes for pair in pairs],
+        "scans": [len(pair.pair.mapper.drive) for pair in pairs],
+        "model_id": model_id,
+        "cases": len(cases),
+        "right": int(cases.right.sum()),
+        "queries": most,
+        "k": K,
+        "seed": seed,
+        "machine": machine(),
+    }
+    return content
+
+
+def fit_cases(cases: Cases) -> dict[str, Any]:
+    """Fit the logistic model to cases; return the content of `confidence.json` about it.
+
+    The calibration of the acceptance uses probabilities of models that were fitted without the
+    sensor of a case, or without its town if there is only one sensor.
+    """
+    left_out: NDArray[Any] = cases.sensors if len(np.unique(cases.sensors)) > 1 else cases.towns
+    held_out = _held_out(cases, left_out)
     # Laplace's rule of succession limits the highest probability by the wrong sure cases.
     sure = held_out >= 0.99
     highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
+    stated = np.minimum(highest * held_out, cases.limits)
+    acceptance = Acceptance.of(stated, cases.false & ~cases.rejected)
     fitted = logistic(cases.features, cases.right, highest)
+    threshold = acceptance.threshold(max(DEFAULT_RISK, acceptance.smallest_risk))
+    told = (stated > threshold) & ~cases.rejected
+    by_town = np.minimum(highest * _held_out(cases, cases.towns), cases.limits)
     return {
-        "features": list(FEATURES),
-        "model": asdict(fitted),
-        "fitted_on": {
-            "towns": len(pairs),
-            "scans": [len(pair.mapper.drive) for pair in pairs],
-            "model_id": model_id,
-            "cases": len(cases.right),
-            "right": int(cases.right.sum()),
-            "queries": QUERIES,
-            "k": K,
-            "seed": seed,
-            "machine": machine(),
+        "features": list(FITTED),
+        "model": {
+            name: value
+            for name, value in asdict(fitted).items()
+            if name in {"means", "deviations", "weights", "bias", "highest"}
         },
+        "acceptance": acceptance.as_json(),
+        "needs": asdict(needs_of(cases, told)),
         "held_out": {
-            "reliability": reliability_of(np.minimum(held_out, highest), cases.right),
-            "brier": round(float(np.mean((held_out - cases.right) ** 2)), 5),
+            "reliability": reliability_of(stated, cases.right),
+            "brier": calibration_figures(stated, cases.right)["brier"],
+            "threshold": threshold,
+            "all": figures(cases, stated, threshold, np.ones(len(cases), dtype=bool)),
+            "sensors": {
+                name: figures(cases, stated, threshold, cases.sensors == name)
+                for name in np.unique(cases.sensors).tolist()
+            },
+            "places": {
+                name: figures(cases, stated, threshold, cases.places == name)
+                for name in np.unique(cases.places).tolist()
+            },
+            "by_town": figures(cases, by_town, threshold, np.ones(len(cases), dtype=bool)),
         },
     }
+
+
+def _held_out(cases: Cases, groups: NDArray[Any]) -> Float64:
+    """Return each case's probability by a model that was fitted without the case's group."""
+    found = np.isfinite(cases.features).all(axis=1)
+    held_out = np.zeros(len(cases))
+    for group in np.unique(groups):
+        rest, here = found & (groups != group), found & (groups == group)
+        if here.any():
+            model = logistic(cases.features[rest], cases.right[rest], 1.0)
+            held_out[here] = model.probabilities(cases.features[here])
+    return held_out
+
+
+def figures(cases: Cases, stated: Float64, threshold: float, chosen: Bool) -> dict[str, Any]:
+    """Return how reliable the stated probabilities of the chosen cases are.
+
+    Args:
+        cases: all cases.
+        stated: float64 (n,), their probabilities.
+        threshold: probability that a returned pose exceeds.
+        chosen: bool (n,), the cases that count.
+    """
+    told = (stated > threshold) & ~cases.rejected & chosen
+    right = cases.right & chosen
+    whole = right & cases.answerable & cases.whole
+    return {
+        "cases": int(chosen.sum()),
+        "best_pose_right": int(right.sum()),
+        "told_share_of_right": _share(told & right, right),
+        "told_share_of_right_captures": _share(told & whole, whole),
+        "false_acceptance": _share(told & cases.false, chosen),
+        "wrong_but_sure": _share(told & cases.false & (stated >= SURE), chosen),
+        **{
+            name: None if value is None else round(value, 5)
+            for name, value in calibration_figures(stated[chosen], cases.right[chosen]).items()
+        },
+    }
+
+
+def _share(part: Bool, whole: Bool) -> float | None:
+    return round(float(part.sum()) / float(whole.sum()), 5) if whole.any() else None
+
+
+def needs_of(cases: Cases, told: Bool) -> SegmentNeeds:
+    """Return the number of segments from which right poses are usually returned, and its growth."""
+    own = cases.right & cases.answerable
+    for count in range(4, MOST_NEEDED):
+        near = own & (cases.usable >= count) & (cases.usable < 1.5 * count)
+        if near.any() and told[near].mean() >= TOLD:
+            break
+    growth = cases.growth[np.isfinite(cases.growth)]
+    per_meter = float(np.median(growth)) if len(growth) else SegmentNeeds().per_meter
+    return SegmentNeeds(count, round(max(per_meter, 0.1), 2))
 
 
 def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
@@ -115,13 +185,15 @@ def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
     See Hastie et al., *The Elements of Statistical Learning*, section 4.4.
 
     Args:
-        features: float64 (n, features).
+        features: float64 (n, features), in the order of `FEATURES`; rows with NaN are left out.
         right: bool (n,).
         highest: highest probability that the model states.
     """
-    means, deviations = features.mean(axis=0), features.std(axis=0)
-    standard = np.column_stack([(features - means) / deviations, np.ones(len(features))])
-    signs = np.where(right, 1.0, -1.0)
+    found = np.isfinite(features).all(axis=1)
+    own = features[found][:, [FEATURES.index(name) for name in FITTED]]
+    means, deviations = own.mean(axis=0), own.std(axis=0)
+    standard = np.column_stack([(own - means) / np.maximum(deviations, 1e-9), np.ones(len(own))])
+    signs = np.where(right[found], 1.0, -1.0)
 
     def loss(weights: Float64) -> tuple[float, Float64]:
         margins = signs * (standard @ weights)
@@ -130,69 +202,14 @@ def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
         value = np.logaddexp(0.0, -margins).sum() + 0.5 * ridge @ weights
         return float(value), np.asarray(standard.T @ pull + ridge)
 
-    bounds = [(0.0, None) if SIGNS[name] > 0 else (None, 0.0) for name in FEATURES]
+    bounds = [(0.0, None) if SIGNS[name] > 0 else (None, 0.0) for name in FITTED]
     start = np.zeros(standard.shape[1])
-    found = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=[*bounds, (None, None)]).x
+    weights = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=[*bounds, (None, None)]).x
     return Confidence(
         tuple(means.tolist()),
-        tuple(deviations.tolist()),
-        tuple(found[:-1].tolist()),
-        float(found[-1]),
+        tuple(np.maximum(deviations, 1e-9).tolist()),
+        tuple(weights[:-1].tolist()),
+        float(weights[-1]),
         highest,
+        FITTED,
     )
-
-
-def ask(pairs: Sequence[Pair], engine: Engine, seed: int, progress: Progress) -> Cases:
-    """Localize each robot of each pair in the map of the other, and in other maps."""
-    random = np.random.default_rng(seed)
-    frame = random_frame(seed)
-    both = [*pairs, *(pair.swapped() for pair in pairs)]
-    maps = [pair.mapper.build_map(engine, "town") for pair in both]
-    shifts = [np.array([APART * index, 0.0, 0.0]) for index in range(len(pairs))]
-    names = [f"map-{index}" for index in range(len(both))]
-    for name, compact in zip(names, maps, strict=True):
-        engine.put_map(name, compact)
-    # A joined map holds one map per town, because a robot would find its own map.
-    for way in range(2):
-        half = maps[way * len(pairs) : (way + 1) * len(pairs)]
-        engine.put_map(f"joined-{way}", joined(half, shifts))
-    features, right, towns = [], [], []
-    for index in progress(range(len(both)), len(both), "localizing"):
-        town, way = index % len(pairs), index // len(pairs)
-        elsewhere = names[way * len(pairs) + (town + 1) % len(pairs)]
-        for query in both[index].queries(engine, frame, QUERIES):
-            there = Pose(np.eye(3), shifts[town]).after(query.truth)
-            place = query.truth.apply(query.sensor)
-            far = np.linalg.norm(maps[index].centroids - place, axis=1) > NEAR
-            if engine.maps.find("without") is not None:
-                engine.delete_map("without")
-            engine.put_map("without", take(maps[index], far))
-            asked = [
-                (query, names[index], query.truth),
-                (query, elsewhere, None),
-                *((each, "without", None) for each in (query, *parts(query, random, (20,)))),
-                *((each, names[index], query.truth) for each in parts(query, random)),
-                *((each, f"joined-{way}", there) for each in (query, *parts(query, random, (12,)))),
-            ]
-            for each, name, truth in asked:
-                found, _ = localize_query(engine, each, name, K, LocalizationParameters())
-                if found.best is not None and found.features is not None:
-                    features.append(found.features)
-                    right.append(truth is not None and near(found.best.pose, truth, query.sensor))
-                    towns.append(town)
-    return Cases(np.array(features), np.array(right), np.array(towns))
-
-
-def parts(
-    query: PoseQuery, random: np.random.Generator, sizes: Sequence[int] = FEW
-) -> Iterator[PoseQuery]:
-    """Yield the query with some of its segments, for each size."""
-    for size in sizes:
-        if size < len(query.codes):
-            yield query.some(np.sort(random.choice(len(query.codes), size, replace=False)))
-
-
-def near(pose: Pose, truth: Pose, sensor: Float64) -> bool:
-    """Return whether a pose is right."""
-    meters, angle = pose.difference(truth, sensor)
-    return meters <= RIGHT[0] and bool(np.degrees(angle) <= RIGHT[1])

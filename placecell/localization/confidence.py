@@ -17,6 +17,8 @@ import numpy as np
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from placecell.localization.acceptance import Acceptance, check_risk
+from placecell.localization.candidates import Candidates
+from placecell.localization.chance import surprise
 from placecell.localization.hypothesis import Hypothesis
 
 NAME = "confidence.json"
@@ -30,17 +32,28 @@ SHIPPED = PACKAGED if PACKAGED.is_file() else MODELS_FOLDER / DEFAULT_MODEL / NA
 DEFAULT_RISK = 0.001
 """Default of `max_false_acceptance`."""
 
-FEATURES = ("score", "margin", "inliers", "share", "residual", "spread")
+FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "surprise", "ahead")
+"""Names of all features. A file names those that its model uses: earlier versions used the first
+six."""
 
 
-def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Float64:
-    """Return the features of the logistic model, float64 (6,), in the order of `FEATURES`.
+def features_of(
+    best: Hypothesis,
+    score: float,
+    second: Hypothesis | None,
+    rival: float,
+    usable: int,
+    candidates: Candidates,
+) -> Float64:
+    """Return all features of a hypothesis, float64 (8,), in the order of `FEATURES`.
 
     Args:
-        best: best hypothesis.
+        best: best hypothesis, scored by guided matching.
         score: its score, with the support of earlier requests.
-        rival: score of the best hypothesis at another place, divided by `score`; 0 without one.
+        second: best hypothesis at another place, of the same queries; None if there is none.
+        rival: score of `second` divided by `score`; 0 without one.
         usable: number of queries that have candidates.
+        candidates: candidates of all queries.
     """
     plan = best.source[:, :2] - best.source[:, :2].mean(axis=0)
     # The smaller horizontal extent: segments in a row determine less than segments all around.
@@ -53,8 +66,35 @@ def features_of(best: Hypothesis, score: float, rival: float, usable: int) -> Fl
             len(best) / usable,
             np.sqrt(np.mean(best.residuals**2)),
             np.log1p(spread),
+            np.arcsinh(surprise(best.pose, candidates)),
+            ahead_of(best, second),
         ]
     )
+
+
+def ahead_of(best: Hypothesis, second: Hypothesis | None) -> float:
+    """Return by how many standard deviations a hypothesis fits better than another one.
+
+    Each query's part of the score is compared, as in a paired test with the mean 0.
+    """
+    assert best.worth is not None
+    apart = best.worth
+    if second is not None and second.worth is not None and len(second.worth) == len(apart):
+        apart = apart - second.worth
+    return float(apart.sum() / max(np.sqrt(apart @ apart), 1e-9))
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentNeeds:
+    """Segments that a robot needs, and how fast it sees more of them as it starts to drive.
+
+    Attributes:
+        segments: number of segments with candidates from which right poses are usually returned.
+        per_meter: segments that are added per meter in the first meters of a drive.
+    """
+
+    segments: int = 15
+    per_meter: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +109,7 @@ class Confidence:
         highest: largest probability that the number of fitting cases justifies.
         features: names of the features, of `FEATURES`.
         acceptance: calibration of the threshold; None in a file of an earlier version.
+        needs: segments that a robot needs; assumed values in a file of an earlier version.
     """
 
     means: tuple[float, ...]
@@ -78,6 +119,7 @@ class Confidence:
     highest: float
     features: tuple[str, ...] = FEATURES
     acceptance: Acceptance | None = None
+    needs: SegmentNeeds = SegmentNeeds()
 
     def probability(self, features: Float64) -> float:
         """Return the probability that a pose with these features is right."""
@@ -146,6 +188,7 @@ class Confidence:
             model["highest"],
             tuple(content["features"]),
             Acceptance.of_json(content["acceptance"]) if "acceptance" in content else None,
+            SegmentNeeds(**content["needs"]) if "needs" in content else SegmentNeeds(),
         )
 
 

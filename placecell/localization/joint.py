@@ -88,11 +88,14 @@ class JointLocalization:
         localization: localization in this map, after the comparison with all maps.
         total: score of the best hypothesis, with the support of earlier requests; 0 without one.
         rival: best hypothesis of the other maps; None if there is none.
+        is_between_maps: whether the result is ambiguous because of the rival, not of a second place
+            in this map.
     """
 
     localization: Localization
     total: float
     rival: Rival | None = None
+    is_between_maps: bool = False
 
 
 def localize_jointly(
@@ -174,7 +177,14 @@ def judge_jointly(
         for query, places in zip(queries, found, strict=True)
     ]
     alone = [
-        judge(places.hypotheses, places.usable, parameters, query.confidence, query.evidence)
+        judge(
+            places.hypotheses,
+            query.candidates,
+            places.usable,
+            parameters,
+            query.confidence,
+            query.evidence,
+        )
         if places.hypotheses and number not in only_rivals
         else unknown(places.usable, parameters, query.confidence)
         for number, (query, places) in enumerate(zip(queries, found, strict=True))
@@ -203,7 +213,8 @@ def judge_jointly(
             if other != number and groups[other, at] != groups[number, here]
         ]
         told, rival = _against(own, number, found[number].usable, rivals, queries, parameters)
-        judged.append(JointLocalization(told, total, rival))
+        between = told.reason == "ambiguous" and own.reason is None
+        judged.append(JointLocalization(told, total, rival, between))
     return judged
 
 
@@ -238,7 +249,9 @@ def _compared(
             + parameters.past_weight * abs(past) * most
         )
         ahead = (float(apart.sum()) + past) / max(np.sqrt(variance), 1e-9)
-    plausible = rival is alone.best and alone.reason in {None, "ambiguous"}
+    plausible = rival is alone.best and (
+        alone.reason in {None, "ambiguous"} or alone.probability >= parameters.least_probability
+    )
     return Rival(number, rival, total, ratio, ahead, plausible)
 
 
@@ -261,9 +274,13 @@ def _against(
     second = 0.0 if features is None else 1.0 - float(features[1])
     if strongest is not None and strongest.ratio > second:
         features = features_of(
-            own.best, max(float(np.exp(features[0])) if features is not None else 0.0, 1e-9),
-            min(strongest.ratio, 1.0), usable,
-        )  # fmt: skip
+            best=own.best,
+            score=max(float(np.exp(features[0])) if features is not None else 0.0, 1e-9),
+            second=strongest.hypothesis,
+            rival=min(strongest.ratio, 1.0),
+            usable=usable,
+            candidates=query.candidates,
+        )
         probability = min(probability, query.confidence.probability(features))
     doubt = min((chance_of_map(each.ahead, parameters) for each in alike), default=1.0)
     close = [each for each in alike if each.is_plausible or each.ratio >= parameters.ambiguous]

@@ -9,7 +9,7 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
-from placecell.localization.confidence import Confidence, features_of, shipped
+from placecell.localization.confidence import Confidence, SegmentNeeds, features_of, shipped
 from placecell.localization.correspondences import correspond
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
@@ -32,6 +32,8 @@ class Localization:
     """Result of localization in one map.
 
     Attributes:
+        usable: number of queries that have candidates.
+        needs: number of queries that a sure pose usually needs.
         best: best hypothesis, even if it is rejected; None if there is none.
         second: best hypothesis at another place.
         probability: probability that the best hypothesis is right, within 1 m and 3 degrees.
@@ -44,6 +46,8 @@ class Localization:
         hypotheses: all hypotheses, best first, as evidence for later requests.
     """
 
+    usable: int
+    needs: SegmentNeeds
     best: Hypothesis | None
     second: Hypothesis | None
     probability: float
@@ -86,7 +90,7 @@ def localize(
         return unknown(places.usable, parameters, confidence)
     there = there or CandidateSegments(candidates)
     hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
-    return judge(hypotheses, places.usable, parameters, confidence, evidence)
+    return judge(hypotheses, candidates, places.usable, parameters, confidence, evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,7 +134,19 @@ def unknown(
         reason = "inconsistent"
         detail = "No geometrically consistent match was found in the map."
     threshold, risk = threshold_of(parameters, confidence)
-    return Localization(None, None, 0.0, threshold, risk, reason, detail, None, ())
+    return Localization(
+        usable=usable,
+        needs=confidence.needs,
+        best=None,
+        second=None,
+        probability=0.0,
+        threshold=threshold,
+        risk=risk,
+        reason=reason,
+        detail=detail,
+        features=None,
+        hypotheses=(),
+    )
 
 
 def threshold_of(
@@ -142,6 +158,7 @@ def threshold_of(
 
 def judge(
     hypotheses: Sequence[Hypothesis],
+    candidates: Candidates,
     usable: int,
     parameters: LocalizationParameters,
     confidence: Confidence,
@@ -151,6 +168,7 @@ def judge(
 
     Args:
         hypotheses: one or more hypotheses at different places.
+        candidates: candidates of all queries.
         usable: number of queries that have candidates.
         parameters: constants of localization.
         confidence: model of the probability.
@@ -161,28 +179,68 @@ def judge(
     best, total = hypotheses[order[0]], float(totals[order[0]])
     second = hypotheses[order[1]] if len(order) > 1 else None
     rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
-    features = features_of(best, total, rival, usable)
+    features = features_of(best, total, second, rival, usable, candidates)
     probability = confidence.probability(features)
     threshold, risk = threshold_of(parameters, confidence)
-    reason: Reason | None = None
+    reason, limit = rejection_of(best, rival, parameters)
+    probability = min(probability, limit)
     detail = ""
-    if rival >= parameters.ambiguous:
-        reason = "ambiguous"
-        detail = f"Another place has {rival:.0%} of the best place's score."
-        probability = min(probability, 1 / (1 + rival))
-    elif not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
-        reason = "inconsistent"
+    if reason == "ambiguous":
+        assert second is not None  # it has the rival's score
+        here, there = places_of(best, second)
+        detail = (
+            f"Another place has {rival:.0%} of the best place's score. The segments fit at "
+            f"{_position_text(here)} and at {_position_text(there)}, "
+            f"{np.linalg.norm(here - there):.1f} m apart."
+        )
+    elif reason == "inconsistent":
         detail = f"The {len(best)} inlier segments do not determine the rotation."
-        probability = min(probability, chance_of_direction(best.rotation_deviation))
     elif probability <= threshold:
         reason = "inconsistent"
         detail = (
-            f"The best pose, with {len(best)} of {usable} segments as inliers, is unlikely to be "
-            "right."
+            f"The best pose, with {len(best)} of {usable} segments as inliers, has the probability "
+            f"{probability:.3f}; more than {threshold:.3f} is needed."
         )
     return Localization(
-        best, second, probability, threshold, risk, reason, detail, features, tuple(hypotheses)
+        usable=usable,
+        needs=confidence.needs,
+        best=best,
+        second=second,
+        probability=probability,
+        threshold=threshold,
+        risk=risk,
+        reason=reason,
+        detail=detail,
+        features=features,
+        hypotheses=tuple(hypotheses),
     )
+
+
+def rejection_of(
+    best: Hypothesis, rival: float, parameters: LocalizationParameters
+) -> tuple[Reason | None, float]:
+    """Return why a pose is rejected whatever its features are, and its largest probability.
+
+    Args:
+        best: best hypothesis.
+        rival: score of the best hypothesis at another place, divided by that of `best`.
+        parameters: constants of the judgment.
+    """
+    if rival >= parameters.ambiguous:
+        return "ambiguous", 1 / (1 + rival)
+    if not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
+        return "inconsistent", chance_of_direction(best.rotation_deviation)
+    return None, 1.0
+
+
+def places_of(best: Hypothesis, other: Hypothesis) -> tuple[Float64, Float64]:
+    """Return where two hypotheses put the middle of the best one's segments, float64 (3,) each."""
+    middle = best.source.mean(axis=0)
+    return best.pose.apply(middle), other.pose.apply(middle)
+
+
+def _position_text(position: Float64) -> str:
+    return f"({position[0]:.1f}, {position[1]:.1f}, {position[2]:.1f})"
 
 
 def totals_of(hypotheses: Sequence[Hypothesis], evidence: Evidence | None) -> Float64:

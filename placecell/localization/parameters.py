@@ -70,8 +70,8 @@ class LocalizationParameters:
     """Largest expected share of queries with a false pose (see `acceptance`), more than 0 and at
     most 0.5. None: 0.001, or the smallest share that the model's calibration supports."""
     least_probability: float = 0.5
-    """Smallest probability of a pose that is returned by a model without calibration, and of a pose
-    that competes with other maps."""
+    """Smallest probability of a pose that a model without calibration returns, and of a pose that
+    makes other maps ambiguous."""
 
     # Judgment of several maps together.
     distinct: float = 0.05

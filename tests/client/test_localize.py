@@ -167,3 +167,24 @@ def test_centroids_are_checked_before_they_are_sent() -> None:
         pytest.raises(ValueError, match="not finite"),
     ):
         client.localize(broken)
+
+
+def test_what_helps_is_read_and_older_services_have_none() -> None:
+    place = {"map": "yard", "frame": "f", "position": [1.0, 2, 3], "yaw": 0.5, "score": 4.0}
+    told = {
+        "localized": False, "reason": "ambiguous", "pose": None, "covariance": None,
+        "threshold": 0.75, "max_false_acceptance": 0.001, "advice": "Drive on.",
+        "meters_to_drive": 4.0, "places": [place, place], "places_apart": 12.5,
+    }  # fmt: skip
+    answers = [packed(LOCALIZED | {"localizations": [PLACE | told]}), packed(LOCALIZED)]
+    with client_of(lambda _: answers.pop(0)) as client:
+        found, older = (client.localize(DESCRIBED).maps[0] for _ in range(2))
+    assert (found.threshold, found.max_false_acceptance) == (0.75, 0.001)
+    assert (found.advice, found.meters_to_drive, found.places_apart) == ("Drive on.", 4.0, 12.5)
+    first = found.places[0]
+    assert (first.map, first.frame, first.yaw, first.score) == ("yard", "f", 0.5, 4.0)
+    assert first.position.tolist() == [1, 2, 3]
+    assert (older.threshold, older.max_false_acceptance) == (None, None)
+    assert (older.advice, older.meters_to_drive, older.places, older.places_apart) == (
+        "", None, (), None,
+    )  # fmt: skip

@@ -92,6 +92,25 @@ class Rival(Hypothesis):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class PossiblePlace:
+    """Place that the request's segments fit.
+
+    Attributes:
+        map: Name of the map.
+        frame: Name of its frame; position and yaw are in this frame.
+        position: Mean position of the segments that agree, meters, float64 (3,).
+        yaw: Heading of the robot's x axis, radians.
+        score: Evidence for the place, comparable within one request.
+    """
+
+    map: str
+    frame: str
+    position: NDArray[np.float64]
+    yaw: float
+    score: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Localization:
     """Localization in one map: the robot's pose, or the reason why there is none.
 
@@ -114,6 +133,11 @@ class Localization:
         threshold: Probability that a pose must exceed; None if the service is older.
         max_false_acceptance: Largest expected share of requests that get a false pose at this
             threshold; None if the model has no calibration, or if the service is older.
+        advice: What helps a robot that is not localized, in words; else empty.
+        meters_to_drive: Distance after which the robot sees enough segments, meters; None if it
+            sees enough.
+        places: The two places that look alike, if the reason is `ambiguous`; else empty.
+        places_apart: Distance between the two places, meters; None if they are in two maps.
     """
 
     map: str
@@ -129,6 +153,10 @@ class Localization:
     rival: Rival | None = None
     threshold: float | None = None
     max_false_acceptance: float | None = None
+    advice: str = ""
+    meters_to_drive: float | None = None
+    places: tuple[PossiblePlace, ...] = ()
+    places_apart: float | None = None
 
     def covariance_at(self, point: ArrayLike) -> NDArray[np.float64]:
         """Return the covariance of a transformed point, such as the sensor position.
@@ -215,7 +243,16 @@ def localization_of(item: dict[str, Any]) -> Localization:
         rival=_rival_of(item.get("rival")),
         threshold=item.get("threshold"),
         max_false_acceptance=item.get("max_false_acceptance"),
+        advice=item.get("advice", ""),
+        meters_to_drive=item.get("meters_to_drive"),
+        places=tuple(_place_of(each) for each in item.get("places", ())),
+        places_apart=item.get("places_apart"),
     )
+
+
+def _place_of(item: dict[str, Any]) -> PossiblePlace:
+    position = np.array(item["position"], dtype=np.float64).reshape(3)
+    return PossiblePlace(item["map"], item["frame"], position, item["yaw"], item["score"])
 
 
 def _rival_of(item: dict[str, Any] | None) -> Rival | None:

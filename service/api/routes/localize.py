@@ -6,7 +6,10 @@ from typing import Any
 import numpy as np
 from fastapi import APIRouter, Request, Response
 
+from placecell.core.types import Float64
 from placecell.localization import Hypothesis, LocalizationParameters
+from placecell.localization.advice import advice_of
+from placecell.localization.localize import places_of
 from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
 from service.api.body.problem_json import documented
@@ -20,6 +23,7 @@ from service.api.state import State
 from service.core.auth import Principal
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
+from service.maps.snapshot import MapSnapshot
 from service.search.localization import LocalizationResult, MapLocalization
 from service.search.query import Query
 
@@ -127,6 +131,7 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
         "localized": pose is not None,
         "reason": found.reason,
         "detail": found.detail,
+        **_advice(answer),
         "probability": found.probability,
         "threshold": found.threshold,
         "max_false_acceptance": found.risk,
@@ -139,6 +144,39 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
         if rival is None or answer.rival is None
         else {"map": answer.rival.name, "frame": answer.rival.frame}
         | _hypothesis(rival.hypothesis),
+    }
+
+
+def _advice(answer: MapLocalization) -> dict[str, Any]:
+    """Return what helps a robot that is not localized."""
+    found, snapshot, rival = answer.localization, answer.snapshot, answer.judged.rival
+    advice = advice_of(found)
+    places: list[dict[str, Any]] = []
+    apart = None
+    if found.reason == "ambiguous" and found.best is not None:
+        other, hypothesis = snapshot, found.second
+        if answer.judged.is_between_maps and answer.rival is not None and rival is not None:
+            other, hypothesis = answer.rival, rival.hypothesis
+        assert hypothesis is not None  # an ambiguous pose has a second one
+        here, there = places_of(found.best, hypothesis)
+        places = [_place(snapshot, found.best, here), _place(other, hypothesis, there)]
+        if other is snapshot:
+            apart = float(np.linalg.norm(here - there))
+    return {
+        "advice": advice.text,
+        "meters_to_drive": advice.meters,
+        "places": places,
+        "places_apart": apart,
+    }
+
+
+def _place(snapshot: MapSnapshot, hypothesis: Hypothesis, position: Float64) -> dict[str, Any]:
+    return {
+        "map": snapshot.name,
+        "frame": snapshot.frame,
+        "position": position.tolist(),
+        "yaw": hypothesis.pose.yaw,
+        "score": hypothesis.score,
     }
 
 

@@ -101,6 +101,19 @@ class RivalOut(HypothesisOut):
     frame: str = Field(description="Name of the other map's frame; the pose is in this frame.")
 
 
+class PossiblePlaceOut(BaseModel):
+    """Place that the request's segments fit."""
+
+    map: str
+    frame: str = Field(description="Name of the map's frame.")
+    position: Point = Field(
+        description="Mean position of the segments that agree with the best hypothesis, as this "
+        "place's hypothesis puts them, meters, in the map's frame."
+    )
+    yaw: float = Field(description="Heading of the request's x axis in the map's frame, radians.")
+    score: float
+
+
 class LocalizationOut(BaseModel):
     """Result of localization in one map."""
 
@@ -111,6 +124,20 @@ class LocalizationOut(BaseModel):
         description="Reason why the robot is not localized. Null if it is."
     )
     detail: str = Field(description="Reason in words. Empty if there is none.")
+    advice: str = Field(
+        description="What helps a robot that is not localized, in words. Empty if it is localized."
+    )
+    meters_to_drive: float | None = Field(
+        description="Distance after which the robot sees as many segments as a sure pose usually "
+        "needs, meters. Null if it sees enough, or if it is localized."
+    )
+    places: list[PossiblePlaceOut] = Field(
+        description="The two places that look alike, if the reason is `ambiguous`. Otherwise empty."
+    )
+    places_apart: float | None = Field(
+        description="Distance between the two places, meters. Null if there are none, or if they "
+        "are in different maps."
+    )
     probability: float = Field(
         description="Probability that the best hypothesis is right: in the right map, within 1 m "
         "and 3 degrees. All maps of the request are judged together."

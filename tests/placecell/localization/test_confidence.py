@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,11 +8,14 @@ import pytest
 from placecell.core.types import Float64
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from placecell.localization.candidates import Candidates
+from placecell.localization.chance import area_of
 from placecell.localization.confidence import (
     FEATURES,
     NAME,
     SHIPPED,
     Confidence,
+    ahead_of,
     features_of,
     shipped,
 )
@@ -50,9 +54,17 @@ def test_features_by_hand() -> None:
     numbers = np.arange(4)
     residuals = np.array([0.0, 0.0, 0.6, 0.8])
     pose = Pose.of_yaw(0, np.zeros(3))
-    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals)
-    found = dict(zip(FEATURES, features_of(best, 10.0, 0.25, 16).tolist(), strict=True))
-    assert found == pytest.approx(
+    best = Hypothesis(
+        pose, np.eye(4), 8.0, numbers, numbers, source, residuals, np.array([2.0, 2, 2, 2])
+    )
+    second = replace(best, worth=np.array([0.0, 2, 0, 0]))
+    candidates = Candidates(
+        source, numbers[:, None], source[:, None] + (100.0, 0, 0), np.full((4, 1), 0.5)
+    )
+    row = features_of(best, 10.0, second, 0.25, 16, candidates).tolist()
+    # No candidate is near: no p-value, and 72 yaws at 64 m2 (one cell, or two) for 7 thresholds.
+    alarms = 72 * area_of(candidates) * 7
+    assert dict(zip(FEATURES, row, strict=True)) == pytest.approx(
         {
             "score": np.log(10),
             "margin": 0.75,
@@ -60,8 +72,44 @@ def test_features_by_hand() -> None:
             "share": 0.25,
             "residual": 0.5,
             "spread": np.log1p(np.sqrt(2)),  # 2 meters squared across, 4.5 along
+            "surprise": -np.arcsinh(np.log(alarms)),
+            "ahead": 6 / np.sqrt(12),  # differences 2, 0, 2, 2
         }
     )
+
+
+def test_alone_a_hypothesis_is_ahead_of_nothing() -> None:
+    worth = np.array([3.0, 0, 4])
+    empty = np.zeros((0, 3))
+    best = Hypothesis(
+        pose=Pose.of_yaw(0, np.zeros(3)),
+        covariance=np.eye(4),
+        score=7.0,
+        queries=np.zeros(0, int),
+        rows=np.zeros(0, int),
+        source=empty,
+        residuals=np.zeros(0),
+        worth=worth,
+    )
+    assert ahead_of(best, None) == pytest.approx(7 / 5)
+    assert ahead_of(best, best) == 0
+
+
+OLD = """{"features": ["score", "margin", "inliers", "share", "residual", "spread"],
+"model": {"means": [3, 0.7, 2.4, 0.6, 0.4, 2], "deviations": [1, 0.3, 0.8, 0.3, 0.2, 0.5],
+"weights": [1, 1, 0, 4, -1.5, 1], "bias": 3.5, "highest": 0.999},
+"fitted_on": {"model_id": "mine-1"}, "held_out": {"reliability": [], "brier": 0.01}}"""
+"""File of the first version, with its six features."""
+
+
+def test_file_of_the_first_version_is_read(tmp_path: Path) -> None:
+    file = tmp_path / NAME
+    file.write_text(OLD)
+    old = Confidence.load(file, "mine-1")
+    assert old.features == FEATURES[:6]
+    assert old.acceptance is None
+    row = np.array([3, 0.7, 2.4, 0.6, 0.4, 2, 99, 99])  # the means; the new ones do not count
+    assert old.probability(row) == pytest.approx(0.999 / (1 + np.exp(-3.5)))
 
 
 SHIPPED_FILES = sorted(MODELS_FOLDER.glob(f"*/{NAME}"))
@@ -78,9 +126,9 @@ def test_shipped_constants_were_fitted_and_validated_on_other_towns(file: Path) 
     fitted = Confidence.load(file)
     assert 0.9 < fitted.highest < 1
     # More that agrees, and less that competes, is never worth less.
-    weights = dict(zip(FEATURES, fitted.weights, strict=True))
-    assert min(weights["score"], weights["share"]) > 0
-    assert weights["margin"] >= 0
+    weights = dict(zip(fitted.features, fitted.weights, strict=True))
+    assert all(value <= 0 if name == "residual" else value >= 0 for name, value in weights.items())
+    assert max(weights.values()) > 0
 
 
 def test_the_models_have_constants_that_were_fitted_for_them() -> None:

@@ -98,6 +98,8 @@ def test_robot_in_map_gets_its_pose(stocked: Any, manifest: Manifest, body: Any)
     assert (told["map"], told["frame"]) == ("street", "town")
     assert_found(told)
     assert told["probability"] > 0.9
+    assert (told["advice"], told["meters_to_drive"]) == ("", None)
+    assert (told["places"], told["places_apart"]) == ([], None)
     assert told["score"] > 0
     # Segment i was found as row i, whose id is 100 + i.
     assert [each["query"] for each in told["inliers"]] == list(range(40))
@@ -169,7 +171,9 @@ def test_too_few_segments_give_the_reason(
     (told,) = stocked.post("/localize", json=few).json()["localizations"]
     assert told["reason"] == "too-few-segments"
     assert told["probability"] == told["score"] == 0
-    assert told["others"] == []
+    assert told["others"] == told["places"] == []
+    assert told["meters_to_drive"] > 0
+    assert f"Drive about {told['meters_to_drive']:.0f} m" in told["advice"]
 
 
 def twice(content: CompactMap) -> CompactMap:
@@ -195,6 +199,14 @@ def test_two_equal_places_are_ambiguous_and_both_are_listed(
     first, second = (np.array(each["pose"]["translation"]) for each in told["others"])
     assert abs(abs(first - second)[1] - 250) < 1
     assert {each["inliers"] for each in told["others"]} == {40}
+    # The advice names both places: the middle of the segments, in each.
+    middle = content.centroids[:40].mean(axis=0)
+    assert told["places_apart"] == pytest.approx(250, abs=0.5)
+    sides = sorted(each["position"][1] for each in told["places"])
+    assert sides == pytest.approx([middle[1], middle[1] + 250], abs=0.5)
+    assert {(each["map"], each["frame"]) for each in told["places"]} == {("both", "town")}
+    assert "250.0 m apart" in told["detail"]
+    assert "'session'" in told["advice"]
 
 
 def with_landmarks(content: CompactMap) -> CompactMap:

@@ -95,6 +95,8 @@ def test_B1_equal_floors_are_ambiguous_and_the_rival_is_named(
             np.testing.assert_allclose(pose["translation"], TRUTH.translation, atol=0.5)
         assert repr(other["map"]) in one["detail"]
         assert "/merge" in one["detail"]
+        assert [each["map"] for each in one["places"]] == [one["map"], other["map"]]
+        assert one["places_apart"] is None
     # Within one of them the robot is where it is.
     (alone,) = ask(service, body, maps=[names[1]])
     assert alone["localized"]
