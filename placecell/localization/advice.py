@@ -13,7 +13,7 @@ FARTHEST = 50.0
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """What helps a robot that is not localized.
+    """Instructions for a robot that is not localized.
 
     Attributes:
         text: instructions; empty if the robot is localized.

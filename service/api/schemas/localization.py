@@ -125,7 +125,7 @@ class LocalizationOut(BaseModel):
     )
     detail: str = Field(description="Reason in words. Empty if there is none.")
     advice: str = Field(
-        description="What helps a robot that is not localized, in words. Empty if it is localized."
+        description="Instructions for a robot that is not localized. Empty if it is localized."
     )
     meters_to_drive: float | None = Field(
         description="Distance after which the robot sees as many segments as a sure pose usually "
