@@ -81,3 +81,34 @@ def test_command_writes_a_report(tmp_path: Path) -> None:
     report = json.loads((tmp_path / "floors.json").read_text())
     assert report["trials"] == 2
     assert {"wrong_but_sure", "right", "ambiguous", "by_share", "machine", "seed"} <= {*report}
+
+
+@pytest.mark.parametrize("kind", ["indoor", "streets"])
+def test_simulated_places_are_asked_with_and_without_the_right_one(
+    tmp_path: Path, kind: str
+) -> None:
+    words = ["bench", "floors", "--simulate", kind, "--trials", 4, "--scans", 24, "--seed", 3,
+             "--output", tmp_path, "--json", tmp_path / "floors.json"]  # fmt: skip
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    report = json.loads((tmp_path / "floors.json").read_text())
+    assert (report["trials"], report["kind"], report["sensor"]) == (4, kind, "vlp-16")
+    present, absent = report["by_case"].values()
+    assert present["trials"] == absent["trials"] == 2
+    assert absent["right"] == 0
+    assert report["wrong_but_sure"] == 0
+    assert [*report["by_share"]] == (["0.0"] if kind == "indoor" else [])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--simulate", "moon"], "Invalid --simulate 'moon'"),
+        (["--simulate", "indoor", "--sensor", "eye"], "eye"),
+        (["--model", "group"], "--model needs --simulate"),
+    ],
+)
+def test_wrong_option_of_simulated_places_is_refused(words: list[str], said: str) -> None:
+    result = CliRunner().invoke(app, ["bench", "floors", *words])
+    assert result.exit_code != 0
+    assert said in result.output

@@ -5,7 +5,7 @@
 A place has what `write_drive` needs. Every drive has other movable objects: cars, people, chairs.
 """
 
-from town.places.catalog import PLACES, STREETS, PlaceKind, build_place, kind_of
+from town.places.catalog import INDOOR, PLACES, STREETS, PlaceKind, build_place, kind_of
 from town.places.place import Place, Spot
 
-__all__ = ["PLACES", "STREETS", "Place", "PlaceKind", "Spot", "build_place", "kind_of"]
+__all__ = ["INDOOR", "PLACES", "STREETS", "Place", "PlaceKind", "Spot", "build_place", "kind_of"]
