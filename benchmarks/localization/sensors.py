@@ -176,7 +176,13 @@ class SensorMatrix:
         }
         if not self.file.exists():
             return settings | {"machine": machine(), "cells": [], "summary": summary([])}
-        figures: dict[str, Any] = json.loads(self.file.read_text(encoding="utf-8"))
+        try:
+            figures: dict[str, Any] = json.loads(self.file.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise ValueError(
+                f"{self.file}: {error}. It is no file of 'placecell bench sensors'. Give another "
+                "--json file."
+            ) from error
         for name, value in settings.items():
             if figures.get(name) != value:
                 raise ValueError(

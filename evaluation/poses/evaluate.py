@@ -84,8 +84,8 @@ def evaluate(
     robots = (pair.mapper, pair.asker)
     recordings = [recording for robot in robots for recording in robot.recordings]
     told = {
-        "map_drive": pair.mapper.drive.folder.name,
-        "query_drive": pair.asker.drive.folder.name,
+        "map_drive": pair.mapper.drive.title,
+        "query_drive": pair.asker.drive.title,
         "map_sensor": pair.mapper.sensor,
         "query_sensor": pair.asker.sensor,
         "blocks": pair.blocks,

@@ -102,8 +102,8 @@ def evaluate_places(
         manifest = engine.model.manifest
     recordings = [each for robot in (pair.mapper, pair.asker) for each in robot.recordings]
     return {
-        "map_drive": pair.mapper.drive.folder.name,
-        "query_drive": pair.asker.drive.folder.name,
+        "map_drive": pair.mapper.drive.title,
+        "query_drive": pair.asker.drive.title,
         "evaluation": protocol.name,
         "skip_seconds": protocol.skip_seconds if loops else None,
         **place_figures(answers, protocol),
@@ -137,7 +137,8 @@ def robots_of_places(
     if map_drive is not None:
         return Pair.of(map_drive, drive, every, progress=progress)
     opened = open_drive(drive)
-    robot = Robot(drive.name, opened, [recording_of(opened, every, progress=progress)], np.eye(4))
+    recording = recording_of(opened, every, progress=progress)
+    robot = Robot(opened.title, opened, [recording], np.eye(4))
     return Pair(robot, robot, blocks=False)
 
 

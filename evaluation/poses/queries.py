@@ -126,7 +126,7 @@ class Pair:
         robots = []
         for drive, frame, file in zip(drives, frames, prepared, strict=True):
             recording = recording_of(drive, every, file, progress)
-            robots.append(Robot(drive.folder.name, drive, [recording], frame))
+            robots.append(Robot(drive.title, drive, [recording], frame))
         return cls(robots[0], robots[1], blocks=False)
 
     def swapped(self) -> Self:

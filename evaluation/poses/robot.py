@@ -57,6 +57,10 @@ class DrivePath(Protocol):
 
     def __len__(self) -> int: ...
 
+    @property
+    def title(self) -> str:
+        """Return the name of the drive in reports."""
+
     def path_length(self) -> float:
         """Return the length of the path, meters."""
 

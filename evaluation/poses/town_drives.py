@@ -43,6 +43,11 @@ class DrivenPath:
     def __len__(self) -> int:
         return len(self.poses)
 
+    @property
+    def title(self) -> str:
+        """Return the name of the drive in reports."""
+        return self.folder.name
+
     def path_length(self) -> float:
         """Return the length of the path, meters."""
         return float(np.linalg.norm(np.diff(self.poses[:, :3, 3], axis=0), axis=1).sum())

@@ -74,6 +74,11 @@ class Drive(ABC):
     def __len__(self) -> int:
         return len(self.scan_files)
 
+    @property
+    def title(self) -> str:
+        """Name of the drive in recordings and reports."""
+        return self.folder.name
+
     @cached_property
     def dropouts(self) -> Dropouts:
         """Dropouts of the scans that were read so far."""

@@ -105,6 +105,11 @@ class HeLiPR(Drive):
     def recognizes(cls, folder: Path) -> bool:
         return folder.parent.name == "LiDAR" and (folder.parent.parent / "LiDAR_GT").is_dir()
 
+    @property
+    def title(self) -> str:
+        """Name of the sequence and of the sensor, such as Town01-Ouster."""
+        return f"{self.folder.parent.parent.name}-{self.folder.name}"
+
     def record_of(self, index: int) -> np.dtype[np.void]:
         """Return the values of a point of a scan."""
         file = self.scan_files[index]

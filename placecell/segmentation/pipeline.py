@@ -55,7 +55,7 @@ def segment_captures(
     scans = range(len(drive)) if scans is None else scans
     captures = scans[:: parameters.frame_step]
     accumulator = Accumulator(drive, parameters, first=scans.start)
-    for capture in progress(captures, len(captures), f"segments of {drive.folder.name}"):
+    for capture in progress(captures, len(captures), f"segments of {drive.title}"):
         clouds = segment_map(accumulator.local_map(capture), parameters)
         sensor = drive.poses[capture, :3, 3]
         yield capture, Segments.of(clouds, np.tile(sensor, (len(clouds), 1)))
@@ -93,7 +93,7 @@ def record(
     del parts  # They are gigabytes for a long drive.
     group = np.concatenate(groups)
     return Recording(
-        name=drive.folder.name,
+        name=drive.title,
         parameters=parameters,
         segments=segments,
         captures=np.concatenate(captures),

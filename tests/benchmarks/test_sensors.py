@@ -114,6 +114,9 @@ def test_stopped_run_continues_with_the_missing_cells(
     assert matrix(tmp_path).measure(everything, model) == second
     with pytest.raises(ValueError, match=r"sensors\.json has figures with queries None, not 2"):
         matrix(tmp_path, most=2).measure(everything, model)
+    (tmp_path / "sensors.json").write_text("{")
+    with pytest.raises(ValueError, match=r"sensors\.json: .* no file of 'placecell bench sensors'"):
+        matrix(tmp_path).measure(everything, model)
 
 
 @pytest.mark.slow

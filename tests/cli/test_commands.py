@@ -33,6 +33,8 @@ FIGURES = {
     "pair_auc",
     "pair_accuracy",
     "pair_by",
+    "expected_calibration_error",
+    "brier",
     "seen",
 }
 
@@ -404,7 +406,9 @@ POSES = {
     *("queries", "localised_right", "wrong_but_sure", "not_localised", "median_position_error_m"),
     *("median_yaw_error_deg", "p50_ms", "p99_ms", "precision_recall", "reliability", "bounds_95"),
     *("metres_until_localised", "model_id", "protocol", "machine", "seed", "beyond_the_map"),
-    "seen",
+    *("best_pose_right", "told_share_of_right", "success_1m_3deg", "success_2m_5deg"),
+    *("best_pose_2m_5deg", "expected_calibration_error", "brier", "place_recognition"),
+    *("map_sensor", "query_sensor", "seen"),
 }
 
 

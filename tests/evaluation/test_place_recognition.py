@@ -177,7 +177,7 @@ def test_helipr_sensors_share_a_map(tmp_path: Path, model: Path) -> None:
     run = CliRunner().invoke(app, ["evaluate", str(folders[1]), *words, "--json", str(file)])
     assert run.exit_code == 0, run.output
     (figures,) = json.loads(file.read_text())["models"].values()
-    assert (figures["map_drive"], figures["query_drive"]) == ("Ouster", "Aeva")
+    assert (figures["map_drive"], figures["query_drive"]) == ("Town01-Ouster", "Town03-Aeva")
     assert (figures["queries"], figures["revisits"], figures["recall_at_1"]) == (8, 8, 1.0)
     assert figures["skip_seconds"] is None
 

@@ -28,6 +28,7 @@ def test_each_sensor_is_recognized_and_read(tmp_path: Path, sensor: str) -> None
     np.testing.assert_allclose(drive.times, [0.0, 0.1])
     np.testing.assert_allclose(drive.origin, [1_000.0, 2_000.0, 30.0])
     assert drive.georeferenced
+    assert drive.title == f"Town01-{sensor}"
     from_first = np.stack(POSES)
     from_first[:, :3, 3] -= drive.origin
     np.testing.assert_allclose(drive.poses, from_first, atol=1e-6)
