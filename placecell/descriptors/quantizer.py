@@ -1,10 +1,15 @@
 """Quantizer: encodes descriptors into codes, one dimension per byte or several per byte."""
 
 from dataclasses import dataclass
+from functools import cache
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Int8, Int64
+
+Value = TypeVar("Value", bound=np.generic)
 
 LEVELS = {1: 255, 2: 15, 3: 6, 4: 4}
 """Number of levels of a dimension by the number of dimensions that share a byte."""
@@ -92,13 +97,7 @@ class Quantizer:
 
     def levels(self, codes: Int8) -> Int8:
         """Return the levels, int8 (n, d), of codes, int8 (n, code bytes)."""
-        count = LEVELS[self.per_byte]
-        every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None].astype(np.int64)
-        digits = (every + count**self.per_byte // 2) // self._places % count
-        meaning = (digits * self.spacing - self.highest).astype(np.int8)
-        return np.asarray(
-            meaning[codes.view(np.uint8)].reshape(len(codes), codes.shape[1] * self.per_byte)
-        )
+        return looked_up(levels_of_bytes(self.per_byte), codes)
 
     def rounded(self, descriptors: Float32) -> Float32:
         """Round descriptors to levels, float32 (n, d), as the service compares them."""
@@ -106,4 +105,21 @@ class Quantizer:
 
     def decode(self, codes: Int8) -> Float32:
         """Decode codes, int8 (n, code bytes), into descriptors, float32 (n, d)."""
-        return self.levels(codes).astype(np.float32) * np.float32(self.step)
+        values = levels_of_bytes(self.per_byte).astype(np.float32) * np.float32(self.step)
+        return looked_up(values, codes)
+
+
+@cache
+def levels_of_bytes(per_byte: int) -> Int8:
+    """Return the levels of each byte of a code, int8 (256, per_byte), in the order of uint8."""
+    quantizer, count = Quantizer(1.0, per_byte), LEVELS[per_byte]
+    every = np.arange(256, dtype=np.uint8).view(np.int8)[:, None].astype(np.int64)
+    digits = (every + count**per_byte // 2) // quantizer._places % count
+    return np.asarray((digits * quantizer.spacing - quantizer.highest).astype(np.int8))
+
+
+def looked_up(table: NDArray[Value], codes: Int8) -> NDArray[Value]:
+    """Return the values of each byte of the codes, (n, d), from a table (256, per_byte)."""
+    # No byte is outside of the table; without the check, `take` is nine times faster.
+    values = np.take(table, codes.view(np.uint8), axis=0, mode="clip")
+    return np.asarray(values.reshape(len(codes), codes.shape[1] * table.shape[1]))

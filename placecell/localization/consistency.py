@@ -8,25 +8,26 @@ and height differences are preserved separately.
 
 import numpy as np
 
+from placecell.core.bits import WORD, trailing_zeros, words_of
 from placecell.core.cancellation import is_cancelled
 from placecell.core.jit import compiled, compiled_part
-from placecell.core.types import Bool, Float32, Float64, Int32, Int64
+from placecell.core.types import Float32, Float64, Int32, Int64, UInt64
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.parameters import LocalizationParameters
 
 
-def consistent(found: Correspondences, parameters: LocalizationParameters) -> Bool:
-    """Return the consistency graph of correspondences, symmetric, bool (m, m).
+def consistent(found: Correspondences, parameters: LocalizationParameters) -> UInt64:
+    """Return the consistency graph of correspondences, symmetric, as bits (see `core.bits`).
 
     A correspondence has no edge to itself, to another of the same query, or to another of the same
     place.
+
+    Returns:
+        uint64 (m, words), bit j of row i is the edge between i and j.
     """
-    graph = np.zeros((len(found), len(found)), dtype=bool)
+    graph = np.zeros((len(found), words_of(len(found))), dtype=np.uint64)
     _compare(
-        queries=found.queries,
-        places=found.places,
-        source=found.source,
-        target=found.target,
+        columns=np.stack([*found.source.T, *found.target.T, found.queries, found.places]),
         level=parameters.model == "yaw",
         tolerance=parameters.distance_tolerance,
         height_tolerance=parameters.height_tolerance,
@@ -42,62 +43,101 @@ def slope_of(parameters: LocalizationParameters) -> float:
 
 
 @compiled_part
-def agree(
-    here: float,
-    there: float,
-    rise: float,
-    other_rise: float,
-    level: bool,
-    tolerance: float,
-    height_tolerance: float,
-    slope: float,
+def keeps_distance(
+    here: float, there: float, rise: float, other_rise: float, level: bool, tolerance: float
 ) -> bool:
-    """Return whether two correspondences are consistent.
+    """Return whether two correspondences agree about the distance of their segments.
+
+    It takes no root, so that the compiler makes vector instructions of a loop.
 
     Args:
         here: squared horizontal distance between the two query segments, square meters.
         there: squared horizontal distance between the two map segments, square meters.
         rise: height difference of the query segments, meters.
         other_rise: height difference of the map segments, meters.
-        level: whether gravity is known, so that heights are kept.
+        level: whether gravity is known, so that horizontal distances and heights are kept.
         tolerance: largest difference of the distances, meters.
-        height_tolerance: largest difference of the height differences, meters.
-        slope: increase of the height tolerance per meter of distance.
     """
     squared, other_squared = here, there
     if not level:
         squared += rise**2
         other_squared += other_rise**2
-    # |sqrt(squared) - sqrt(other_squared)| <= tolerance, without the roots.
+    # |sqrt(squared) - sqrt(other_squared)| <= tolerance
     excess = squared + other_squared - tolerance**2
-    if excess > 0.0 and excess**2 > 4.0 * squared * other_squared:
-        return False
-    return not (level and abs(rise - other_rise) > height_tolerance + slope * np.sqrt(squared))
+    return excess <= 0.0 or excess**2 <= 4.0 * squared * other_squared
+
+
+@compiled_part
+def keeps_height(
+    here: float,
+    rise: float,
+    other_rise: float,
+    level: bool,
+    height_tolerance: float,
+    slope: float,
+) -> bool:
+    """Return whether two correspondences agree about the height difference, if gravity is known.
+
+    Args:
+        here: see `keeps_distance`.
+        rise: see `keeps_distance`.
+        other_rise: see `keeps_distance`.
+        level: see `keeps_distance`.
+        height_tolerance: largest difference of the height differences, meters.
+        slope: increase of the height tolerance per meter of horizontal distance.
+    """
+    # |rise - other_rise| <= height_tolerance + slope * sqrt(here)
+    higher = abs(rise - other_rise) - height_tolerance
+    return (not level) or higher <= 0.0 or higher**2 <= slope**2 * here
 
 
 @compiled
 def _compare(
-    queries: Int64,
-    places: Int64,
-    source: Float64,
-    target: Float64,
+    columns: Float64,
     level: bool,
     tolerance: float,
     height_tolerance: float,
     slope: float,
-    graph: Bool,
+    graph: UInt64,
 ) -> None:
-    for i in range(len(queries)):
+    """Fill `graph` with the edges between correspondences.
+
+    Args:
+        columns: float64 (8, m): source x, y, z, target x, y, z, query, place. With one array of
+            one type, the inner loop compares four correspondences an instruction.
+        level: see `keeps_distance`.
+        tolerance: see `keeps_distance`.
+        height_tolerance: see `keeps_height`.
+        slope: see `keeps_height`.
+        graph: see `consistent`; all 0.
+    """
+    edges = np.zeros(WORD * graph.shape[1], dtype=np.uint8)
+    for i in range(columns.shape[1]):
+        x, y, z = columns[0, i], columns[1, i], columns[2, i]
+        u, v, w = columns[3, i], columns[4, i], columns[5, i]
+        query, place = columns[6, i], columns[7, i]
         for j in range(i):
-            if queries[i] == queries[j] or places[i] == places[j]:
-                continue
-            here = (source[i, 0] - source[j, 0]) ** 2 + (source[i, 1] - source[j, 1]) ** 2
-            there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
-            rise = source[i, 2] - source[j, 2]
-            other_rise = target[i, 2] - target[j, 2]
-            if agree(here, there, rise, other_rise, level, tolerance, height_tolerance, slope):
-                graph[i, j] = True
-                graph[j, i] = True
+            here = (x - columns[0, j]) ** 2 + (y - columns[1, j]) ** 2
+            there = (u - columns[3, j]) ** 2 + (v - columns[4, j]) ** 2
+            rise, other_rise = z - columns[2, j], w - columns[5, j]
+            edges[j] = (
+                keeps_distance(here, there, rise, other_rise, level, tolerance)
+                & keeps_height(here, rise, other_rise, level, height_tolerance, slope)
+                & (query != columns[6, j])
+                & (place != columns[7, j])
+            )
+        eights = edges.view(np.uint64)
+        for word in range((i + WORD - 1) // WORD):
+            bits = np.uint64(0)
+            for part in range(8):
+                # Multiplying moves the lowest bits of eight bytes into the highest byte.
+                byte = (eights[8 * word + part] * np.uint64(0x0102040810204080)) >> np.uint64(56)
+                bits |= byte << np.uint64(8 * part)
+            graph[i, word] |= bits
+            while bits:
+                j = WORD * word + trailing_zeros(bits)
+                graph[j, i // WORD] |= np.uint64(1) << np.uint64(i % WORD)
+                bits &= bits - np.uint64(1)
 
 
 @compiled
@@ -124,10 +164,10 @@ def count_votes(
         source: centroids of the query segments, float64 (q, 3), meters.
         target: centroids of the candidates, relative to a point in their map, float32 (m, 3).
         share: share of each map's candidates that is compared.
-        level: see `agree`.
-        tolerance: see `agree`.
-        height_tolerance: see `agree`.
-        slope: see `agree`.
+        level: see `keeps_distance`.
+        tolerance: see `keeps_distance`.
+        height_tolerance: see `keeps_height`.
+        slope: see `keeps_height`.
         flag: flag of a `CancelToken`.
         votes: int64 (maps,), filled with 1 plus the most segments that agree with one candidate.
     """
@@ -152,7 +192,9 @@ def count_votes(
                 there = (target[i, 0] - target[j, 0]) ** 2 + (target[i, 1] - target[j, 1]) ** 2
                 rise = source[a, 2] - source[b, 2]
                 other_rise = float(target[i, 2]) - float(target[j, 2])
-                if agree(here, there, rise, other_rise, level, tolerance, height_tolerance, slope):
+                if keeps_distance(here, there, rise, other_rise, level, tolerance) and keeps_height(
+                    here, rise, other_rise, level, height_tolerance, slope
+                ):
                     count += 1
                     last = queries[j]
             best = max(best, count)

@@ -92,8 +92,11 @@ def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Co
         np.log1p(share / (parameters.unlikely * np.maximum(claims, 1.0))),
         int(np.count_nonzero(total)),
     )
-    # Ordered by position, not by number.
-    return found.take(np.lexsort((found.rows, *found.source.T)))
+    # Queries by position, not by number; each query's correspondences together, heaviest first.
+    order = np.lexsort((found.rows, *found.source.T))
+    rank = np.empty(len(candidates), dtype=np.int64)
+    rank[found.queries[order][::-1]] = np.arange(len(order))[::-1]
+    return found.take(np.lexsort((found.rows, -found.weights, rank[found.queries])))
 
 
 def number_places(rows: Int64, centroids: Float64, radius: float) -> Int64:

@@ -12,7 +12,8 @@ from typing import Protocol
 
 import numpy as np
 
-from placecell.core.spatial import near_pairs, within
+from placecell.core.nearest import nearest_within
+from placecell.core.spatial import evenly, within
 from placecell.core.types import Float64, Int64
 from placecell.localization.candidates import Candidates
 from placecell.localization.correspondences import number_places
@@ -97,7 +98,9 @@ def match_guided(
     seen = np.flatnonzero(np.isfinite(candidates.centroids).all(axis=1))
     places = hypothesis.pose.apply(candidates.centroids[seen])
     rows, points = there.near(places, parameters.gate)
-    here, near = near_pairs(places, points, parameters.gate, parameters.most_pairs)
+    some = evenly(np.arange(len(rows)), parameters.most_near_rows)
+    rows, points = rows[some], points[some]
+    here, near, distances = nearest_within(places, points, parameters.gate, parameters.most_views)
     queries, found = seen[here], rows[near]
     match_probabilities = there.match_probabilities(queries, found)
     # The query's total probability already includes the row if it is a candidate.
@@ -106,12 +109,13 @@ def match_guided(
     share = match_probabilities / np.maximum(
         others + np.where(is_candidate, 0.0, match_probabilities), 1e-9
     )
-    nearness = kernel(np.linalg.norm(places[here] - points[near], axis=1), parameters.kernel)
+    nearness = kernel(distances, parameters.kernel)
     worth = np.log1p(share / parameters.unlikely) * nearness
-    landmarks = number_places(found, points[near], parameters.same_place)
+    # The best pair of each query, then the best of these for each place of the map.
     best = np.lexsort((found, queries, -worth))
-    for owners in (queries, landmarks):
-        best = best[np.sort(np.unique(owners[best], return_index=True)[1])]
+    best = best[first_of_each(queries[best])]
+    landmarks = number_places(found[best], points[near[best]], parameters.same_place)
+    best = best[first_of_each(landmarks)]
     of_queries, similarity = np.zeros((2, len(candidates)))
     of_queries[queries[best]] = worth[best]
     distinct = np.minimum(share[best], parameters.distinct)
@@ -119,3 +123,8 @@ def match_guided(
     return replace(
         hypothesis, score=float(worth[best].sum()), worth=of_queries, similarity=similarity
     )
+
+
+def first_of_each(owners: Int64) -> Int64:
+    """Return the index of the first entry of each owner, ascending."""
+    return np.sort(np.unique(owners, return_index=True)[1])

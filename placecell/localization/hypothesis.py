@@ -71,10 +71,13 @@ def find_hypotheses(
     hypotheses = [_grown(pose, found, parameters) for pose in guesses]
     graph = consistent(found, parameters)
     left = np.ones(len(found), dtype=bool)
+    effort = parameters.effort
     token = current()
     for _ in range(parameters.hypotheses):
         token.check()
-        clique = heaviest_clique(graph, found.weights, found.queries, left, parameters.effort)
+        # The first place matters most. What a search leaves is for the next ones.
+        clique, steps = heaviest_clique(graph, found.weights, found.queries, left, effort // 2)
+        effort = max(effort - steps, 0)
         if len(clique) < parameters.least_segments:
             break
         agreeing = found.take(clique)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from placecell.core.jit import compiled
 from placecell.core.types import Float64, Int64
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.parameters import LocalizationParameters
@@ -26,15 +27,15 @@ def refine(
         The pose, and the indices of its inliers, one to one, int64 (inliers,).
     """
     gate = parameters.wide_gate
-    agreeing = one_to_one(pose, found, gate)
+    agreeing, distances = _inliers(pose, found, gate)
     for _ in range(ROUNDS):
         if not len(agreeing):
             break
-        weights = kernel(residuals(pose, found.take(agreeing)), parameters.kernel)
+        weights = kernel(distances, parameters.kernel)
         pose = register(found.source[agreeing], found.target[agreeing], weights, parameters)
         before, last = agreeing, gate
         gate = max(parameters.gate, NARROWING * gate)
-        agreeing = one_to_one(pose, found, gate)
+        agreeing, distances = _inliers(pose, found, gate)
         if gate == last and np.array_equal(before, agreeing):
             break
     return pose, agreeing
@@ -42,7 +43,8 @@ def refine(
 
 def residuals(pose: Pose, found: Correspondences) -> Float64:
     """Return the distance of each transformed query from its place, meters, float64 (m,)."""
-    return np.asarray(np.linalg.norm(pose.apply(found.source) - found.target, axis=1))
+    off = pose.apply(found.source) - found.target
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", off, off)))
 
 
 def kernel(distances: Float64, scale: float) -> Float64:
@@ -52,9 +54,29 @@ def kernel(distances: Float64, scale: float) -> Float64:
 
 def one_to_one(pose: Pose, found: Correspondences, gate: float) -> Int64:
     """Return the correspondences within the gate, the nearest of each query and of each place."""
+    return _inliers(pose, found, gate)[0]
+
+
+def _inliers(pose: Pose, found: Correspondences, gate: float) -> tuple[Int64, Float64]:
+    """Return the correspondences of `one_to_one`, ascending, and their residuals."""
     distances = residuals(pose, found)
     near = np.flatnonzero(distances < gate)
     near = near[np.argsort(distances[near], kind="stable")]
-    for owners in (found.queries, found.places):
-        near = near[np.sort(np.unique(owners[near], return_index=True)[1])]
-    return np.sort(near)
+    kept = np.sort(near[_first_pairs(found.queries[near], found.places[near])])
+    return kept, distances[kept]
+
+
+@compiled
+def _first_pairs(queries: Int64, places: Int64) -> Int64:
+    """Return the first pair of each query, and of these the first of each place, as indices."""
+    seen, taken = set(queries[:0]), set(places[:0])
+    kept = np.empty(len(queries), dtype=np.int64)
+    count = 0
+    for pair in range(len(queries)):
+        if queries[pair] not in seen:
+            seen.add(queries[pair])
+            if places[pair] not in taken:
+                taken.add(places[pair])
+                kept[count] = pair
+                count += 1
+    return kept[:count]

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from placecell.core.bits import packed
 from placecell.core.types import Bool, Float64
 from placecell.localization.clique import heaviest_clique
 
@@ -22,8 +23,8 @@ def search(graph: Bool, weights: Float64 | None = None, left: Bool | None = None
     n = len(graph)
     weights = np.ones(n) if weights is None else weights
     left = np.ones(n, dtype=bool) if left is None else left
-    found: list[int] = heaviest_clique(graph, weights, np.arange(n), left, EFFORT).tolist()
-    return found
+    found, _ = heaviest_clique(packed(graph), weights, np.arange(n), left, EFFORT)
+    return list(found.tolist())
 
 
 SQUARE_AND_TRIANGLE = [*itertools.combinations(range(4), 2), (3, 4), (4, 5), (5, 6), (4, 6)]
@@ -77,13 +78,42 @@ def test_one_query_counts_once_in_the_bound() -> None:
     graph = graph_of(14, [*((0, i) for i in range(1, 11)), (11, 12), (12, 13), (11, 13)])
     queries = np.array([0, *[1] * 10, 2, 3, 4])
     left = np.ones(14, dtype=bool)
-    assert heaviest_clique(graph, np.ones(14), queries, left, EFFORT).tolist() == [11, 12, 13]
+    found, _ = heaviest_clique(packed(graph), np.ones(14), queries, left, EFFORT)
+    assert found.tolist() == [11, 12, 13]
+
+
+@given(st.integers(0, 10_000))
+def test_clique_has_one_vertex_of_each_query(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    queries = np.sort(random.integers(0, 30, 150))
+    weights = random.uniform(0.1, 1, 150)
+    order = np.lexsort((-weights, queries))
+    upper = np.triu(random.uniform(size=(150, 150)) < 0.5, 1) & (queries[:, None] != queries)
+    graph = upper | upper.T
+    left = random.uniform(size=150) < 0.9
+    found, _ = heaviest_clique(packed(graph), weights[order], queries, left, EFFORT)
+    assert all(graph[i, j] for i, j in itertools.combinations(found, 2))
+    assert left[found].all()
+    assert len(found) >= 5
 
 
 def test_little_effort_still_finds_something() -> None:
-    random = np.random.default_rng(6)
-    upper = np.triu(random.uniform(size=(200, 200)) < 0.5, 1)
-    graph = upper | upper.T
+    graph = random_graph(200, 0.5)
     left = np.ones(200, dtype=bool)
-    found = heaviest_clique(graph, np.ones(200), np.arange(200), left, 1)
+    found, _ = heaviest_clique(packed(graph), np.ones(200), np.arange(200), left, 1)
     assert len(found) > 2
+
+
+@pytest.mark.parametrize("density", [0.1, 0.5, 0.9, 1.0])
+def test_steps_stay_near_the_effort(density: int) -> None:
+    graph = random_graph(1_000, density)
+    left = np.ones(1_000, dtype=bool)
+    found, steps = heaviest_clique(packed(graph), np.ones(1_000), np.arange(1_000), left, 100_000)
+    assert len(found) > 2
+    # One vertex more: its neighbors' supports take 16 words and 1,000 neighbors each at most.
+    assert steps < 100_000 + 1_000 * 1_016 + 1_000 * 1_000
+
+
+def random_graph(size: int, density: float) -> Bool:
+    upper = np.triu(np.random.default_rng(6).uniform(size=(size, size)) < density, 1)
+    return np.asarray(upper | upper.T)
