@@ -5,7 +5,8 @@ from typing import Any
 
 from placecell_client import encode
 
-from placecell.localization import clique, consistency, correspondences
+from placecell.core import nearest
+from placecell.localization import clique, consistency, correspondences, refinement
 from service.api.body import json_arrays
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
@@ -13,7 +14,7 @@ from tests.service.service_builders import cloud, map_of, random_codes, request_
 def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: Any) -> None:
     loops = {
         each
-        for module in (json_arrays, clique, consistency, correspondences)
+        for module in (json_arrays, nearest, clique, consistency, correspondences, refinement)
         for each in vars(module).values()
         if hasattr(each, "nopython_signatures")
     }
