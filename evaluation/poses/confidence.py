@@ -25,7 +25,7 @@ from placecell.localization.confidence import DEFAULT_RISK, FEATURES, SegmentNee
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
-FITTED = ("score", "margin", "spread", "surprise", "ahead")
+FITTED = ("score", "margin", "spread", "surprise", "majority")
 """Features of the model. `share` and `residual` depend on the sensor: unmatched segments and
 centroid noise are more frequent on real sensors than in the town."""
 

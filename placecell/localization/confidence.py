@@ -32,26 +32,25 @@ SHIPPED = PACKAGED if PACKAGED.is_file() else MODELS_FOLDER / DEFAULT_MODEL / NA
 DEFAULT_RISK = 0.001
 """Default of `max_false_acceptance`."""
 
-FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "surprise", "ahead")
+FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "surprise", "majority")
 """Names of all features. A file names those that its model uses: earlier versions used the first
 six."""
 
 
+MAJORITY = 0.5
+"""Share of inliers from which a larger one says nothing about the pose: no other place can have
+more. It depends on the sensor, and on what has changed since the map was made."""
+
+
 def features_of(
-    best: Hypothesis,
-    score: float,
-    second: Hypothesis | None,
-    rival: float,
-    usable: int,
-    candidates: Candidates,
+    best: Hypothesis, score: float, rival: float, usable: int, candidates: Candidates
 ) -> Float64:
     """Return all features of a hypothesis, float64 (8,), in the order of `FEATURES`.
 
     Args:
-        best: best hypothesis, scored by guided matching.
+        best: best hypothesis.
         score: its score, with the support of earlier requests.
-        second: best hypothesis at another place, of the same queries; None if there is none.
-        rival: score of `second` divided by `score`; 0 without one.
+        rival: score of the best hypothesis at another place, divided by `score`; 0 without one.
         usable: number of queries that have candidates.
         candidates: candidates of all queries.
     """
@@ -67,21 +66,9 @@ def features_of(
             np.sqrt(np.mean(best.residuals**2)),
             np.log1p(spread),
             np.arcsinh(surprise(best.pose, candidates)),
-            ahead_of(best, second),
+            min(len(best) / usable, MAJORITY),
         ]
     )
-
-
-def ahead_of(best: Hypothesis, second: Hypothesis | None) -> float:
-    """Return by how many standard deviations a hypothesis fits better than another one.
-
-    Each query's part of the score is compared, as in a paired test with the mean 0.
-    """
-    assert best.worth is not None
-    apart = best.worth
-    if second is not None and second.worth is not None and len(second.worth) == len(apart):
-        apart = apart - second.worth
-    return float(apart.sum() / max(np.sqrt(apart @ apart), 1e-9))
 
 
 @dataclass(frozen=True, slots=True)

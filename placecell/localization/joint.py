@@ -276,7 +276,6 @@ def _against(
         features = features_of(
             best=own.best,
             score=max(float(np.exp(features[0])) if features is not None else 0.0, 1e-9),
-            second=strongest.hypothesis,
             rival=min(strongest.ratio, 1.0),
             usable=usable,
             candidates=query.candidates,

@@ -179,7 +179,7 @@ def judge(
     best, total = hypotheses[order[0]], float(totals[order[0]])
     second = hypotheses[order[1]] if len(order) > 1 else None
     rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
-    features = features_of(best, total, second, rival, usable, candidates)
+    features = features_of(best, total, rival, usable, candidates)
     probability = confidence.probability(features)
     threshold, risk = threshold_of(parameters, confidence)
     reason, limit = rejection_of(best, rival, parameters)

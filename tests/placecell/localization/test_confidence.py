@@ -1,5 +1,4 @@
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,6 @@ from placecell.localization.confidence import (
     NAME,
     SHIPPED,
     Confidence,
-    ahead_of,
     features_of,
     shipped,
 )
@@ -54,14 +52,11 @@ def test_features_by_hand() -> None:
     numbers = np.arange(4)
     residuals = np.array([0.0, 0.0, 0.6, 0.8])
     pose = Pose.of_yaw(0, np.zeros(3))
-    best = Hypothesis(
-        pose, np.eye(4), 8.0, numbers, numbers, source, residuals, np.array([2.0, 2, 2, 2])
-    )
-    second = replace(best, worth=np.array([0.0, 2, 0, 0]))
+    best = Hypothesis(pose, np.eye(4), 8.0, numbers, numbers, source, residuals)
     candidates = Candidates(
         source, numbers[:, None], source[:, None] + (100.0, 0, 0), np.full((4, 1), 0.5)
     )
-    row = features_of(best, 10.0, second, 0.25, 16, candidates).tolist()
+    row = features_of(best, 10.0, 0.25, 16, candidates).tolist()
     # No candidate is near: no p-value, and 72 yaws at 64 m2 (one cell, or two) for 7 thresholds.
     alarms = 72 * area_of(candidates) * 7
     assert dict(zip(FEATURES, row, strict=True)) == pytest.approx(
@@ -73,26 +68,23 @@ def test_features_by_hand() -> None:
             "residual": 0.5,
             "spread": np.log1p(np.sqrt(2)),  # 2 meters squared across, 4.5 along
             "surprise": -np.arcsinh(np.log(alarms)),
-            "ahead": 6 / np.sqrt(12),  # differences 2, 0, 2, 2
+            "majority": 0.25,
         }
     )
 
 
-def test_alone_a_hypothesis_is_ahead_of_nothing() -> None:
-    worth = np.array([3.0, 0, 4])
-    empty = np.zeros((0, 3))
+def test_majority_grows_up_to_one_half_of_the_segments() -> None:
+    points = np.arange(12.0).reshape(4, 3)
+    numbers = np.arange(4)
     best = Hypothesis(
-        pose=Pose.of_yaw(0, np.zeros(3)),
-        covariance=np.eye(4),
-        score=7.0,
-        queries=np.zeros(0, int),
-        rows=np.zeros(0, int),
-        source=empty,
-        residuals=np.zeros(0),
-        worth=worth,
+        Pose.of_yaw(0, np.zeros(3)), np.eye(4), 8.0, numbers, numbers, points, np.zeros(4)
     )
-    assert ahead_of(best, None) == pytest.approx(7 / 5)
-    assert ahead_of(best, best) == 0
+    candidates = Candidates(points, numbers[:, None], points[:, None], np.full((4, 1), 0.5))
+    shares = {}
+    for usable in (4, 6, 8, 16):
+        row = features_of(best, 8.0, 0.0, usable, candidates)
+        shares[usable] = row[FEATURES.index("majority")]
+    assert shares == {4: 0.5, 6: 0.5, 8: 0.5, 16: 0.25}
 
 
 OLD = """{"features": ["score", "margin", "inliers", "share", "residual", "spread"],
