@@ -22,7 +22,9 @@ def replace_town(patched: pytest.MonkeyPatch, blind: str = "") -> list[dict[str,
         calls.append({"lidar": lidar, "scans": scans, **words})
         left = range(scans if lidar == blind else 0)
         names = ("robot_a", "robot_b")
-        one, other = (trip(folder / name, scans, left).folder for name in names)
+        # Maps of two sensors must differ.
+        unseen = 1 if lidar == "narrow" else 0
+        one, other = (trip(folder / name, scans, left, unseen).folder for name in names)
         return one, other
 
     def sensor(name: str) -> str:

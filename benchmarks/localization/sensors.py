@@ -129,6 +129,8 @@ class SensorMatrix:
         for number in progress(range(len(ordered)), len(ordered), "localizing"):
             mapping, asking = ordered[number]
             if mapper is None or mapper.sensor != mapping:
+                if mapper is not None:
+                    engine.delete_map(MAP)
                 mapper = self.drives.robot("robot_a", mapping)
                 compact = mapper.build_map(engine, MAP)
                 engine.put_map(MAP, compact)

@@ -30,9 +30,12 @@ FAR = (70.0, 0.0, 0.0)
 """A point that the preprocessing drops; a scan must hold at least one point."""
 
 
-def trip(folder: Path, scans: int, left: range) -> Drive:
-    """Write a drive of 1 m per scan that sees the built-up area, except in the scans `left`."""
-    area = np.concatenate(BOXES)
+def trip(folder: Path, scans: int, left: range, unseen: int = 0) -> Drive:
+    """Write a drive of 1 m per scan that sees the built-up area, except in the scans `left`.
+
+    The last `unseen` objects of the area are never seen.
+    """
+    area = np.concatenate(BOXES[: len(BOXES) - unseen])
     seen = [
         np.array([FAR]) if scan in left else area - np.array([scan, 0, 0]) for scan in range(scans)
     ]
