@@ -17,7 +17,7 @@ import numpy as np
 from placecell_client import Client, CompactMap, Description, Localization, encode
 from placecell_client.maps.edit import take
 
-from benchmarks.load.generator import Load, encode_request, send_from_process
+from benchmarks.load.generator import Load, LoadResult, encode_request, send_from_process
 from benchmarks.load.serve import percentiles
 from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
 from benchmarks.synthetic_maps.road_map import road_map
@@ -40,7 +40,8 @@ class LocalizePlan:
 
     Attributes:
         sizes: map sizes, in segments.
-        queries: segments per request.
+        descriptors: sizes of a request, in segments; each is measured in each map.
+        queries: segments per request that names no map.
         k: candidates per segment.
         rate: requests per second, so few that each finds the service idle; a quarter of it for
             requests that name no map.
@@ -51,6 +52,7 @@ class LocalizePlan:
     """
 
     sizes: tuple[int, ...] = (10_000,)
+    descriptors: tuple[int, ...] = (50, 120)
     queries: int = 50
     k: int = 25
     rate: float = 10.0
@@ -69,7 +71,7 @@ def measure_localize(
     with tempfile.TemporaryDirectory(prefix="placecell-bench-") as folder:
         for number in progress(range(len(plan.sizes)), len(plan.sizes), "maps"):
             size, data = plan.sizes[number], Path(folder) / str(number)
-            rows.append(_row(sampler, size, plan, data, seed))
+            rows += _rows(sampler, size, plan, data, seed)
         if plan.maps:
             together = _together(sampler, plan, Path(folder) / "together", seed)
     return {
@@ -82,23 +84,42 @@ def measure_localize(
     }
 
 
-def _row(
+def _rows(
     sampler: DescriptorSampler, size: int, plan: LocalizePlan, data: Path, seed: int
-) -> dict[str, Any]:
+) -> list[dict[str, Any]]:
+    """Measure requests of each size in one map; return a row for each size."""
     frame = random_frame(seed)
-    road, asked = road_with_queries(sampler, size, plan, frame, seed)
+    rows = []
     with running_service(data) as address, Client(address, timeout=120) as client:
-        client.put_map(MAP, encode(road))
-        right = sum(_is_right(client, each, plan.k, frame) for each in asked)
-        sent = tuple(encode_request("/localize", MSGPACK, _body(each, plan.k)) for each in asked)
-        load = Load(*address_of(address), sent, plan.rate, plan.seconds)
-        outcome = asyncio.run(send_from_process(load, data))
+        for number, count in enumerate(plan.descriptors):
+            of_size = replace(plan, queries=count)
+            road, asked = road_with_queries(sampler, size, of_size, frame, seed)
+            if not number:  # the map is the same for each size of a request
+                client.put_map(MAP, encode(road))
+            right = sum(_is_right(client, each, plan.k, frame) for each in asked)
+            sent = tuple(
+                encode_request("/localize", MSGPACK, _body(each, plan.k)) for each in asked
+            )
+            load = Load(*address_of(address), sent, plan.rate, plan.seconds)
+            outcome = asyncio.run(send_from_process(load, data))
+            rows.append(
+                {"segments": size, "descriptors": count} | _figures(outcome, right / len(asked))
+            )
+    return rows
+
+
+def _figures(outcome: LoadResult, right: float) -> dict[str, Any]:
+    """Return the figures of requests that were all answered.
+
+    Args:
+        outcome: the answers and their times.
+        right: share of the queries that were localized correctly.
+    """
     if set(outcome.statuses) != {200}:
         raise RuntimeError(f"/localize returned statuses {set(outcome.statuses)}; expected 200.")
     return {
-        "segments": size,
         "requests": len(outcome.statuses),
-        "localised_right": round(right / len(asked), 4),
+        "localised_right": round(right, 4),
         "milliseconds": percentiles(np.array(outcome.milliseconds)),
         "stages": {stage: percentiles(np.array(spent)) for stage, spent in outcome.stages.items()},
     }
@@ -125,16 +146,8 @@ def _together(
         sent = tuple(encode_request("/localize", MSGPACK, body) for body in bodies)
         load = Load(*address_of(address), sent, plan.rate / 4, plan.seconds)
         outcome = asyncio.run(send_from_process(load, data))
-    if set(outcome.statuses) != {200}:
-        raise RuntimeError(f"/localize returned statuses {set(outcome.statuses)}; expected 200.")
-    return {
-        "maps": plan.maps,
-        "segments": plan.maps * map_size,
-        "requests": len(outcome.statuses),
-        "localised_right": round(right / len(asked), 4),
-        "milliseconds": percentiles(np.array(outcome.milliseconds)),
-        "stages": {stage: percentiles(np.array(spent)) for stage, spent in outcome.stages.items()},
-    }
+    of_all = {"maps": plan.maps, "segments": plan.maps * map_size, "descriptors": plan.queries}
+    return of_all | _figures(outcome, right / len(asked))
 
 
 def road_with_queries(

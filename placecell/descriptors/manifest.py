@@ -9,6 +9,7 @@ import hashlib
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,7 @@ class ModelError(ValueError):
     """Model folder that cannot be used. The message names the file and the reason."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Manifest:
     """Content of `manifest.json`.
 
@@ -65,7 +66,7 @@ class Manifest:
     training: dict[str, Any] = field(default_factory=dict)
     figures: dict[str, Any] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def model_id(self) -> str:
         """Name and hash of everything that determines a descriptor's values."""
         decisive = {

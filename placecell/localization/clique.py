@@ -76,7 +76,7 @@ def _support(
         while bits == 0:
             word += 1
             if word >= words:
-                return total, word + count
+                return total, word + 2 * count
             bits = graph[vertex, word] & among[word]
         neighbor = WORD * word + trailing_zeros(bits)
         total += weights[neighbor]
@@ -85,7 +85,7 @@ def _support(
         if following // WORD != word:
             word = following // WORD
             if word >= words:
-                return total, word + count
+                return total, word + 2 * count
             bits = graph[vertex, word] & among[word]
         bits &= ~np.uint64(0) << np.uint64(following % WORD)
 

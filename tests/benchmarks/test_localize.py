@@ -9,6 +9,9 @@ from typer.testing import CliRunner
 
 from benchmarks.load import localize
 from benchmarks.load.localize import LocalizePlan, road_with_queries
+from benchmarks.localization import hard_queries
+from benchmarks.localization.hard_queries import HARD_QUERIES
+from benchmarks.localization.steps import STEPS
 from benchmarks.synthetic_maps.descriptor_sampler import VIEWS, DescriptorSampler
 from cli import app
 from evaluation.poses.queries import random_frame
@@ -26,17 +29,24 @@ def test_command_writes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
     monkeypatch.setattr(localize, "LocalizePlan", small)
     recorded_from_two_places().save(tmp_path / "boxes.safetensors")
+    monkeypatch.setattr(hard_queries, "MAP_SEGMENTS", 2_500)
     words = ["bench", "localize", "--segments", tmp_path / "boxes.safetensors", "--seconds", 1,
-             "--size", 2000, "--json", tmp_path / "localize.json"]  # fmt: skip
+             "--size", 2000, "--descriptors", 20, "--descriptors", 30, "--steps",
+             "--json", tmp_path / "localize.json"]  # fmt: skip
     result = CliRunner().invoke(app, [str(word) for word in words])
     assert result.exit_code == 0, result.output
     report = json.loads((tmp_path / "localize.json").read_text())
-    (row,) = report["rows"]
-    assert row["segments"] == 2000
-    assert row["requests"] == 5
-    assert row["milliseconds"]["p50"] > 0
-    assert {"search", "verify"} <= set(row["stages"])
-    assert 0 <= row["localised_right"] <= 1
+    assert [row["descriptors"] for row in report["rows"]] == [20, 30]
+    for row in report["rows"]:
+        assert row["segments"] == 2000
+        assert row["requests"] == 5
+        assert row["milliseconds"]["p50"] > 0
+        assert {"search", "verify"} <= set(row["stages"])
+        assert 0 <= row["localised_right"] <= 1
+    assert {row["query"] for row in report["steps"]} == set(HARD_QUERIES)
+    assert {tuple(row["steps"]) for row in report["steps"]} == {STEPS}
+    assert "verify" in result.output
+    assert "fine-grid" in result.output
 
 
 def test_queries_hold_objects_of_the_map() -> None:
