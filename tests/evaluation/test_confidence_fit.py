@@ -1,0 +1,105 @@
+"""The fit of the pose probability, on cases made by hand."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from evaluation.poses.cases import Cases, FitPair
+from evaluation.poses.confidence import figures, fit_cases, needs_of
+from placecell.localization.confidence import FEATURES
+from placecell.segmentation.pipeline import silent
+from town import two_robots
+
+
+def cases_of(count: int = 600, seed: int = 0) -> Cases:
+    """Return cases of three sensors in which right poses have larger features."""
+    random = np.random.default_rng(seed)
+    right = random.uniform(size=count) < 0.7
+    features = random.normal(size=(count, len(FEATURES))) + 3.0 * right[:, None]
+    found = random.uniform(size=count) < 0.95
+    features[~found] = np.nan
+    right &= found
+    return Cases(
+        features=features,
+        limits=found.astype(float),
+        rejected=np.zeros(count, dtype=bool),
+        right=right,
+        false=found & ~right,
+        usable=random.integers(4, 60, count),
+        answerable=np.ones(count, dtype=bool),
+        whole=np.ones(count, dtype=bool),
+        towns=random.integers(1, 5, count),
+        sensors=np.array(["hdl-64e", "vlp-16", "os1-64"])[random.integers(0, 3, count)],
+        places=np.full(count, "streets"),
+        growth=np.array([1.0, 2.0, np.nan, 9.0]),
+    )
+
+
+def test_fit_has_figures_of_each_sensor_that_was_left_out() -> None:
+    cases = cases_of()
+    content = fit_cases(cases)
+    held_out = content["held_out"]
+    assert set(held_out["sensors"]) == {"hdl-64e", "vlp-16", "os1-64"}
+    assert sum(each["cases"] for each in held_out["sensors"].values()) == len(cases)
+    assert held_out["all"]["told_share_of_right"] > 0.9
+    assert held_out["all"]["false_acceptance"] <= 1 / (len(cases) + 1)
+    assert held_out["all"]["expected_calibration_error"] < 0.05
+    assert content["acceptance"]["queries"] == len(cases)
+    assert len(content["acceptance"]["false"]) == int(cases.false.sum())
+    assert min(content["model"]["weights"]) >= 0
+    assert content["needs"]["per_meter"] == 2.0  # the median of 1, 2 and 9
+
+
+def test_rejected_poses_do_not_count_as_accepted() -> None:
+    cases = cases_of()
+    content = fit_cases(replace(cases, rejected=cases.false))
+    assert content["acceptance"]["false"] == []
+    assert content["held_out"]["threshold"] == 0.0
+    assert content["held_out"]["all"]["false_acceptance"] == 0.0
+
+
+def test_one_sensor_leaves_each_town_out() -> None:
+    cases = cases_of()
+    one = replace(cases, sensors=np.full(len(cases), "vlp-16"))
+    held_out = fit_cases(one)["held_out"]
+    assert held_out["all"] == held_out["by_town"]
+
+
+def test_figures_by_hand() -> None:
+    cases = replace(
+        cases_of(4),
+        right=np.array([True, True, False, False]),
+        false=np.array([False, False, True, True]),
+        rejected=np.array([False, False, False, True]),
+        whole=np.array([True, False, True, True]),
+    )
+    stated = np.array([0.95, 0.5, 0.92, 0.99])
+    found = figures(cases, stated, 0.9, np.ones(4, dtype=bool))
+    assert found["told_share_of_right"] == 0.5
+    assert found["told_share_of_right_captures"] == 1.0
+    assert found["false_acceptance"] == found["wrong_but_sure"] == 0.25
+    assert found["brier"] == pytest.approx((0.05**2 + 0.5**2 + 0.92**2 + 0.99**2) / 4, abs=1e-5)
+
+
+def test_segments_needed_by_hand() -> None:
+    cases = cases_of()
+    told = cases.usable >= 20
+    found = needs_of(replace(cases, right=np.ones(len(cases), dtype=bool)), told)
+    # From 20 segments on, all right poses are returned; just below, not nine of ten.
+    assert 15 <= found.segments <= 20
+
+
+def test_pair_of_a_folder_has_the_sensor_and_the_place_of_its_name(tmp_path: Path) -> None:
+    folder = tmp_path / "7-os1-32-car-park"
+    two_robots(folder, seed=7, scans=3, columns=64)
+    pair = FitPair.of_folder(folder, silent)
+    assert (pair.town, pair.sensor, pair.place) == (7, "os1-32", "car-park")
+    assert len(pair.pair.mapper.drive) == len(pair.pair.asker.drive) == 3
+
+
+@pytest.mark.parametrize("name", ["7-sonar-streets", "vlp-16-streets", "x-vlp-16-streets"])
+def test_folder_with_another_name_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ValueError, match="expected SEED-SENSOR-PLACE, such as 101-vlp-16-streets"):
+        FitPair.of_folder(tmp_path / name, silent)
