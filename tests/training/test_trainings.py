@@ -12,7 +12,7 @@ from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.segmentation.recording import Recording
 from tests.training_sets import make_shapes
-from training.data.augmentation import Augmentation
+from training.data.augmentation import Augmentation, elevations
 from training.data.training_set import Source, TrainingSet
 from training.export.publishing import whole
 from training.methods import contrastive, group_based, siamese
@@ -234,6 +234,34 @@ def test_augmentation_drops_points_but_no_segment(shapes: TrainingSet) -> None:
     assert (same == as_it_is).all()
     assert (same_extents == extents).all()
     assert replace(gentle, yaw=0.3) != gentle
+
+
+def test_elevations_are_angles_above_the_horizon_of_the_sensor() -> None:
+    points = np.array([[10, 0, 2], [10, 0, 12], [0, 10, -8]], dtype=np.float32)
+    segments = Segments.of([points], np.array([[0.0, 0.0, 2.0]]))
+    assert elevations(segments).tolist() == [0.0, 45.0, -45.0]
+
+
+def test_thinned_copies_keep_whole_beams() -> None:
+    # A wall 10 m ahead: 400 elevations from -14 to 14 degrees, three points at each.
+    heights = np.linspace(-2.5, 2.5, 400)
+    wall = np.stack([np.full(1200, 10.0), np.tile([-1.0, 0.0, 1.0], 400), heights.repeat(3)], 1)
+    small = wall[:: 1200 // 19]
+    segments = Segments.of(
+        [wall.astype(np.float32)] * 20 + [small.astype(np.float32)], np.zeros((21, 3))
+    )
+    change = Augmentation(cut_share=0.0, drop_most=0.0, beam_share=1.0)
+    thinned = change.segments(segments, np.random.default_rng(0))
+    shares = thinned.counts / segments.counts
+    assert (shares[:20] > 0.1).all()
+    assert (shares[:20] < 0.7).all()
+    assert shares[20] == 1
+    middle = thinned.cloud(0)[thinned.cloud(0)[:, 1] == 0]
+    degrees = np.degrees(np.arctan2(middle[:, 2], 10))
+    gaps = np.diff(degrees)[np.diff(degrees) > 0.1]
+    # Beams have one spacing, so the gaps between them are equal.
+    assert len(gaps) >= 3
+    assert np.ptp(gaps) < 0.15
 
 
 def test_replaced_model_folder_keeps_its_confidence(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Augmentation: altered copies of segments (paper III-A: rotated copies).
 
 Beyond the paper's rotations, copies lose parts and points, as under occlusion and in sparser views.
+They can also lose stripes of elevation, as in the scans of a sensor with fewer beams.
 """
 
 from dataclasses import dataclass
@@ -9,8 +10,20 @@ import numpy as np
 
 from placecell.core.parameters import Parameters
 from placecell.core.segments import Segments
-from placecell.core.types import Bool, Float32, UInt8
+from placecell.core.types import Bool, Float32, Float64, UInt8
 from placecell.descriptors.voxels import voxelize
+
+BEAM_SPACING = (0.8, 4.0)
+"""Smallest and largest spacing of the simulated beams, degrees of elevation."""
+
+BEAM_WIDTH = (0.2, 0.6)
+"""Smallest and largest share of the spacing that a beam covers.
+
+A capture accumulates scans of a moving sensor, so its beams are wider than those of one scan.
+"""
+
+FEWEST_POINTS = 20
+"""Segments that would keep fewer points than this keep all of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +35,14 @@ class Augmentation:
         cut_share: share of the copies that lose all points beyond a random vertical plane, 0 to 1.
         cut_most: largest share of the segment's length, along the cut's direction, that is lost.
         drop_most: largest share of points that are dropped at random, 0 to 1.
+        beam_share: share of the copies that keep only the points on a few beams, 0 to 1.
     """
 
     yaw: float = np.radians(20.0)
     cut_share: float = 0.4
     cut_most: float = 0.5
     drop_most: float = 0.4
+    beam_share: float = 0.0
 
     def copies(
         self, segments: Segments, parameters: Parameters, random: np.random.Generator
@@ -69,6 +84,27 @@ class Augmentation:
         keep = (along <= np.repeat(limit, counts)) & (
             random.random(len(along)) < np.repeat(stays, counts)
         )
+        if self.beam_share > 0:
+            keep &= self._on_beams(segments, random)
         # The first point always stays, so that no segment becomes empty.
         keep[segments.starts] = True
         return np.asarray(keep)
+
+    def _on_beams(self, segments: Segments, random: np.random.Generator) -> Bool:
+        """Return which points lie on the beams of a sensor with fewer beams, bool (points,).
+
+        All points of a segment do if its copy is not thinned.
+        """
+        count, owners = len(segments), segments.owners
+        spacing = np.exp(random.uniform(*np.log(BEAM_SPACING), count))
+        width, phase = random.uniform(*BEAM_WIDTH, count), random.random(count)
+        thinned = random.random(count) < self.beam_share
+        on_beam = (elevations(segments) / spacing[owners] + phase[owners]) % 1 < width[owners]
+        thinned &= np.bincount(owners[on_beam], minlength=count) >= FEWEST_POINTS
+        return np.asarray(on_beam | ~thinned[owners])
+
+
+def elevations(segments: Segments) -> Float64:
+    """Return the elevation of each point above the sensor's horizon, degrees, float64 (points,)."""
+    offsets = (segments.points - segments.sensors[segments.owners]).astype(np.float64)
+    return np.degrees(np.arctan2(offsets[:, 2], np.hypot(offsets[:, 0], offsets[:, 1])))

@@ -74,6 +74,8 @@ class MetricRecipe:
     epochs: int = 30
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
+    memory: int = 0
+    """Number of descriptors of earlier batches that each batch is compared with too; 0 for none."""
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
