@@ -61,6 +61,18 @@ class Parameters:
     """Edge length of the grid's voxels (paper: about 0.2 m, so that 95% of the segments fit)."""
     th_H: int = 50
     """Hamming distance of two grids below which one is a duplicate (paper: 50)."""
+    voxel_parts: int = 1
+    """Parts along each edge of a voxel, 1 or 2. A voxel's value is the number of parts that hold a
+    point: 0 or 1 (paper), or 0 to 8."""
+
+    def __post_init__(self) -> None:
+        """Check the parts of a voxel.
+
+        Raises:
+            ValueError: `voxel_parts` is neither 1 nor 2.
+        """
+        if self.voxel_parts not in (1, 2):
+            raise ValueError(f"Invalid voxel_parts {self.voxel_parts}: expected 1 or 2")
 
     def for_drive(self, scans: int, every: int | None = None) -> "Parameters":
         """Return the parameters for a drive: on fewer than 100 scans, every scan is a capture.
@@ -85,8 +97,14 @@ class Parameters:
         return replace(self, accumulated_scans=accumulated, frame_step=step)
 
     def as_dict(self) -> dict[str, object]:
-        """Return plain values for a manifest or a report."""
-        return asdict(self) | {"grid": list(self.grid)}
+        """Return plain values for a manifest or a report.
+
+        Voxels without parts have no key, so that recordings stay readable for earlier versions.
+        """
+        values = asdict(self) | {"grid": list(self.grid)}
+        if self.voxel_parts == 1:
+            del values["voxel_parts"]
+        return values
 
 
 PROTOCOL_V1 = Parameters()
@@ -132,5 +150,8 @@ class NeighborhoodParameters:
 
 NEIGHBORHOOD_V1 = NeighborhoodParameters()
 
-PREPROCESSING_VERSION = "1"
-"""Version of the steps from a segment's points to the network's input. Part of a model's id."""
+PREPROCESSING_VERSIONS = {1: "1", 2: "2"}
+"""Version of the steps from a segment's points to the network's input, by `voxel_parts`.
+
+Part of a model's id. Earlier versions of Placecell refuse models of a version that they lack.
+"""

@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from placecell.core.parameters import PREPROCESSING_VERSION, NeighborhoodParameters, Parameters
+from placecell.core.parameters import PREPROCESSING_VERSIONS, NeighborhoodParameters, Parameters
 from placecell.descriptors.quantizer import Quantizer
 
 FILE = "manifest.json"
@@ -127,10 +127,12 @@ class Manifest:
                 f"{file}: states the id {stated_id}, but its content has the id "
                 f"{manifest.model_id}. Get the model again"
             )
-        if manifest.preprocessing.get("version") != PREPROCESSING_VERSION:
+        version = manifest.preprocessing.get("version")
+        expected = PREPROCESSING_VERSIONS.get(manifest.preprocessing.get("voxel_parts", 1))
+        if version is None or version != expected:
             raise ModelError(
-                f"{file}: made for preprocessing version {manifest.preprocessing.get('version')}, "
-                f"expected {PREPROCESSING_VERSION}. Train the model again"
+                f"{file}: made for preprocessing version {version}, expected {expected}. Train the "
+                "model again"
             )
         return manifest
 
@@ -167,7 +169,9 @@ class Manifest:
     def parameters(self) -> Parameters:
         """Parameters of protocol v1 with this model's grid."""
         return Parameters(
-            grid=tuple(self.preprocessing["grid"]), grid_voxel=self.preprocessing["grid_voxel"]
+            grid=tuple(self.preprocessing["grid"]),
+            grid_voxel=self.preprocessing["grid_voxel"],
+            voxel_parts=self.preprocessing.get("voxel_parts", 1),
         )
 
 
@@ -176,10 +180,12 @@ def preprocessing_of(
 ) -> dict[str, Any]:
     """Return the constants from a segment's points to the network's input, for a manifest."""
     constants: dict[str, Any] = {
-        "version": PREPROCESSING_VERSION,
+        "version": PREPROCESSING_VERSIONS[parameters.voxel_parts],
         "grid": list(parameters.grid),
         "grid_voxel": parameters.grid_voxel,
     }
+    if parameters.voxel_parts > 1:
+        constants["voxel_parts"] = parameters.voxel_parts
     if neighborhood is not None:
         # Through JSON, so that the id is the same before writing and after reading.
         constants["surroundings"] = json.loads(json.dumps(asdict(neighborhood)))

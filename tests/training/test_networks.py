@@ -1,5 +1,6 @@
 """Extractor networks and their export."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +37,15 @@ def test_statistics_match_the_training_set(shapes: TrainingSet) -> None:
     occupancy, _ = voxelize(shapes.segments, shapes.parameters)
     assert mean == pytest.approx(occupancy.mean(axis=0), abs=1e-6)
     assert deviation == pytest.approx(occupancy.std(axis=0), abs=1e-6)
+
+
+def test_statistics_of_halved_voxels_match_the_training_set(shapes: TrainingSet) -> None:
+    halved = replace(shapes, parameters=replace(shapes.parameters, voxel_parts=2))
+    mean, deviation = normalization_statistics(halved)
+    occupancy, _ = voxelize(halved.segments, halved.parameters)
+    assert occupancy.max() > 1
+    assert mean == pytest.approx(occupancy.mean(axis=0), abs=1e-6)
+    assert deviation == pytest.approx(occupancy.std(axis=0), abs=1e-5)
 
 
 def a_network(name: str, shapes: TrainingSet) -> DescriptorNetwork:

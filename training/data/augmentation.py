@@ -96,7 +96,8 @@ class Augmentation:
         All points of a segment do if its copy is not thinned.
         """
         count, owners = len(segments), segments.owners
-        spacing = np.exp(random.uniform(*np.log(BEAM_SPACING), count))
+        closest, farthest = BEAM_SPACING
+        spacing = np.exp(random.uniform(np.log(closest), np.log(farthest), count))
         width, phase = random.uniform(*BEAM_WIDTH, count), random.random(count)
         thinned = random.random(count) < self.beam_share
         on_beam = (elevations(segments) / spacing[owners] + phase[owners]) % 1 < width[owners]

@@ -37,6 +37,9 @@ SPLIT_SEED = 0
 NORMALIZED = "normalized distance"
 """Name of the distance that a site's own segments normalize, among the kinds of pair classifier."""
 
+VOXEL_PARTS = 2
+"""Parts along each edge of a voxel (`Parameters.voxel_parts`), for models with context."""
+
 STORED_DIMENSION = 32
 """Number of stored dimensions out of 64; with 8 bits each, 32 bytes per segment."""
 
@@ -76,6 +79,9 @@ def collect(
         ValueError: there are too few groups to train on.
     """
     everything = TrainingSet.of(sources, neighborhood)
+    if neighborhood is not None:
+        parameters = replace(everything.parameters, voxel_parts=VOXEL_PARTS)
+        everything = replace(everything, parameters=parameters)
     training, validation = everything.split(VALIDATION_SHARE, SPLIT_SEED)
     # The validation groups are halved for calibration, and each half must hold pairs of both kinds.
     # This is checked before the training.
@@ -124,7 +130,9 @@ def retraining(
 def fingerprint(data: Data, *settings: object) -> str:
     """Return a hash of the segments and the settings of a training."""
     sources = [[source["scan_hashes"], source["scans"]] for source in data.provenance["sources"]]
-    text = json.dumps([sources, data.provenance["seed"], [str(value) for value in settings]])
+    parts = data.training.parameters.voxel_parts
+    named = [str(value) for value in settings] + ([] if parts == 1 else [f"voxel_parts={parts}"])
+    text = json.dumps([sources, data.provenance["seed"], named])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -1,8 +1,8 @@
 """Feature extraction networks (paper III-B), by name; all methods share them.
 
-Input: occupancy, uint8 (n, 38, 38, 18), and extents in meters, float32 (n, 3). Output: descriptor
-of length one, float32 (n, 64). The first layer normalizes the input, so that callers cannot forget
-it.
+Input: occupancy, uint8 (n, 38, 38, 18; see `voxelize`), and extents in meters, float32 (n, 3).
+Output: descriptor of length one, float32 (n, 64). The first layer normalizes the
+input, so that callers cannot forget it.
 """
 
 from collections.abc import Callable, Iterator
@@ -168,12 +168,14 @@ class DescriptorNetwork(nn.Module):
 
 def normalization_statistics(data: TrainingSet) -> tuple[Float32, Float32]:
     """Return mean and standard deviation of each voxel over a training set, float32 (x, y, z)."""
-    total = np.zeros(data.parameters.grid)
+    total, squares = np.zeros(data.parameters.grid), np.zeros(data.parameters.grid)
     for batch in batches(data):
-        total += voxelize(batch.segments, data.parameters)[0].sum(axis=0, dtype=np.int64)
+        occupancy = voxelize(batch.segments, data.parameters)[0]
+        total += occupancy.sum(axis=0, dtype=np.int64)
+        squares += np.square(occupancy).sum(axis=0, dtype=np.int64)
     mean = total / len(data)
-    # For values 0 and 1, the mean determines the deviation.
-    return mean.astype(np.float32), np.sqrt(mean * (1 - mean)).astype(np.float32)
+    variance = np.maximum(squares / len(data) - np.square(mean), 0)
+    return mean.astype(np.float32), np.sqrt(variance).astype(np.float32)
 
 
 @torch.no_grad()

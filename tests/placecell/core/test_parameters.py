@@ -40,3 +40,9 @@ def test_captures_of_a_drive(scans: int, every: int | None, step: int) -> None:
 def test_parameters_survive_json() -> None:
     content = json.loads(json.dumps(Parameters(th_H=49).as_dict()))
     assert Parameters(**content | {"grid": tuple(content["grid"])}) == Parameters(th_H=49)
+    assert Parameters(voxel_parts=2).as_dict()["voxel_parts"] == 2
+
+
+def test_voxels_have_one_or_two_parts_along_an_edge() -> None:
+    with pytest.raises(ValueError, match="voxel_parts 3"):
+        Parameters(voxel_parts=3)

@@ -73,6 +73,7 @@ def test_id_begins_with_the_name() -> None:
         {"preprocessing": preprocessing_of(Parameters(grid_voxel=0.25))},
         {"preprocessing": preprocessing_of(Parameters(grid=(38, 38, 20)))},
         {"preprocessing": preprocessing_of(PROTOCOL_V1) | {"version": "2"}},
+        {"preprocessing": preprocessing_of(Parameters(voxel_parts=2))},
         {"files": {"model.onnx": "0" * 64}},
         {"standardization": {"mean": [1.0], "deviation": [2.0]}},
     ],
@@ -130,6 +131,23 @@ def test_file_outside_the_folder_is_refused(folder: Path) -> None:
 def test_altered_manifest_is_refused(folder: Path) -> None:
     alter(folder, dimension=8)
     with pytest.raises(ModelError, match=r"manifest\.json: states the id toy-"):
+        Manifest.load(folder)
+
+
+def test_halved_voxels_survive_the_file(folder: Path) -> None:
+    halved = Parameters(voxel_parts=2)
+    replace(MANIFEST, preprocessing=preprocessing_of(halved), files={}).save(folder)
+    loaded = Manifest.load(folder)
+    assert loaded.parameters.voxel_parts == 2
+    # Earlier versions of Placecell refuse the model, because they would compute other inputs.
+    assert loaded.preprocessing["version"] == "2"
+
+
+@pytest.mark.parametrize("parts", [3, None, "2"])
+def test_unknown_parts_of_a_voxel_are_refused(folder: Path, parts: object) -> None:
+    unknown = preprocessing_of(PROTOCOL_V1) | {"voxel_parts": parts}
+    replace(MANIFEST, preprocessing=unknown, files={}).save(folder)
+    with pytest.raises(ModelError, match="preprocessing version"):
         Manifest.load(folder)
 
 

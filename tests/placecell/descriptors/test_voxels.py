@@ -168,3 +168,37 @@ def test_no_segments() -> None:
     occupancy, extents = voxelize(Segments.of([], np.zeros((0, 3))), PROTOCOL_V1)
     assert occupancy.shape == (0, 38, 38, 18)
     assert extents.shape == (0, 3)
+
+
+def test_halved_voxel_counts_its_parts() -> None:
+    # Parts of 0.125 m. The box has its middle at 0, where voxel (4, 4, 4) begins.
+    parameters = Parameters(grid=(8, 8, 8), grid_voxel=0.25, voxel_parts=2)
+    ends = [(-0.75, 0, 0), (0.75, 0, 0), (0, -0.75, 0), (0, 0.75, 0), (0, 0, -0.75), (0, 0, 0.75)]
+    corner = [(0.0625, 0.0625, 0.0625)] * 3
+    other_part = [(0.1875, 0.0625, 0.0625)]
+    segment = one_segment([*ends, *corner, *other_part], sensor=(1000.0, 0.0, 0.0))
+    middle = voxelize(segment, parameters)[0][0]
+    assert middle[4, 4, 4] == 2
+    # The points at the ends are alone in their voxels.
+    assert middle.sum() == 2 + 6
+
+
+def test_full_voxel_has_eight_parts() -> None:
+    steps = np.arange(-0.9375, 1, 0.125)
+    points = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
+    parameters = Parameters(grid=(8, 8, 8), grid_voxel=0.25, voxel_parts=2)
+    occupancy, _ = voxelize(one_segment(points, sensor=(1000.0, 0.0, 0.0)), parameters)
+    assert (occupancy == 8).all()
+
+
+def test_halved_voxels_are_occupied_where_whole_voxels_are() -> None:
+    segments = many_segments([10, 300, 2000, 50, 1])
+    halved, extents = voxelize(segments, Parameters(voxel_parts=2))
+    whole, same_extents = voxelize(segments, PROTOCOL_V1)
+    assert np.array_equal(halved > 0, whole > 0)
+    assert np.array_equal(extents, same_extents)
+    assert 1 < halved.max() <= 8
+    # Parts are the voxels of a grid with half the edge length.
+    finer = Parameters(grid=(76, 76, 36), grid_voxel=0.1)
+    parts = voxelize(segments, finer)[0].reshape(-1, 38, 2, 38, 2, 18, 2).sum(axis=(2, 4, 6))
+    assert (halved != parts).mean() < 1e-5

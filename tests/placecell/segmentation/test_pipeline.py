@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.types import Float32, Float64
 from placecell.datasets import Drive, open_drive
 from placecell.descriptors.orientation import orient
@@ -230,7 +230,7 @@ def test_golden_input_of_the_network() -> None:
     """The network's input never changes without a new preprocessing version.
 
     If this fails, every model that exists sees another input than it was trained on: change
-    PREPROCESSING_VERSION with it, or undo what made it fail.
+    PREPROCESSING_VERSIONS with it, or undo what made it fail.
     """
     segment = one_segment(golden_segment(), sensor=(3.0, 4.0, 0.5))
 
@@ -246,3 +246,11 @@ def test_golden_input_of_the_network() -> None:
         "a4174e43260ffcfeac7701a568683b5284e32a5e6dbaffe30610c83f873954c2"
     )
     assert extents[0] == pytest.approx([9.343003, 5.831216, 3.863087], abs=1e-5)
+
+    halves = cells * 2
+    assert 0.1 * np.abs(halves - np.rint(halves)).min() > 1e-6
+    halved, _ = voxelize(segment, Parameters(voxel_parts=2))
+    assert halved.sum() == 135
+    assert hashlib.sha256(halved.tobytes()).hexdigest() == (
+        "79260794ea54ab18bc86aebb98e949a0636ae89e1405b18e6dfd3c13ae708119"
+    )
