@@ -25,6 +25,18 @@ def test_batch_has_equal_numbers_per_group() -> None:
     assert len(np.unique(large)) == len(large)
 
 
+@pytest.mark.parametrize(
+    ("recorded", "share", "wanted"), [(100, 0.5, 16), (100, 0.25, 8), (5, 0.5, 5), (195, 0.5, 27)]
+)
+def test_batch_mixes_recorded_and_synthetic_groups(
+    recorded: int, share: float, wanted: int
+) -> None:
+    groups = np.repeat(np.arange(200), 5)
+    drawn = draw_batch(groups, np.random.default_rng(0), groups >= recorded, share)
+    assert len(np.unique(groups[drawn])) == metric.GROUPS
+    assert len(np.unique(groups[drawn][groups[drawn] < recorded])) == wanted
+
+
 @pytest.mark.parametrize("loss", LOSSES)
 def test_every_loss_improves_recognition(loss: str, shapes: TrainingSet, tmp_path: Path) -> None:
     run = Run(tmp_path, 0)

@@ -12,7 +12,7 @@ import torch
 from torch import nn
 
 from evaluation.recognition.retrieval import top1
-from placecell.core.types import Int64
+from placecell.core.types import Bool, Int64
 from training.data.augmentation import Augmentation
 from training.data.training_set import TrainingSet
 from training.methods.fit import BatchLoss, Sgd, fit
@@ -74,8 +74,8 @@ class MetricRecipe:
     epochs: int = 30
     sgd: Sgd = field(default_factory=lambda: Sgd(learning_rate=0.2))
     dropout: float = 0.2
-    memory: int = 0
-    """Number of descriptors of earlier batches that each batch is compared with too; 0 for none."""
+    recorded_share: float = 0.5
+    """Share of a batch's groups that are of recorded drives, if the drives are of both kinds."""
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
@@ -96,10 +96,11 @@ def train(
     loss_of = losses(len(classes.group_sizes()))[recipe.loss]()
     model = nn.ModuleList([extractor, loss_of])
     steps = len(classes) // (GROUPS * VIEWS)
+    synthetic = classes.synthetic
 
     def draw(_epoch: int, random: np.random.Generator) -> Iterator[LabeledBatch]:
         for _ in range(steps):
-            chosen = draw_batch(classes.groups, random)
+            chosen = draw_batch(classes.groups, random, synthetic, recipe.recorded_share)
             occupancy, extents = recipe.augmentation.copies(
                 classes.segments.take(chosen), classes.parameters, random
             )
@@ -116,14 +117,34 @@ def train(
     return extractor
 
 
-def draw_batch(groups: Int64, random: np.random.Generator) -> Int64:
+def draw_batch(
+    groups: Int64,
+    random: np.random.Generator,
+    synthetic: Bool | None = None,
+    recorded_share: float = 0.5,
+) -> Int64:
     """Draw a batch with the same number of segments per group, int64 (batch,).
 
     Segments of a small group occur several times.
+
+    Args:
+        groups: int64 (segments,), group of each segment, from 0.
+        random: random generator.
+        synthetic: bool (segments,), True for segments of synthetic towns; None if unknown.
+        recorded_share: share of the groups that are of recorded drives, if both kinds occur.
     """
     order = np.argsort(groups, kind="stable")
     sizes = np.bincount(groups)
     starts = np.cumsum(sizes) - sizes
-    drawn = random.choice(len(sizes), min(GROUPS, len(sizes)), replace=False)
+    count = min(GROUPS, len(sizes))
+    if synthetic is None or synthetic.all() or not synthetic.any():
+        drawn = random.choice(len(sizes), count, replace=False)
+    else:
+        made_up = synthetic[order[starts]]
+        kinds = np.flatnonzero(~made_up), np.flatnonzero(made_up)
+        wanted = min(round(recorded_share * count), len(kinds[0]))
+        wanted = max(wanted, count - len(kinds[1]))
+        shares = zip(kinds, (wanted, count - wanted), strict=True)
+        drawn = np.concatenate([random.choice(kind, few, replace=False) for kind, few in shares])
     places = [random.choice(sizes[group], VIEWS, replace=sizes[group] < VIEWS) for group in drawn]
     return np.asarray(order[starts[drawn][:, None] + np.array(places)].ravel())
