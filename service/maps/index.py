@@ -8,6 +8,7 @@ bound, the index asks FAISS for more rows.
 """
 
 from abc import ABC, abstractmethod
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -15,11 +16,12 @@ from typing import Any
 import faiss
 import numpy as np
 
+from placecell.core.processors import available_cores
 from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
 from placecell.descriptors.quantizer import LEVELS, Quantizer
 from service.maps.layers import MapLayers
 
-MARGIN = 12
+MARGIN = 24
 """Number of rows fetched beyond k at first, so that few queries need a second search."""
 
 MOST = 1 << 13
@@ -28,8 +30,16 @@ MOST = 1 << 13
 ROWS = 1 << 14
 """Number of codes converted to levels per step; as floats they take 4 to 16 times the bytes."""
 
+PARALLEL = 1 << 23
+"""Number of compared pairs of query and row from which a search uses all cores: some 10 ms."""
+
 BLOCK = 1 << 21
 """Bytes of codes compared per step; many ties would otherwise take gigabytes."""
+
+CORES = available_cores()
+
+_threads = ThreadPoolExecutor(CORES, thread_name_prefix="index")
+"""Threads of all large searches together, one per core."""
 
 
 class MapIndex(ABC):
@@ -60,10 +70,8 @@ class MapIndex(ABC):
         k = min(k, len(self) - (0 if gone is None else int(np.count_nonzero(gone))))
         if not k or not len(codes):
             return np.zeros((len(codes), k)), np.zeros((len(codes), k), dtype=np.int64)
-        # Requests are searched in parallel, so each search uses one thread.
-        faiss.omp_set_num_threads(1)
         fetch = min(k + margin, len(self))
-        squared, rows, complete = self._nearest(codes, fetch)
+        squared, rows, complete = self._scan(codes, fetch)
         if gone is not None:
             squared[gone[rows]] = np.inf
         order = np.lexsort((rows, squared), axis=1)[:, :k]
@@ -76,6 +84,21 @@ class MapIndex(ABC):
             if len(again):
                 distances[again], found[again] = self.search(codes[again], k, gone, 4 * margin)
         return distances, found
+
+    def _scan(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
+        """Return `_nearest` of all queries. A large search is split over the cores."""
+
+        def nearest(some: Int8) -> tuple[Float64, Int64, Float64]:
+            # Requests are searched in parallel, so FAISS uses one thread for each.
+            faiss.omp_set_num_threads(1)
+            return self._nearest(some, fetch)
+
+        parts = min(CORES, len(codes))
+        if parts == 1 or len(codes) * len(self) < PARALLEL:
+            return nearest(codes)
+        found = [*_threads.map(nearest, np.array_split(codes, parts))]
+        squared, rows, complete = (np.concatenate(each) for each in zip(*found, strict=True))
+        return squared, rows, complete
 
     @abstractmethod
     def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:

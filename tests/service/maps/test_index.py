@@ -43,6 +43,21 @@ def test_search_equals_comparison_with_all_rows(per_byte: int, rows: int, querie
     np.testing.assert_allclose(distances, wanted)
 
 
+@pytest.mark.parametrize("per_byte", [1, 4])
+@pytest.mark.parametrize("queries", [1, 2, 31])
+def test_search_on_several_cores_equals_search_on_one(
+    per_byte: int, queries: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored, asked = codes_of(3000, per_byte), codes_of(queries, per_byte, seed=1)
+    index = index_of(stored, Quantizer(0.01, per_byte))
+    one = index.search(asked, 10)
+    monkeypatch.setattr(map_index, "PARALLEL", 1)
+    monkeypatch.setattr(map_index, "CORES", 3)
+    several = index.search(asked, 10)
+    np.testing.assert_array_equal(several[0], one[0])
+    np.testing.assert_array_equal(several[1], one[1])
+
+
 @pytest.mark.parametrize("per_byte", [1, 2, 4])
 def test_search_orders_ties_by_row(per_byte: int) -> None:
     # There are more ties than rows fetched at first.
