@@ -62,7 +62,7 @@ def _fill(
 ) -> None:
     """Fill `occupancy` and `extents`. If `halved`, each voxel has 2 x 2 x 2 parts.
 
-    `parts` has a bit for each part of a voxel that holds a point of the segment in `latest`.
+    `parts` holds the last segment with a point in each voxel, from 1, and 8 bits of its parts.
 
     Models are trained with this rounding: the box and the distance from its center in float32, the
     shift to the grid's corner in float64.
@@ -70,8 +70,7 @@ def _fill(
     columns, rows, layers = occupancy.shape[1:]
     half_x, half_y, half_z = columns / 2, rows / 2, layers / 2
     half = np.float32(0.5)
-    parts = np.zeros(occupancy.shape[1:] if halved else (0, 0, 0), dtype=np.uint8)
-    latest = np.full(parts.shape, -1, dtype=np.int64)
+    parts = np.zeros(occupancy.shape[1:] if halved else (0, 0, 0), dtype=np.int32)
     start = 0
     for segment in range(len(ends)):
         low_x = high_x = oriented[start, 0]
@@ -99,11 +98,8 @@ def _fill(
             if not halved:
                 occupancy[segment, column, row, layer] = 1
                 continue
-            if latest[column, row, layer] != segment:
-                latest[column, row, layer] = segment
-                parts[column, row, layer] = 0
+            held = max(parts[column, row, layer], (segment + 1) << 8)
             eighth = 4 * int(x - column >= 0.5) + 2 * int(y - row >= 0.5) + int(z - layer >= 0.5)
-            if not (parts[column, row, layer] >> eighth) & 1:
-                parts[column, row, layer] |= np.uint8(1 << eighth)
-                occupancy[segment, column, row, layer] += 1
+            occupancy[segment, column, row, layer] += 1 - ((held >> eighth) & 1)
+            parts[column, row, layer] = held | (1 << eighth)
         start = ends[segment]
