@@ -62,37 +62,44 @@ def _number(cells: Int64, seed: UInt64, keys: UInt64) -> None:
 @compiled
 def _look_around(cells: Int64, distinct: UInt64, seed: UInt64, around: Int64) -> None:
     """Fill `around` with each cell and its neighbors, the cell itself first."""
+    slots = 64
+    while slots < 2 * len(distinct):
+        slots *= 2
+    # Rows of the cells by number: a hash table with linear probing.
+    table = np.full(slots, -1, dtype=np.int64)
+    for row in range(len(distinct)):
+        slot = _slot(distinct[row], slots)
+        while table[slot] >= 0:
+            slot = (slot + 1) & (slots - 1)
+        table[slot] = row
     for row in range(len(cells)):
         around[row, 0] = row
         count = 1
         for column in range(9):
-            place, before = 0, np.uint64(0)
+            lowest = _key(
+                cells[row, 0] + column // 3 - 1,
+                cells[row, 1] + column % 3 - 1,
+                cells[row, 2] - 1,
+                seed,
+            )
+            above = lowest & ~np.uint64((1 << LAYER_BITS) - 1)
             for layer in range(3):
-                key = _key(
-                    cells[row, 0] + column // 3 - 1,
-                    cells[row, 1] + column % 3 - 1,
-                    cells[row, 2] + layer - 1,
-                    seed,
-                )
-                # In a column the numbers are consecutive, unless the layer wraps to the first.
-                if layer == 0 or key < before:
-                    place = _place_of(distinct, key)
-                before = key
-                if place < len(distinct) and distinct[place] == key:
-                    if place != row:
-                        around[row, count] = place
-                        count += 1
-                    place += 1
+                # In a column the numbers are consecutive; the highest layer wraps to the first.
+                below = (lowest + np.uint64(layer)) & np.uint64((1 << LAYER_BITS) - 1)
+                slot = _slot(above | below, slots)
+                while table[slot] >= 0:
+                    place = table[slot]
+                    if distinct[place] == above | below:
+                        if place != row:
+                            around[row, count] = place
+                            count += 1
+                        break
+                    slot = (slot + 1) & (slots - 1)
 
 
 @compiled
-def _place_of(distinct: UInt64, key: np.uint64) -> int:
-    """Return how many of the ascending numbers are lower than a key."""
-    low, high = 0, len(distinct)
-    while low < high:
-        middle = (low + high) // 2
-        if distinct[middle] < key:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+def _slot(key: np.uint64, slots: int) -> np.int64:
+    """Return the slot of a number in a hash table; `slots` is a power of two."""
+    mixed = key ^ (key >> np.uint64(LAYER_BITS))
+    mixed *= np.uint64(0x9E3779B97F4A7C15)
+    return np.int64((mixed >> np.uint64(20)) & np.uint64(slots - 1))

@@ -24,7 +24,7 @@ from service.maps.layers import MapLayers
 MARGIN = 24
 """Number of rows fetched beyond k at first, so that few queries need a second search."""
 
-MOST = 1 << 13
+MOST = 1 << 10
 """Largest number of rows fetched to resolve ties; the index drops some of more equal rows."""
 
 ROWS = 1 << 14
@@ -82,7 +82,10 @@ class MapIndex(ABC):
             doubt = ~(farthest < complete) if fetch < MOST else np.isinf(farthest)
             again = np.flatnonzero(doubt)
             if len(again):
-                distances[again], found[again] = self.search(codes[again], k, gone, 4 * margin)
+                # Many ties mostly come from equal codes.
+                distinct, at = np.unique(codes[again], axis=0, return_inverse=True)
+                farther, rows = self.search(distinct, k, gone, 4 * margin)
+                distances[again], found[again] = farther[at.ravel()], rows[at.ravel()]
         return distances, found
 
     def _scan(self, codes: Int8, fetch: int) -> tuple[Float64, Int64, Float64]:
