@@ -19,10 +19,11 @@ and serializes the result. The engine needs no HTTP library.
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import TracebackType
-from typing import Self
+from typing import Self, get_args
 
 from numpy.typing import ArrayLike
 from placecell_client import CompactMap, Delta, Info, decode, encode, encode_delta
@@ -30,6 +31,7 @@ from placecell_client.maps.map_file import VERSION
 
 from placecell.core.cancellation import current
 from placecell.descriptors.manifest import Manifest, ModelError
+from placecell.descriptors.site_calibration import CalibrationState, SiteCalibration
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
 from service.core.auth import ANYONE, Principal
@@ -128,6 +130,8 @@ class Engine:
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
         metrics.maps.set_function(lambda: len(self.maps))
+        for name in get_args(CalibrationState):
+            metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.all()))
 
     @classmethod
@@ -199,6 +203,11 @@ class Engine:
             limits=self.settings.limits.model_dump(),
             map_file_version=VERSION,
         )
+
+    def _maps_with(self, state: CalibrationState) -> int:
+        """Return the number of maps whose latest calibration has this state."""
+        sites = (each.layers.sites.latest for each in self.maps.all())
+        return sum(site is not None and site.state == state for site in sites)
 
     # Recognition.
 
@@ -355,6 +364,15 @@ class Engine:
         a, b = MapSide.of(here), MapSide.of(there)
         found = align_maps(a, b, a.index(model), model, options, current().check)
         return AlignedMaps(a, b, found)
+
+    def calibration(self, snapshot: MapSnapshot) -> SiteCalibration | None:
+        """Return the calibration of a map's match probabilities by its own segments.
+
+        None if the model of the map is not loaded or has no site constants.
+        """
+        model = self.models.find(snapshot.model_id)
+        layers = snapshot.layers
+        return None if model is None else layers.sites.of(layers, model.manifest)
 
     def writer(
         self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS

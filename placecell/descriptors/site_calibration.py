@@ -32,6 +32,9 @@ SAMPLE, BLOCKS = 1 << 13, 16
 """Largest number of segments that a calibration reads, and the runs of rows that they come from.
 Consecutive rows are consecutive captures, which see the same objects."""
 
+MOST_STEPPED = 32
+"""Number of segments up to which a growing site is calibrated at each segment; see `milestone`."""
+
 COHORT = 256
 """Largest number of segments that every query is compared with."""
 
@@ -66,7 +69,7 @@ ENOUGH_NEGATIVES, ENOUGH_POSITIVES = 64, 32
 
 SEED = 0
 
-State = Literal["default", "collecting", "calibrated"]
+CalibrationState = Literal["default", "collecting", "calibrated"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +125,7 @@ class SiteCalibration:
         quantizer: quantizer of the model.
         cohort: codes of the cohort, int8 (n, code bytes).
         segments: number of segments of the site.
+        read: number of segments that the calibration was computed from.
         negatives: number of free negative pairs of the fit.
         positives: number of queries of the fit that have pseudo-positives.
         views: mean number of other views of a segment's object at the site.
@@ -133,6 +137,7 @@ class SiteCalibration:
     quantizer: Quantizer
     cohort: Int8
     segments: int
+    read: int = 0
     negatives: int = 0
     positives: int = 0
     views: float = 0.0
@@ -140,7 +145,7 @@ class SiteCalibration:
     scale: float = 1.0
 
     @property
-    def state(self) -> State:
+    def state(self) -> CalibrationState:
         """Return how far the site's own data determine the calibration.
 
         `default`: by the constants of the model. `collecting`: distances are normalized by the
@@ -161,6 +166,7 @@ class SiteCalibration:
         return {
             "state": self.state,
             "segments": self.segments,
+            "read": self.read,
             "cohort": len(self.cohort),
             "negatives": self.negatives,
             "positives": self.positives,
@@ -235,9 +241,23 @@ class SiteCalibration:
         ratio = self.constants.offset - self.constants.slope * scores
         return np.asarray(self.shift + self.scale * ratio)
 
-    def probabilities(self, queries: QueryDistances, rows: Int64, others: Int8) -> Float64:
-        """Return the match probability of each pair, float64 (n,); see `log_ratios`."""
-        return np.asarray(expit(self.log_ratios(queries, rows, others) + self.log_prior))
+    def probabilities(
+        self,
+        queries: QueryDistances,
+        rows: Int64,
+        others: Int8,
+        log_prior: float | None = None,
+    ) -> Float64:
+        """Return the match probability of each pair, float64 (n,); see `log_ratios`.
+
+        Args:
+            queries: the queries, compared with the cohort.
+            rows: query of each pair, int64 (n,).
+            others: codes of the other segment of each pair, int8 (n, code bytes).
+            log_prior: log odds of a match before the comparison; None: those of the site.
+        """
+        prior = self.log_prior if log_prior is None else log_prior
+        return np.asarray(expit(self.log_ratios(queries, rows, others) + prior))
 
     def pair_log_ratios(self, a: Int8, b: Int8) -> Float64:
         """Return the log-likelihood ratio of each pair of codes; the first one is the query."""
@@ -247,6 +267,20 @@ class SiteCalibration:
     def pair_probabilities(self, a: Int8, b: Int8) -> Float64:
         """Return the match probability of each pair of codes; the first one is the query."""
         return np.asarray(expit(self.pair_log_ratios(a, b) + self.log_prior))
+
+
+def milestone(count: int) -> int:
+    """Return the number of a growing site's first segments that its calibration reads.
+
+    It is the largest step of a series in which each step is a fifth larger. So a site that grows
+    segment by segment keeps its calibration until it has grown by a fifth.
+    """
+    step = MOST_STEPPED
+    if count <= step:
+        return count
+    while (larger := step + step // 5) <= count:
+        step = larger
+    return step
 
 
 def sample_rows(count: int) -> Int64:
@@ -278,9 +312,8 @@ def calibrate(
     """
     order = np.random.default_rng(SEED).permutation(len(codes))
     cohort = _cohort(centroids, captures, order)
-    site = SiteCalibration(
-        constants, quantizer, codes[cohort], len(codes) if segments is None else segments
-    )
+    whole = len(codes) if segments is None else segments
+    site = SiteCalibration(constants, quantizer, codes[cohort], whole, len(codes))
     if site.state == "default":
         return site
     asked = order[:QUERIES]
@@ -338,6 +371,12 @@ def fit_line(
         if np.abs(step).max() < 1e-6:
             break
     return float(line[0]), float(line[1])
+
+
+def log_odds(probability: float) -> float:
+    """Return the log odds of a probability, which is clipped away from 0 and 1."""
+    clipped = min(max(probability, 1e-6), 1 - 1e-6)
+    return float(np.log(clipped / (1 - clipped)))
 
 
 def _squared(levels: Float32) -> Float32:

@@ -4,8 +4,9 @@ from typing import Any
 
 from scipy.spatial.transform import Rotation
 
+from placecell.descriptors.site_calibration import SiteCalibration
 from placecell.localization import Pose
-from service.api.schemas.maps import MapOut, VersionOut, WrittenOut
+from service.api.schemas.maps import MapDetailOut, MapOut, VersionOut, WrittenOut
 from service.core.auth import Principal
 from service.core.problems import title_of, type_of
 from service.inference.describer import SegmentError
@@ -48,6 +49,15 @@ def summary_of(snapshot: MapSnapshot, principal: Principal) -> MapOut:
         time_span=layers.time_span,
         optional=sorted(layers.optional),
     )
+
+
+def detail_of(
+    snapshot: MapSnapshot, principal: Principal, site: SiteCalibration | None
+) -> MapDetailOut:
+    """Return the summary of a map with its calibration; call it in a thread."""
+    summary = summary_of(snapshot, principal).model_dump()
+    values = None if site is None else site.as_dict()
+    return MapDetailOut.model_validate(summary | {"calibration": values})
 
 
 def outcome_of(written: WriteResult) -> WrittenOut:

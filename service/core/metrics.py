@@ -63,6 +63,13 @@ class Metrics:
         self.map_segments = Gauge(
             "placecell_map_segments", "Number of segments in all maps.", registry=of
         )
+        self.calibrated = Gauge(
+            "placecell_maps_by_calibration",
+            "Number of maps that were searched since the start, by the state of the calibration "
+            "of their match probabilities.",
+            ["state"],
+            registry=of,
+        )
         self.keys_file_good = Gauge(
             "placecell_keys_file_good",
             "1 if the key file can be read or none is set; 0 otherwise, see /readyz.",

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from placecell.core.types import Float64, Int8
+from placecell.core.types import Float64, Int8, Int64
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.site_calibration import SiteCalibration, SiteConstants, log_odds
 from service.inference.model_registry import Model
 
 
@@ -24,3 +26,46 @@ def match_probabilities(model: Model, one: Int8, other: Int8) -> Float64:
     distances = quantizer.step * np.linalg.norm(levels, axis=1)
     deviation = max(model.manifest.pair_threshold, quantizer.step)
     return np.asarray(np.exp(-0.5 * (distances / deviation) ** 2))
+
+
+def default_site(manifest: Manifest) -> SiteCalibration | None:
+    """Return the calibration of a site without segments; None without site constants."""
+    constants = SiteConstants.of(manifest)
+    if constants is None:
+        return None
+    nothing = np.zeros((0, manifest.code_bytes), dtype=np.int8)
+    return SiteCalibration(constants, manifest.quantizer, nothing, segments=0)
+
+
+class QueryComparison:
+    """Queries that are compared with segments of one map, calibrated if the map can be."""
+
+    def __init__(
+        self, codes: Int8, model: Model, site: SiteCalibration | None, comparable: bool = False
+    ) -> None:
+        """Prepare the queries.
+
+        Args:
+            codes: codes of the queries, int8 (q, code bytes).
+            model: model that made all codes.
+            site: calibration of the map; None if the model has no site constants.
+            comparable: make the probabilities comparable between maps, with the prior of the
+                model's pair classifier in place of the map's own.
+        """
+        self._codes = codes
+        self._model = model
+        self._site = site
+        self._queries = None if site is None else site.queries(codes)
+        threshold = model.manifest.pair.get("threshold", 0.5)
+        self._log_prior = log_odds(threshold) if comparable else None
+
+    def probabilities(self, queries: Int64, others: Int8) -> Float64:
+        """Return the match probability of each pair, float64 (n,).
+
+        Args:
+            queries: query of each pair, int64 (n,).
+            others: codes of the map's segments, int8 (n, code bytes).
+        """
+        if self._site is None or self._queries is None:
+            return match_probabilities(self._model, self._codes[queries], others)
+        return self._site.probabilities(self._queries, queries, others, self._log_prior)

@@ -4,7 +4,7 @@ This is a log-structured merge tree (O'Neil et al., 1996) with two levels, both 
 """
 
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,6 +23,8 @@ from placecell_client.maps.edit import (
 
 from placecell.core.spatial import within
 from placecell.core.types import Bool, Float64, Int64, UInt32
+from placecell.descriptors.site_calibration import milestone, sample_rows
+from service.inference.site_calibrations import SiteCalibrations, SiteSample
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,12 +54,14 @@ class MapLayers:
         recent: segments added or replaced since the base was made, in canonical form.
         gone: bool (len(base),), rows of the base that were removed, or replaced in `recent`.
         base_robots: number of segments of each robot in the base, gone ones included.
+        sites: calibrations of this map's versions; later versions share them.
     """
 
     base: CompactMap
     recent: CompactMap
     gone: Bool
     base_robots: Counter[str]
+    sites: SiteCalibrations = field(default_factory=SiteCalibrations, repr=False)
 
     @classmethod
     def of(cls, content: CompactMap) -> "MapLayers":
@@ -148,6 +152,14 @@ class MapLayers:
         values[~above] = base[rows[~above]]
         values[above] = recent[rows[above] - len(self.base)]
         return values
+
+    def site_sample(self) -> SiteSample:
+        """Return the segments that a calibration reads, whatever layers hold them."""
+        rows = _first_rows(self, milestone(len(self)))
+        rows = rows[sample_rows(len(rows))]
+        return SiteSample(
+            self.column("codes", rows), self.column("centroids", rows), _captures(self, rows)
+        )
 
     def robot_names(self, rows: Int64) -> NDArray[np.object_]:
         """Return the robots of rows, an array of any shape."""
@@ -247,3 +259,27 @@ def _rows_of(content: CompactMap, ids: UInt32) -> Int64:
     rows = np.searchsorted(content.ids, ids)
     inside = rows < len(content)
     return np.asarray(rows[inside][content.ids[rows[inside]] == ids[inside]])
+
+
+def _first_rows(layers: MapLayers, count: int) -> Int64:
+    """Return the rows of the segments with the smallest ids, by id."""
+    base = np.flatnonzero(~layers.gone)[:count]
+    ids = layers.base.ids[base]
+    above = np.arange(len(layers.recent))
+    if len(base) == count and count:
+        above = above[layers.recent.ids < ids[-1]]
+    places = np.searchsorted(ids, layers.recent.ids[above])
+    return np.insert(base, places, above + len(layers.base))[:count]
+
+
+def _captures(layers: MapLayers, rows: Int64) -> Int64:
+    """Return the number of each row's capture: its sensor position and time."""
+    frames = layers.column("frame_index", rows).astype(np.int64)
+    above = rows >= len(layers.base)
+    frames[above] += len(layers.base.frame_times)
+    positions = np.concatenate([layers.base.frame_positions, layers.recent.frame_positions])
+    times = np.concatenate([layers.base.frame_times, layers.recent.frame_times])
+    used, inverse = np.unique(frames, return_inverse=True)
+    table = np.column_stack([positions[used], times[used]])
+    numbers = np.unique(table, axis=0, return_inverse=True)[1].reshape(-1)
+    return np.asarray(numbers[inverse.reshape(-1)])

@@ -19,7 +19,7 @@ from placecell.localization.localize import threshold_of, unknown
 from service.core.problems import invalid_value
 from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
-from service.inference.match_probability import match_probabilities
+from service.inference.match_probability import QueryComparison
 from service.inference.model_registry import Model
 from service.maps.repository import MapRepository
 from service.maps.shared_index import IndexPart, Patterns
@@ -36,9 +36,9 @@ class StoredNeighborhood:
 
     def __init__(self, codes: Int8, model: Model, snapshot: MapSnapshot) -> None:
         """Compare with queries of these codes, int8 (q, code bytes), made by the map's model."""
-        self._codes = codes
-        self._model = model
         self._layers = snapshot.layers
+        site = self._layers.sites.of(self._layers, model.manifest)
+        self._comparison = QueryComparison(codes, model, site, comparable=True)
 
     def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Return the rows near some places, and their centroids."""
@@ -48,7 +48,7 @@ class StoredNeighborhood:
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         """Return the match probability of each pair of query and row."""
         codes = self._layers.column("codes", rows)
-        return match_probabilities(self._model, self._codes[queries], codes)
+        return self._comparison.probabilities(queries, codes)
 
 
 def map_query(
@@ -71,12 +71,10 @@ def map_query(
     """
     nearest = nearest_segments(codes, model, (snapshot,), k)
     there = StoredNeighborhood(codes, model, snapshot)
-    probabilities = nearest.probabilities
-    if probabilities is None:
-        queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
-        probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
-            nearest.rows.shape
-        )
+    queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
+    probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
+        nearest.rows.shape
+    )
     places = snapshot.layers.column("centroids", nearest.rows)
     candidates = Candidates(centroids, nearest.rows, places, probabilities)
     return MapQuery(snapshot.name, model.id, candidates, there, model.confidence, evidence)

@@ -1,7 +1,7 @@
 """Matching: the nearest map segments of each query segment."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -9,11 +9,16 @@ import numpy as np
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
 from service.inference.describer import Descriptors, SegmentError
+from service.inference.match_probability import QueryComparison, default_site
 from service.inference.model_registry import Model
 from service.maps.repository import MapRepository
 from service.maps.shared_index import IndexPart, Patterns
 from service.maps.snapshot import MapSnapshot
 from service.search.query import MapSelection, Query
+
+CALIBRATED = 64
+"""Largest number of maps of one request, those with most candidates, whose own segments calibrate
+the match probabilities. The constants of the model give those of the other maps."""
 
 Candidate = dict[str, Any]
 """Candidate with the keys of `CandidateOut`; a dictionary, as a request has hundreds of them."""
@@ -28,14 +33,15 @@ class NearestSegments:
         places: index of each segment's map, int64 (q, k).
         rows: row of each segment in its map's layers, int64 (q, k).
         distances: distances between descriptors, float64 (q, k).
-        probabilities: match probabilities, float64 (q, k); None if the model has no classifier.
+        probabilities: match probabilities, float64 (q, k); None if they were not computed, or if
+            the model has neither site constants nor a classifier.
     """
 
     searched: tuple[MapSnapshot, ...]
     places: Int64
     rows: Int64
     distances: Float64
-    probabilities: Float64 | None
+    probabilities: Float64 | None = None
 
 
 class CandidateTable:
@@ -138,16 +144,14 @@ def match(
         maps: all maps.
         patterns: map name patterns that keys open; see `index_parts`.
     """
-    nearest = [
-        nearest_segments(
+    nearest = []
+    for (model, searched), described in zip(query.selection.searched, descriptors, strict=True):
+        codes, parts = (
             described.codes[described.usable],
-            model,
-            searched,
-            query.k,
             index_parts(maps, model, searched, patterns),
         )
-        for (model, searched), described in zip(query.selection.searched, descriptors, strict=True)
-    ]
+        found = nearest_segments(codes, model, searched, query.k, parts)
+        nearest.append(replace(found, probabilities=_probabilities(codes, model, found)))
     return MatchResult(query, descriptors, nearest)
 
 
@@ -181,9 +185,7 @@ def nearest_segments(
             order = np.lexsort(found[1::-1], axis=1)[:, :k]
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
-    probabilities = _probabilities(codes, model, searched, places, rows)
-    lengths = distances * model.manifest.quantizer.step
-    return NearestSegments(searched, places, rows, lengths, probabilities)
+    return NearestSegments(searched, places, rows, distances * model.manifest.quantizer.step)
 
 
 def _search_part(
@@ -239,16 +241,32 @@ def _merge_key(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, 
     return probability is None, -stated, rank, candidate["map"], candidate["id"]
 
 
-def _probabilities(
-    codes: Int8, model: Model, searched: tuple[MapSnapshot, ...], places: Int64, rows: Int64
-) -> Float64 | None:
+def _probabilities(codes: Int8, model: Model, nearest: NearestSegments) -> Float64 | None:
     """Return the match probability of each candidate of each query, (q, k)."""
-    if model.classifier is None:
+    default = default_site(model.manifest)
+    if model.classifier is None and default is None:
         return None
-    found = np.empty((*rows.shape, codes.shape[1]), dtype=np.int8)
-    for place, snapshot in enumerate(searched):
-        here = places == place
-        found[here] = snapshot.layers.column("codes", rows[here])
-    queries = np.repeat(codes, rows.shape[1], axis=0)
-    stated = model.classifier.probabilities(queries, found.reshape(queries.shape))
-    return stated.reshape(rows.shape)
+    places = nearest.places
+    counts = np.bincount(places.ravel(), minlength=len(nearest.searched))
+    stated = np.empty(places.shape)
+    ranked = np.argsort(-counts, kind="stable")
+    most = 0 if default is None else CALIBRATED
+    calibrated, others = ranked[:most], ranked[most:]
+    for place in calibrated[counts[calibrated] > 0].tolist():
+        layers = nearest.searched[place].layers
+        queries, columns = np.nonzero(places == place)
+        asked, inverse = np.unique(queries, return_inverse=True)
+        site = layers.sites.of(layers, model.manifest)
+        there = layers.column("codes", nearest.rows[queries, columns])
+        compared = QueryComparison(codes[asked], model, site)
+        stated[queries, columns] = compared.probabilities(inverse.reshape(-1), there)
+    few = np.isin(places, others)
+    if few.any():
+        found = np.empty((*places.shape, codes.shape[1]), dtype=np.int8)
+        for place in others[counts[others] > 0].tolist():
+            here = places == place
+            found[here] = nearest.searched[place].layers.column("codes", nearest.rows[here])
+        queries, columns = np.nonzero(few)
+        compared = QueryComparison(codes, model, default, comparable=True)
+        stated[queries, columns] = compared.probabilities(queries, found[queries, columns])
+    return stated

@@ -52,6 +52,12 @@ def answer_type(request: Request, offered: Sequence[str] = ENCODINGS) -> str:
     return best
 
 
+def prefers(request: Request, media_type: str, default: str) -> bool:
+    """Return whether the Accept header prefers a media type to the default one."""
+    accept = ",".join(request.headers.getlist("accept"))
+    return _quality(media_type, accept) > _quality(default, accept)
+
+
 def _quality(media_type: str, accept: str) -> float:
     """Return the quality of a media type in an Accept header, 0 to 1.
 

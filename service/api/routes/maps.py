@@ -9,13 +9,13 @@ from placecell_client import encode
 from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.api.admission.admission import client_of
-from service.api.body.body import JSON, OCTETS, render
+from service.api.body.body import JSON, OCTETS, prefers, render
 from service.api.body.problem_json import documented
 from service.api.dependencies import ConditionsOf, MapWrite, MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
-from service.api.responses import summary_of
-from service.api.schemas.maps import MapOut, MapsResponse
+from service.api.responses import detail_of, summary_of
+from service.api.schemas.maps import MapDetailOut, MapOut, MapsResponse
 from service.api.state import State
 from service.core.auth import Principal
 from service.maps.history import load_version, version_file, version_tag
@@ -30,7 +30,8 @@ NEW_RESPONSE: dict[int | str, dict[str, Any]] = {
 }
 _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
     200: {
-        "description": "The map file.",
+        "model": MapDetailOut,
+        "description": "The map file; facts about the map as JSON.",
         "content": {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}},
     },
     304: {"description": "The client already has this version."},
@@ -92,15 +93,22 @@ async def get_map(
 ) -> Response:
     """Return the map in canonical form: equal maps are equal files, byte by byte.
 
+    With `Accept: application/json`, return facts about the newest version: those of `GET /maps`,
+    and how far its own segments calibrate its match probabilities.
+
     If a source map of the segments is outside the scope of the key, a pseudonym replaces its name.
     Writing the file to this map restores the name.
     """
     principal.check_map(name)
     snapshot = state.engine.maps.get(name)
+    client = client_of(request)
+    if version is None and prefers(request, JSON, MEDIA_TYPE):
+        async with state.lanes.reads.enter(request):
+            content = await state.run(_detail, state, principal, snapshot)
+        return await state.answers.respond(content, client, JSON, {"Vary": "Accept"})
     if version is None and conditions.is_known(snapshot.tag):
         return Response(status_code=304, headers={"ETag": f'"{snapshot.tag}"'})
     sequence = snapshot.head.sequence if version is None else version
-    client = client_of(request)
     async with state.lanes.reads.enter(request):
         tag = await state.run(version_tag, state.engine.maps.store, snapshot, sequence)
         file_name, make = _file(state, principal, snapshot, sequence, tag)
@@ -139,6 +147,11 @@ async def put_response(write: MapWrite, result: WriteResult) -> Response:
             "Location": f"{write.state.settings.root_path}/maps/{snapshot.name}",
         },
     )
+
+
+def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
+    site = state.engine.calibration(snapshot)
+    return render(detail_of(snapshot, principal, site), JSON)
 
 
 def _file(

@@ -2,6 +2,8 @@
 
 from pydantic import BaseModel, Field
 
+from placecell.descriptors.site_calibration import CalibrationState
+
 
 class MapOut(BaseModel):
     """Stored map."""
@@ -27,6 +29,43 @@ class MapOut(BaseModel):
         "observation, Unix seconds. Null if the map is empty."
     )
     optional: list[str] = Field(description="Names of the optional columns in the map.")
+
+
+class CalibrationOut(BaseModel):
+    """Calibration of the match probabilities of a map by its own segments, without labels."""
+
+    state: CalibrationState = Field(
+        description="`default`: the constants of the model give the probabilities. `collecting`: "
+        "the map's segments normalize the distances. `calibrated`: they also determine `shift` and "
+        "`scale`."
+    )
+    read: int = Field(
+        description="Number of the map's first segments that the calibration was computed from. "
+        "It is computed again when the map has grown by a fifth, or when one of them changes."
+    )
+    cohort: int = Field(
+        description="Number of segments with which each query is compared to normalize distances."
+    )
+    negatives: int = Field(description="Number of pairs that are surely no match.")
+    positives: int = Field(description="Number of segments that have other views in the map.")
+    views: float = Field(description="Mean number of other views of a segment in the map.")
+    shift: float = Field(
+        description="Correction of a pair's log-likelihood ratio: shift + scale x ratio."
+    )
+    scale: float = Field(description="See `shift`.")
+    log_prior: float = Field(
+        description="Log odds that a segment of the map shows the object of a query: views divided "
+        "by segments."
+    )
+
+
+class MapDetailOut(MapOut):
+    """Stored map, with the state of its calibration."""
+
+    calibration: CalibrationOut | None = Field(
+        description="Calibration of the match probabilities. Null if the model of the map is not "
+        "loaded or states no constants for it."
+    )
 
 
 class MapsResponse(BaseModel):
