@@ -6,6 +6,7 @@ import typer
 
 from cli.ablations import ablations
 from cli.bench import bench
+from cli.calibrate import calibrate
 from cli.config import config
 from cli.demo import demo
 from cli.drive_options import takes_drives
@@ -80,6 +81,7 @@ app.command(rich_help_panel=MAP)(town)
 app.command(rich_help_panel=MAP)(takes_drives(prepare))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_poses))
+app.command(rich_help_panel=EVALUATE)(takes_drives(calibrate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(study))
 app.command(rich_help_panel=TRAIN)(takes_drives(train))
 app.command(rich_help_panel=TRAIN)(fit_confidence)

@@ -6,7 +6,8 @@ from typing import Any
 
 from cli.reference.markdown import code, paragraphs, table
 
-JSON, PROBLEM = "application/json", "application/problem+json"
+JSON, MSGPACK = "application/json", "application/msgpack"
+PROBLEM = "application/problem+json"
 
 
 @cache
@@ -74,7 +75,7 @@ def _content(content: dict[str, Any]) -> str:
     for media, each in content.items():
         schema = each.get("schema", {})
         named = schema.get("$ref", "").rpartition("/")[2]
-        if named.startswith("Packed") or (media != JSON and JSON in content):
+        if named.startswith("Packed") or (media == MSGPACK and JSON in content):
             shown.append(f"[msgpack](msgpack.md) (`{media}`)")
         elif named:
             shown.append(f"{_link(named)} (`{media}`)")

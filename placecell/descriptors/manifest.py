@@ -25,6 +25,9 @@ FULL_FILE = "model-fp32.onnx"
 """File of the float32 network of a model that is served with 8-bit integers. Not part of the id."""
 
 
+CALIBRATION_FILE = "calibration.json"
+"""Optional file of `placecell calibrate`; its site constants replace those of the manifest."""
+
 JSON_KEYS = {"quantizer": "quantiser", "standardization": "standardisation"}
 """Keys of `manifest.json` that differ from the attribute's name, kept for published models."""
 
@@ -134,7 +137,31 @@ class Manifest:
                 f"{file}: made for preprocessing version {version}, expected {expected}. Train the "
                 "model again"
             )
-        return manifest
+        return manifest.with_calibration(folder / CALIBRATION_FILE)
+
+    def with_calibration(self, file: Path) -> "Manifest":
+        """Return the manifest with the constants of a calibration file; as it is without one.
+
+        Raises:
+            ModelError: The file is malformed, or was made for another model.
+        """
+        try:
+            content = json.loads(file.read_text())
+            model_id = content["model_id"]
+            site = {
+                name: float(content["site"][name])
+                for name in ("slope", "offset", "mean", "deviation")
+            }
+        except FileNotFoundError:
+            return self
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise ModelError(f"{file}: not a calibration file ({error})") from error
+        if model_id != self.model_id:
+            raise ModelError(
+                f"{file}: made for model {model_id}, expected {self.model_id}. Run 'placecell "
+                "calibrate' again, or delete the file"
+            )
+        return replace(self, pair=self.pair | {"site": site})
 
     def has_seen(self, scan_hashes: Iterable[str]) -> bool:
         """Return whether the model was trained on any of these scans, in whichever folder.

@@ -2,14 +2,17 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from sklearn.linear_model import LogisticRegression
 
 from evaluation.recognition import retrieval
 from placecell.core.types import Bool, Float64, Int8, Int64
+from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.site_calibration import SiteCalibration, SiteConstants, calibrate
+from placecell.segmentation.recording import Recording
 from training.data.training_set import TrainingSet
 
 
@@ -30,6 +33,18 @@ class LabeledSite:
     captures: Int64
     groups: Int64
     held_out: Bool
+
+    @classmethod
+    def of_recording(cls, recording: Recording, codes: Int8) -> "LabeledSite":
+        """Return a drive that no model was trained on, by the codes of its distinct segments."""
+        chosen = np.flatnonzero(recording.distinct)
+        return cls(
+            codes,
+            recording.segments.take(chosen).centroids(),
+            recording.captures[chosen],
+            recording.groups[chosen],
+            np.ones(len(chosen), dtype=bool),
+        )
 
     def calibration(self, quantizer: Quantizer, constants: SiteConstants) -> SiteCalibration:
         """Return the site with its cohort, without a fit of shift and scale."""
@@ -98,3 +113,19 @@ def fit_site_constants(
         -normalized_distances[is_match > 0.5], -normalized_distances[is_match < 0.5]
     )
     return SiteConstants(slope, offset, mean, deviation), auc
+
+
+def with_constants(folder: Path, constants: SiteConstants) -> Manifest:
+    """Return the manifest of a model folder with these constants.
+
+    Raises:
+        ValueError: the model's pair classifier is no distance; its probabilities stay as they are.
+    """
+    manifest = Manifest.load(folder)
+    kind = manifest.pair.get("kind")
+    if kind != "distance":
+        raise ValueError(
+            f"The pair classifier of {folder} is of kind {kind!r}. Site constants replace a "
+            "classifier of kind 'distance' only"
+        )
+    return replace(manifest, pair=manifest.pair | {"site": constants.as_dict()})
