@@ -36,8 +36,9 @@ SIGNS = {name: -1.0 if name == "residual" else 1.0 for name in FEATURES}
 """Sign of each weight: more agreement and a smaller residual never lower the probability. Without
 this, correlated features could get weights of opposite signs, which do not generalize."""
 
-TOLD = 0.9
-"""Share of the right poses that is returned from the number of segments that a robot needs."""
+LOCALIZED = 0.95
+"""Share of the queries in the mapped area that get a right pose, from the number of segments that a
+robot needs."""
 
 MOST_NEEDED = 60
 """Largest number of segments that a robot is said to need."""
@@ -168,11 +169,11 @@ def _share(part: Bool, whole: Bool) -> float | None:
 
 
 def needs_of(cases: Cases, told: Bool) -> SegmentNeeds:
-    """Return the number of segments from which right poses are usually returned, and its growth."""
-    own = cases.right & cases.answerable
+    """Return the number of segments with which robots are usually localized, and its growth."""
+    localized = told & cases.right
     for count in range(4, MOST_NEEDED):
-        near = own & (cases.usable >= count) & (cases.usable < 1.5 * count)
-        if near.any() and told[near].mean() >= TOLD:
+        near = cases.answerable & (cases.usable >= count) & (cases.usable < 1.5 * count)
+        if near.any() and localized[near].mean() >= LOCALIZED:
             break
     growth = cases.growth[np.isfinite(cases.growth)]
     per_meter = float(np.median(growth)) if len(growth) else SegmentNeeds().per_meter

@@ -76,7 +76,7 @@ class SegmentNeeds:
     """Segments that a robot needs, and how fast it sees more of them as it starts to drive.
 
     Attributes:
-        segments: number of segments with candidates from which right poses are usually returned.
+        segments: number of segments with candidates with which robots are usually localized.
         per_meter: segments that are added per meter in the first meters of a drive.
     """
 
