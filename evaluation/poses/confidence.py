@@ -169,15 +169,23 @@ def _share(part: Bool, whole: Bool) -> float | None:
 
 
 def needs_of(cases: Cases, told: Bool) -> SegmentNeeds:
-    """Return the number of segments with which robots are usually localized, and its growth."""
+    """Return the number of segments with which robots are usually localized, and its growth.
+
+    The number is the median over the sensors: some see too little of a place from the opposite
+    direction, however many segments it is.
+    """
     localized = told & cases.right
-    for count in range(4, MOST_NEEDED):
-        near = cases.answerable & (cases.usable >= count) & (cases.usable < 1.5 * count)
-        if near.any() and localized[near].mean() >= LOCALIZED:
-            break
+    counts = []
+    for sensor in np.unique(cases.sensors):
+        own = cases.answerable & (cases.sensors == sensor)
+        for count in range(4, MOST_NEEDED):
+            near = own & (cases.usable >= count) & (cases.usable < 1.5 * count)
+            if near.any() and localized[near].mean() >= LOCALIZED:
+                break
+        counts.append(count)
     growth = cases.growth[np.isfinite(cases.growth)]
     per_meter = float(np.median(growth)) if len(growth) else SegmentNeeds().per_meter
-    return SegmentNeeds(count, round(max(per_meter, 0.1), 2))
+    return SegmentNeeds(int(np.median(counts)), round(max(per_meter, 0.1), 2))
 
 
 def logistic(features: Float64, right: Bool, highest: float) -> Confidence:
