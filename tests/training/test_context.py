@@ -22,6 +22,7 @@ from training.methods import registry
 from training.methods.context import (
     ContextRecipe,
     Projection,
+    group_weights,
     learn_neighborhood,
     rotation,
     scatter,
@@ -61,6 +62,9 @@ def test_projection_keeps_views_of_a_group_together() -> None:
     strength = np.abs(projection.axes).mean(axis=1)
     assert strength[:20].mean() < 0.3 * strength[20:].mean()
     assert projection.mean == pytest.approx(data.neighborhood.mean(axis=0), abs=1e-4)
+    projected = (data.neighborhood - projection.mean) @ projection.axes
+    projected /= np.linalg.norm(projected, axis=1, keepdims=True)
+    assert projection.center == pytest.approx(projected.mean(axis=0), abs=1e-4)
     # New views of a group are closer to one another than to those of other groups.
     fresh = many_groups(seed=1)
     assert fresh.neighborhood is not None
@@ -71,7 +75,7 @@ def test_projection_keeps_views_of_a_group_together() -> None:
     assert (fresh.groups[distances.argmin(axis=1)] == fresh.groups).mean() > 0.9
 
 
-def test_neighborhoods_are_learned_from_real_streets() -> None:
+def test_axes_of_descriptors_are_learned_from_real_streets() -> None:
     data = many_groups(seed=0)
     made_up = data.groups >= 40
     recorded = replace(data, synthetic=made_up).recorded()
@@ -87,10 +91,35 @@ def test_neighborhoods_are_learned_from_real_streets() -> None:
 
 def test_scatter_by_hand() -> None:
     values = np.array([[0.0, 0], [2, 0], [5, 1], [5, 4], [5, 7]])
-    within, centers = scatter(values, np.array([0, 0, 1, 1, 1]))
+    groups, one_place = np.array([0, 0, 1, 1, 1]), np.zeros((5, 3), np.float32)
+    within, centers = scatter(values, groups, one_place, np.ones(2))
     # Unbiased variances: 2 along x in the first group, 9 along y in the second; their mean.
-    assert within.tolist() == [[1.0, 0], [0, 4.5]]
+    assert within == pytest.approx(np.array([[1.0, 0], [0, 4.5]]))
     assert centers.tolist() == [[1.0, 0], [5, 4]]
+    within, _ = scatter(values, groups, one_place, np.array([0.5, 1.5]))
+    assert within == pytest.approx(np.array([[0.5, 0], [0, 6.75]]))
+
+
+def test_views_from_far_apart_weigh_more() -> None:
+    values = np.array([[0.0, 0], [0, 1], [3, 0]])
+    sensors = np.array([[0.0, 0, 0], [0, 0, 9], [5, 0, 0]], dtype=np.float32)
+    within, _ = scatter(values, np.zeros(3, dtype=int), sensors, np.ones(1))
+    # Half the squared differences of the three pairs; the height of the sensor does not count.
+    pairs = [(0.4, (0, 1)), (5.4, (3, 0)), (5.4, (3, -1))]
+    expected = sum(weight * np.outer(offset, offset) for weight, offset in pairs) / 2
+    assert within == pytest.approx(expected / sum(weight for weight, _ in pairs))
+    # Beyond 12 m the distance adds no weight.
+    near, far = (np.array([[0.0, 0, 0], [12, 0, 0], [0, 12, 0]], np.float32) * f for f in (1, 9))
+    assert scatter(values, np.zeros(3, dtype=int), near, np.ones(1))[0] == pytest.approx(
+        scatter(values, np.zeros(3, dtype=int), far, np.ones(1))[0]
+    )
+
+
+def test_recorded_groups_have_half_of_the_weight() -> None:
+    weights = group_weights(np.array([False, True, True, True, True]), 0.5)
+    assert weights.tolist() == [2.5, 0.625, 0.625, 0.625, 0.625]
+    assert group_weights(np.array([True, True]), 0.5).tolist() == [1, 1]
+    assert group_weights(np.array([False, False]), 0.5).tolist() == [1, 1]
 
 
 def test_groups_have_equal_weight_at_any_size() -> None:
@@ -98,8 +127,16 @@ def test_groups_have_equal_weight_at_any_size() -> None:
     often = data.take(np.concatenate([np.arange(len(data)), *[np.arange(25)] * 40]))
     assert data.neighborhood is not None
     assert often.neighborhood is not None
-    within, centers = scatter(data.neighborhood.astype(np.float64), data.groups)
-    again, same = scatter(often.neighborhood.astype(np.float64), often.groups)
+    within, centers, again, same = (
+        result
+        for each in (data, often)
+        for result in scatter(
+            np.asarray(each.neighborhood, np.float64),
+            each.groups,
+            each.segments.sensors,
+            np.ones(len(each.group_sizes())),
+        )
+    )
     assert same == pytest.approx(centers)
     # Five views of each group, repeated 41 times, add no information but for the unbiased estimate.
     assert np.trace(again) == pytest.approx(np.trace(within), rel=0.03)
@@ -121,7 +158,10 @@ def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
     network = DescriptorNetwork("fast", *normalization_statistics(data)).eval()
     random = np.random.default_rng(0)
     projection = Projection(
-        np.zeros(SIZE, np.float32), random.normal(size=(SIZE, dimension)).astype(np.float32), 1.2
+        np.zeros(SIZE, np.float32),
+        random.normal(size=(SIZE, dimension)).astype(np.float32),
+        1.2,
+        np.zeros(dimension, np.float32),
     )
     axes = np.eye(64, dimension, dtype=np.float32)
     segment = Exported(network, np.zeros(64, np.float32), axes)

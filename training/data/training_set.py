@@ -121,7 +121,7 @@ class TrainingSet:
         """Return the segments of real streets; all segments if none is real.
 
         Synthetic streets teach single segments as well as real streets. They do not teach the
-        principal axes of descriptors or the neighborhoods of segments.
+        principal axes of descriptors or the quantizer's step.
         """
         if self.synthetic is None or self.synthetic.all():
             return self

@@ -158,7 +158,7 @@ def _measured(
     identity = fingerprint(data, name, variant.network, variant.segment)
     run = Run(output / "runs" / name, variant.seed, identity, progress)
     network = train_segment(data.training, data.validation, run, variant.network, variant.segment)
-    projection = learn_neighborhood(data.training.recorded(), variant.neighborhood)
+    projection = learn_neighborhood(data.training, variant.neighborhood)
     trained = Trained("context", variant.network, network, projection=projection)
     with whole(output / "models" / f"{variant.part}-{variant.name}") as folder:
         export_network(folder, trained, data, stored_axes(trained, data)).save(folder)

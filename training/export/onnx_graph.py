@@ -38,6 +38,7 @@ class ExportedContext(nn.Module):
 
     mean: Tensor
     axes: Tensor
+    center: Tensor
     rotation: Tensor
 
     def __init__(self, segment: Exported, projection: Projection, rotation: Float32) -> None:
@@ -45,12 +46,14 @@ class ExportedContext(nn.Module):
         self.segment = segment
         self.register_buffer("mean", torch.from_numpy(projection.mean))
         self.register_buffer("axes", torch.from_numpy(projection.axes))
+        self.register_buffer("center", torch.from_numpy(projection.center))
         self.register_buffer("rotation", torch.from_numpy(rotation))
         self.weight = projection.weight
 
     def forward(self, occupancy: Tensor, extents: Tensor, surroundings: Tensor) -> Tensor:
         """float32 (n, stored dimension)."""
         projected = nn.functional.normalize((surroundings - self.mean) @ self.axes, dim=1)
+        projected = projected - self.center
         # Without a neighborhood the segment's own part fills the descriptor. So all descriptors
         # have the same length and lose equally little by quantization.
         seen = (surroundings.sum(dim=1, keepdim=True) > 0).float()

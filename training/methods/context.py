@@ -3,9 +3,10 @@
 A network trained by the multi-similarity loss (Wang et al., 2019), the best loss of those compared,
 describes the segment itself. Linear discriminant analysis projects the neighborhood
 (`placecell.descriptors.neighborhood`): it finds the directions that separate groups and keep the
-views of a group together. It has a closed form, takes seconds and hardly over-fits. The descriptor
-holds both parts side by side. The neighborhood's part has a constant length, so that segments
-without a neighborhood are still ranked by their own part.
+views of a group together. Views from far apart weigh more. Synthetic drives teach it what other
+sensors see in other places. The analysis has a closed form, takes seconds and hardly over-fits. The
+descriptor holds both parts side by side. The neighborhood's part has about the same length for all
+segments, so that segments without a neighborhood are still ranked by their own part.
 
     placecell train context DRIVE@0:299 --seed 0
 """
@@ -14,12 +15,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.linalg import eigh
+from scipy.spatial.distance import cdist
 from scipy.stats import ortho_group
 
-from placecell.core.types import Float32, Float64, Int64
+from placecell.core.types import Bool, Float32, Float64, Int64
 from training.data.training_set import TrainingSet
 from training.methods.group_based import GroupBasedRecipe
 from training.methods.metric import MetricRecipe
+
+NEAR, FAR = 0.4, 12.0
+"""Weight of two views from one position, and largest distance that adds to the weight, meters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +36,12 @@ class ContextRecipe:
     )
     dimension: int = 96
     """Number of dimensions of the neighborhood's part of the descriptor."""
-    weight: float = 1.2
+    weight: float = 1.4
     """Length of the neighborhood's part; the segment's own part has about length 1."""
-    shrinkage: float = 0.2
+    shrinkage: float = 0.1
     """Shrinkage of the scatter within groups toward a multiple of the identity, 0 to 1."""
+    recorded: float = 0.5
+    """Weight of all groups of recorded drives together, if there are synthetic ones, 0 to 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,60 +52,97 @@ class Projection:
         mean: mean neighborhood, float32 (size,).
         axes: axes of the projection, float32 (size, dimension).
         weight: length of the neighborhood's part.
+        center: mean of the projections of length one, float32 (dimension,). It is subtracted, so
+            that the quantizer's levels are around 0.
     """
 
     mean: Float32
     axes: Float32
     weight: float
+    center: Float32
 
 
 def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projection:
     """Fit linear discriminant analysis of the neighborhoods, with groups as classes (Fisher, 1936).
 
-    All groups have equal weight, because a robot that stands still adds many views but no
-    information.
+    All groups of recorded drives have equal weight, because a robot that stands still adds many
+    views but no information, and so have all groups of synthetic drives.
 
     Raises:
         ValueError: there are too few groups of two or more segments.
     """
     assert training.neighborhood is not None
     sizes = training.group_sizes()
-    plural = sizes[training.groups] >= 2
+    plural = np.flatnonzero(sizes[training.groups] >= 2)
     count = int((sizes >= 2).sum())
     if count <= recipe.dimension:
         raise ValueError(
             f"{count} groups of two or more segments are too few to learn {recipe.dimension} "
             "dimensions of the neighborhood. Use a longer drive."
         )
-    neighborhood = training.neighborhood[plural].astype(np.float64)
-    groups = np.unique(training.groups[plural], return_inverse=True)[1]
-    within, centers = scatter(neighborhood, groups)
-    between = np.cov(centers.T, bias=True)
+    values = training.neighborhood[plural].astype(np.float64)
+    _, firsts, groups = np.unique(training.groups[plural], return_index=True, return_inverse=True)
+    weights = np.ones(count)
+    if training.synthetic is not None:
+        weights = group_weights(training.synthetic[plural][firsts], recipe.recorded)
+    within, centers = scatter(values, groups, training.segments.sensors[plural], weights)
+    between = np.cov(centers.T, bias=True, aweights=weights)
     sphere = np.eye(len(within)) * np.trace(within) / len(within)
     drawn = (1 - recipe.shrinkage) * within + recipe.shrinkage * sphere
     # Eigenvalues ascend. Axes have length one in the scatter within groups, which weights them.
-    axes = eigh(between + within, drawn)[1][:, ::-1]
+    axes = eigh(between + within, drawn)[1][:, : -recipe.dimension - 1 : -1]
+    mean = np.average(centers, axis=0, weights=weights)
+    projected = (training.recorded().neighborhood - mean) @ axes
+    projected /= np.linalg.norm(projected, axis=1, keepdims=True)
     return Projection(
-        neighborhood.mean(axis=0).astype(np.float32),
-        np.ascontiguousarray(axes[:, : recipe.dimension], dtype=np.float32),
+        mean.astype(np.float32),
+        np.ascontiguousarray(axes, dtype=np.float32),
         recipe.weight,
+        projected.mean(axis=0).astype(np.float32),
     )
 
 
-def scatter(values: Float64, groups: Int64) -> tuple[Float64, Float64]:
-    """Return the mean covariance of the groups, (size, size), and their means, (groups, size).
+def group_weights(synthetic: Bool, recorded: float) -> Float64:
+    """Return the weight of each group, float64 (groups,); their mean is 1.
+
+    Args:
+        synthetic: bool (groups,), whether a group is of a synthetic drive.
+        recorded: weight of all groups of recorded drives together, 0 to 1.
+    """
+    made_up = int(synthetic.sum())
+    real = len(synthetic) - made_up
+    if not made_up or not real:
+        return np.ones(len(synthetic))
+    return len(synthetic) * np.where(synthetic, (1 - recorded) / made_up, recorded / real)
+
+
+def scatter(
+    values: Float64, groups: Int64, sensors: Float32, group_weight: Float64
+) -> tuple[Float64, Float64]:
+    """Return the scatter within groups, (size, size), and the means of the groups, (groups, size).
+
+    The scatter is the mean over all pairs of views of a group, half the squared difference each.
+    Pairs from viewpoints far apart weigh more: they tell what changes with the viewpoint.
 
     Args:
         values: value of each segment, float64 (segments, size).
         groups: group of each segment, from 0, int64 (segments,). A group has two segments or more.
+        sensors: sensor position of each segment, float32 (segments, 3), meters.
+        group_weight: weight of each group, float64 (groups,).
     """
-    sizes = np.bincount(groups)
-    centers = np.zeros((len(sizes), values.shape[1]))
-    np.add.at(centers, groups, values)
-    centers /= sizes[:, None]
-    off = values - centers[groups]
-    weights = 1 / (sizes - 1)[groups]
-    return (off * weights[:, None]).T @ off / len(sizes), centers
+    order = np.argsort(groups, kind="stable")
+    members = np.split(order, np.flatnonzero(np.diff(groups[order])) + 1)
+    within, total = np.zeros((values.shape[1], values.shape[1])), 0.0
+    centers = np.array([values[together].mean(axis=0) for together in members])
+    for together, center, weight in zip(members, centers, group_weight, strict=True):
+        off, seen_from = values[together] - center, sensors[together, :2].astype(np.float64)
+        weights = NEAR + np.minimum(cdist(seen_from, seen_from), FAR)
+        np.fill_diagonal(weights, 0.0)
+        weights *= weight / (len(together) * (len(together) - 1))
+        # The Laplacian matrix of the weights sums the squared differences over all pairs.
+        within += off.T @ (np.diag(weights.sum(axis=1)) - weights) @ off
+        total += weights.sum()
+    return within / total, centers
 
 
 def rotation(dimension: int) -> Float32:

@@ -72,7 +72,7 @@ def train(
         return Trained(method, network, pair.extractor, pair.match)
     if method == "context":
         recipe = given.pop("recipe", context.ContextRecipe())
-        projection = context.learn_neighborhood(training.recorded(), recipe)
+        projection = context.learn_neighborhood(training, recipe)
         segment_recipe = replace(recipe.segment, **given)
         learned = train_segment(training, validation, run, network, segment_recipe)
         return Trained(method, network, learned, projection=projection)
