@@ -92,7 +92,9 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
     # Eigenvalues ascend. Axes have length one in the scatter within groups, which weights them.
     axes = eigh(between + within, drawn)[1][:, : -recipe.dimension - 1 : -1]
     mean = np.average(centers, axis=0, weights=weights)
-    projected = (training.recorded().neighborhood - mean) @ axes
+    recorded = training.recorded().neighborhood
+    assert recorded is not None
+    projected = (recorded - mean) @ axes
     projected /= np.linalg.norm(projected, axis=1, keepdims=True)
     return Projection(
         mean.astype(np.float32),
