@@ -42,6 +42,18 @@ class Parameters:
     ground_clearance: float = 0.3
     """Points lower than this above the ground surface are ground."""
 
+    # Removal of ceilings, in captures that are indoors.
+    ceiling_share: float = 1 / 3
+    """Share of the local map's area under a ceiling from which the capture is indoors. Above 1, no
+    capture is."""
+    ceiling_lowest: float = 1.8
+    """Smallest height of a ceiling above the ground."""
+    ceiling_highest: float = 8.0
+    """Largest height of a ceiling above the ground."""
+    door_height: float = 2.0
+    """Indoors, points higher than this above the ground are dropped: ceilings, and walls above
+    doors, join the rooms of a floor to one region."""
+
     # Region growing on Euclidean distance.
     growing_radius: float = 0.25
     """Largest distance between two linked points of a region."""

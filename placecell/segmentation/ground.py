@@ -9,7 +9,7 @@ import numpy as np
 from scipy import ndimage
 
 from placecell.core.parameters import Parameters
-from placecell.core.types import Bool, Float32
+from placecell.core.types import Bool, Float32, Int64
 
 
 def is_ground(points: Float32, parameters: Parameters) -> Bool:
@@ -21,13 +21,28 @@ def is_ground(points: Float32, parameters: Parameters) -> Bool:
     """
     if not len(points):
         return np.zeros(0, dtype=bool)
-    cells = np.floor(points[:, :2] / parameters.ground_cell).astype(np.int64)
-    cells -= cells.min(axis=0)
-    lowest = np.full(tuple(cells.max(axis=0) + 1), np.inf, dtype=np.float32)
-    np.minimum.at(lowest, (cells[:, 0], cells[:, 1]), points[:, 2])
-    surface = ground_surface(lowest, parameters)
+    cells = grid_cells(points, parameters)
+    surface = ground_surface(lowest_in_cells(points[:, 2], cells), parameters)
     height = points[:, 2] - surface[cells[:, 0], cells[:, 1]]
     return np.asarray(height < parameters.ground_clearance)
+
+
+def grid_cells(points: Float32, parameters: Parameters) -> Int64:
+    """Return the row and column of each point's cell in the height grid, int64 (n, 2)."""
+    cells = np.floor(points[:, :2] / parameters.ground_cell).astype(np.int64)
+    return np.asarray(cells - cells.min(axis=0))
+
+
+def lowest_in_cells(heights: Float32, cells: Int64) -> Float32:
+    """Return the smallest height in each cell, float32 (rows, columns); infinite if empty.
+
+    Args:
+        heights: float32 (n,), meters.
+        cells: int64 (n, 2), row and column of each height.
+    """
+    lowest = np.full(tuple(cells.max(axis=0) + 1), np.inf, dtype=np.float32)
+    np.minimum.at(lowest, (cells[:, 0], cells[:, 1]), heights)
+    return lowest
 
 
 def ground_surface(lowest: Float32, parameters: Parameters) -> Float32:

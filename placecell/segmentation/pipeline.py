@@ -9,6 +9,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Float32, UInt8
 from placecell.datasets import Drive
 from placecell.descriptors.voxels import voxelize
+from placecell.segmentation.ceiling import is_overhead
 from placecell.segmentation.deduplication import keep_distinct
 from placecell.segmentation.ground import is_ground
 from placecell.segmentation.grouping import Grouper
@@ -26,13 +27,13 @@ def silent(items: Iterable[int], total: int, what: str) -> Iterable[int]:  # noq
 
 
 def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:
-    """Remove the ground of a local map and return its segments, float32 (n, 3) each.
+    """Remove ground and ceiling of a local map and return its segments, float32 (n, 3) each.
 
     Args:
         local_map: float32 (n, 3), meters, world frame.
-        parameters: parameters of ground removal and region growing.
+        parameters: parameters of ground removal, ceiling removal and region growing.
     """
-    objects = local_map[~is_ground(local_map, parameters)]
+    objects = local_map[~(is_ground(local_map, parameters) | is_overhead(local_map, parameters))]
     return [objects[indices] for indices in segment_indices(objects, parameters)]
 
 
