@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from placecell.core.types import Float64
+from placecell.datasets import open_drive
+from town import read_origin, sensor
 from town.drives.robots import two_robots
 from town.geometry.scene import Scene
 from town.places import PLACES, Place, build_place
@@ -58,6 +60,16 @@ def test_robots_of_a_drive_meet_on_the_same_way(built: tuple[str, Place, Route])
     nearest = np.linalg.norm(b[:, None] - a[None], axis=2).min(axis=1)
     assert np.mean(nearest < 3.5) > 0.7
     assert route.length() < 135.0
+
+
+def test_robot_b_begins_where_robot_a_ends(tmp_path: Path) -> None:
+    lidar = sensor("vlp-16", columns=60)
+    a, b = two_robots(tmp_path, place="indoor", seed=4, scans=30, lidar=lidar)
+    last, first = (
+        (read_origin(folder) @ open_drive(folder).poses)[at, :2, 3]
+        for folder, at in ((a, -1), (b, 0))
+    )
+    assert np.linalg.norm(last - first) < 2.0
 
 
 def test_route_runs_on_free_ground(built: tuple[str, Place, Route]) -> None:

@@ -4,6 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 from string import ascii_lowercase
 
+import numpy as np
+
 from placecell.segmentation.pipeline import Progress, silent
 from town.city import City
 from town.drives.drive import check, write_drive
@@ -66,6 +68,8 @@ def two_robots(
     spacing = kind.spacing if spacing is None else spacing
     # The inner lane of a turn is shorter than the center line.
     town, route = build_place(place, seed, 1.08 * scans * spacing + 4.0, floor, differing)
+    if place != STREETS:
+        route = fitted(route, scans * spacing)
     lidar = replace(
         lidar,
         columns=lidar.columns if columns is None else columns,
@@ -89,6 +93,22 @@ def two_robots(
         )
         drives.append(drive)
     return drives[0], drives[1]
+
+
+def fitted(route: Route, meters: float) -> Route:
+    """Return the start of a route whose lanes have at least this length in both directions.
+
+    So robot B begins where robot A ends, and no earlier.
+
+    Args:
+        route: route that is long enough.
+        meters: length of the drives, meters.
+    """
+    for length in np.arange(meters, arc_lengths(route.center)[-1], 0.5):
+        start = route.cut(0.0, float(length))
+        if min(start.length(), start.reversed().length()) >= meters:
+            return start
+    return route
 
 
 def several_robots(
