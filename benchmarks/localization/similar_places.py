@@ -1,12 +1,12 @@
 """Similar places that are simulated: indoor floors of one building, and streets of equal houses.
 
 Two robots drive through each place in opposite directions. One makes the map, the other localizes.
-Each query is asked twice: with the right place among the maps, and without it. Without it every
-pose is wrong.
+Each query is asked with the right place among the maps, and without it. Without it every pose is
+wrong.
 
-Floors: each floor has its own map. Without the right floor, the maps of the other floors remain.
-Streets: all houses of the town have one of four designs. Without the right street, the map has no
-segment within 60 m of the robot.
+Floors: each floor has its own map. Without the right floor, the maps of the other floors remain, or
+the map of one of them. Streets: all houses of the town have one of four designs. Without the right
+street, the map has no segment within 60 m of the robot.
 """
 
 from collections.abc import Iterator, Sequence
@@ -44,6 +44,9 @@ FLOORS = 3
 DIFFERING = (0.0, 0.1, 0.3, 0.5)
 """Share of the furniture that differs between the floors, for one building after the other."""
 
+PRESENT, ABSENT, ONE_OTHER = "right place in the maps", "right place left out", "one other floor"
+"""Which maps a query is asked in: all, all but the right one, or one that is not the right one."""
+
 STREET_METERS = 900.0
 """Total length of the streets of a town, meters."""
 
@@ -71,7 +74,7 @@ class SimilarTrial:
 
     Attributes:
         places: name of the building or town.
-        present: whether the right place was among the maps.
+        case: which maps were searched: `PRESENT`, `ABSENT` or `ONE_OTHER`.
         differing: share of the furniture that differs between the floors; None for streets.
         segments: number of segments of the query.
         right: whether the pose is right: in the right map, within the tolerance.
@@ -81,7 +84,7 @@ class SimilarTrial:
     """
 
     places: str
-    present: bool
+    case: str
     differing: float | None
     segments: int
     right: bool
@@ -193,14 +196,13 @@ def measure_similar_places(
             f"{len(names)} groups of similar places have {len(done)} queries of "
             f"{FEWEST_SEGMENTS} segments or more; {trials} trials need more. Increase --scans."
         )
-    cases = {"right place in the maps": True, "right place left out": False}
     shares = sorted({one.differing for one in done if one.differing is not None})
     return {
         **summary(done),
         "kind": kind,
         "by_case": {
-            name: summary([one for one in done if one.present == present])
-            for name, present in cases.items()
+            case: summary([one for one in done if one.case == case])
+            for case in dict.fromkeys(one.case for one in done)
         },
         "by_share": {
             f"{share:.1f}": summary([one for one in done if one.differing == share])
@@ -241,28 +243,29 @@ def run_group(
         for query in pair.queries(engine, frame)
         if len(query.codes) >= FEWEST_SEGMENTS and query.mapped
     ]
-    asked = [(*one, present) for one in queries for present in (True, False)]
+    cases = (PRESENT, ABSENT, ONE_OTHER) if len(maps) > 1 else (PRESENT, ABSENT)
+    asked = [(*one, case) for one in queries for case in cases]
     chosen = spread(len(asked), trials)
     done = []
     for number in progress(chosen.tolist(), len(chosen), f"trials in {group.name}"):
-        name, query, present = asked[number]
-        found = localized(engine, maps, query, name, present)
-        done.append(trial_of(found, group, query, name, present))
+        name, query, case = asked[number]
+        found = localized(engine, maps, query, name, case)
+        done.append(trial_of(found, group, query, name, case))
     for name in maps:
         engine.delete_map(name)
     return done
 
 
 def localized(
-    engine: Engine, maps: dict[str, CompactMap], query: PoseQuery, name: str, present: bool
+    engine: Engine, maps: dict[str, CompactMap], query: PoseQuery, name: str, case: str
 ) -> LocalizationResult:
-    """Localize a query in all maps, or in all without the right place."""
+    """Localize a query in the maps of a case; `name` is the right one."""
     seen = Descriptors(engine.model.id, query.codes, None, query.centroids, {})
-    if present:
+    if case == PRESENT:
         return engine.localize(seen, list(maps), K)
     others = [each for each in maps if each != name]
     if others:
-        return engine.localize(seen, others, K)
+        return engine.localize(seen, others[:1] if case == ONE_OTHER else others, K)
     content = maps[name]
     where = query.truth.apply(query.sensor)
     apart = np.linalg.norm((content.centroids - where)[:, :2], axis=1)
@@ -274,19 +277,19 @@ def localized(
 
 
 def trial_of(
-    found: LocalizationResult, group: SimilarPlaces, query: PoseQuery, name: str, present: bool
+    found: LocalizationResult, group: SimilarPlaces, query: PoseQuery, name: str, case: str
 ) -> SimilarTrial:
     """Compare the result of a query with the truth."""
     best = found[0]
     pose, probability = best.localization.pose, best.localization.probability
     right = False
-    if pose is not None and present and best.snapshot.name == name:
+    if pose is not None and case == PRESENT and best.snapshot.name == name:
         meters, angle = pose.difference(query.truth, query.sensor)
         right = meters <= TOLERANCE[0] and bool(np.degrees(angle) <= TOLERANCE[1])
     wrong = pose is not None and not right
     return SimilarTrial(
         places=group.name,
-        present=present,
+        case=case,
         differing=group.differing,
         segments=len(query.codes),
         right=right,

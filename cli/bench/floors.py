@@ -58,8 +58,8 @@ def floors(
     floors; five different segments; unequal sizes; deduplicated maps; two models; other buildings.
 
     With --simulate the floors or streets are simulated with their objects, and two robots drive
-    through each in opposite directions. Half of the requests are asked without the map of the right
-    place; then each pose is wrong.
+    through each in opposite directions. Half of the requests or more are asked without the map of
+    the right place; then each pose is wrong.
     """
     from benchmarks.localization.floors import measure_floors
     from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
