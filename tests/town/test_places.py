@@ -1,11 +1,15 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float64
 from placecell.datasets import open_drive
-from town import read_origin, sensor
+from placecell.segmentation.local_map import Accumulator
+from placecell.segmentation.pipeline import segment_map
+from town import read_origin, sensor, write_drive
 from town.drives.robots import two_robots
 from town.geometry.scene import Scene
 from town.places import PLACES, Place, build_place
@@ -178,3 +182,22 @@ def test_floor_or_share_out_of_range_is_refused(
 def test_sensor_that_is_too_high_for_the_doors_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"Invalid mount 2\.5 m: .*'indoor' up to 2\.0 m"):
         two_robots(tmp_path, place="indoor", scans=2, mount=2.5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["vlp-16", "hdl-64e"])
+def test_capture_has_a_usual_number_of_segments(
+    built: tuple[str, Place, Route], name: str, tmp_path: Path
+) -> None:
+    """A place has as many segments as a street, indoors fewer; their sizes are usual, too."""
+    kind, place, route = built
+    lidar = replace(sensor(name), height=PLACES[kind].sensor_height)
+    spacing = PLACES[kind].spacing
+    folder = write_drive(
+        tmp_path, place, route.cut(40.0, 30.0), traffic_seed=1, scans=12, spacing=spacing,
+        lidar=lidar,
+    )  # fmt: skip
+    clouds = segment_map(Accumulator(open_drive(folder), PROTOCOL_V1).local_map(11), PROTOCOL_V1)
+    low, high = (5, 40) if kind == "indoor" else (20, 120)
+    assert low <= len(clouds) <= high
+    assert 120 <= np.median([len(cloud) for cloud in clouds]) <= 1500
