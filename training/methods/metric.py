@@ -91,20 +91,22 @@ def train(
     The history holds the loss and the top-1 of the validation groups for each epoch.
     """
     torch.manual_seed(run.seed)
-    classes = training.without_small_groups(2)
-    extractor = DescriptorNetwork(network, *normalization_statistics(classes), recipe.dropout)
-    loss_of = losses(len(classes.group_sizes()))[recipe.loss]()
+    # Indices of the segments that have a match: a copy of these segments could take a gigabyte.
+    usable = np.flatnonzero(training.group_sizes()[training.groups] >= 2)
+    groups = np.unique(training.groups[usable], return_inverse=True)[1]
+    synthetic = None if training.synthetic is None else training.synthetic[usable]
+    extractor = DescriptorNetwork(network, *normalization_statistics(training), recipe.dropout)
+    loss_of = losses(int(groups.max()) + 1)[recipe.loss]()
     model = nn.ModuleList([extractor, loss_of])
-    steps = len(classes) // (GROUPS * VIEWS)
-    synthetic = classes.synthetic
+    steps = len(usable) // (GROUPS * VIEWS)
 
     def draw(_epoch: int, random: np.random.Generator) -> Iterator[LabeledBatch]:
         for _ in range(steps):
-            chosen = draw_batch(classes.groups, random, synthetic, recipe.recorded_share)
+            chosen = draw_batch(groups, random, synthetic, recipe.recorded_share)
             occupancy, extents = recipe.augmentation.copies(
-                classes.segments.take(chosen), classes.parameters, random
+                training.segments.take(usable[chosen]), training.parameters, random
             )
-            yield occupancy, extents, classes.groups[chosen]
+            yield occupancy, extents, groups[chosen]
 
     def loss_in(batch: LabeledBatch) -> BatchLoss:
         occupancy, extents, labels = map(torch.from_numpy, batch)
