@@ -38,7 +38,7 @@ class SiteSample:
         return state.digest()
 
 
-class MapVersion(Protocol):
+class SampledLayers(Protocol):
     """Version of a map."""
 
     def __len__(self) -> int: ...
@@ -57,14 +57,14 @@ class SiteCalibrations:
     def __init__(self) -> None:
         self._computing = Lock()
         self._known: tuple[str, bytes, SiteCalibration] | None = None
-        self._latest: tuple[Callable[[], MapVersion | None], str, SiteCalibration] | None = None
+        self._latest: tuple[Callable[[], SampledLayers | None], str, SiteCalibration] | None = None
 
     @property
     def latest(self) -> SiteCalibration | None:
         """Return the newest calibration; None if none was needed yet."""
         return None if self._latest is None else self._latest[2]
 
-    def of(self, layers: MapVersion, manifest: Manifest) -> SiteCalibration | None:
+    def of(self, layers: SampledLayers, manifest: Manifest) -> SiteCalibration | None:
         """Return the calibration of a version; None if the model has no site constants.
 
         Args:
