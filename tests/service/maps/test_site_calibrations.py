@@ -135,6 +135,30 @@ def test_probabilities_depend_on_the_version_only(serve: Any, sited: Manifest) -
         assert told(client) == after
 
 
+def test_request_that_reaches_many_maps_calibrates_the_first_ones_only(
+    serve: Any, sited: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    contents = {name: seen_map(sited, 40, 2, first_id=100 + ord(name)) for name in "abc"}
+    # Most candidates come from map b.
+    codes = np.concatenate([contents["b"].codes[:30], contents["a"].codes[:5]])
+    body = {"model_id": sited.model_id, "codes": codes.tolist(), "k": 1}
+    with serve("sited") as client:
+        for name, content in contents.items():
+            client.put(f"/maps/{name}", content=encode(content))
+        full = client.post("/match", json=body).json()["queries"]
+        monkeypatch.setattr("service.search.matching.CALIBRATED", 1)
+        some = client.post("/match", json=body).json()["queries"]
+    for of_all, of_some in zip(full, some, strict=True):
+        (one,), (other,) = of_all["candidates"], of_some["candidates"]
+        assert (one["map"], one["id"], one["distance"]) == (
+            other["map"],
+            other["id"],
+            other["distance"],
+        )
+        assert (one["probability"] == other["probability"]) == (one["map"] == "b")
+        assert 0 < other["probability"] < 1
+
+
 def sited_union(base: CompactMap, more: CompactMap) -> CompactMap:
     return MapLayers.of(base).after(Delta(more, np.zeros(0, np.uint32))).content()
 
