@@ -28,7 +28,7 @@ from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
 
-SAMPLE, BLOCKS = 1 << 13, 16
+SAMPLE, BLOCKS = 1 << 13, 8
 """Largest number of segments that a calibration reads, and the runs of rows that they come from.
 Consecutive rows are consecutive captures, which see the same objects."""
 
