@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from placecell.localization import Candidates, localize
+from placecell.localization import Candidates, LocalizationParameters, localize
 from service.core.problems import Problem
 from service.core.settings import Limits
 from service.core.timing import Timing
@@ -53,4 +53,6 @@ def _compile_all(models: Models, limits: Limits) -> None:
             model.describer.prepare(scan, Timing())
     rows = np.arange(SEGMENTS)[:, None]
     candidates = Candidates(centers, rows, centers[:, None], np.ones((SEGMENTS, 1)))
-    localize(candidates, confidence=models.default.confidence)
+    # With a lower limit, correspondences are also voted on, as in requests of many segments.
+    parameters = LocalizationParameters(most=SEGMENTS - 1)
+    localize(candidates, parameters, models.default.confidence)

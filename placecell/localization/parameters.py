@@ -57,7 +57,7 @@ class LocalizationParameters:
     most_views: int = 32
     """Largest number of map segments that are compared with a query: the nearest within `gate`.
     They are mostly views of one segment. Nine of ten queries have fewer than 25."""
-    most_near_rows: int = 50_000
+    most_near_rows: int = 10_000
     """Largest number of map segments around the robot from which the nearest ones are chosen."""
 
     # Judgment.

@@ -7,8 +7,10 @@ quadratic.
 
 import numpy as np
 
-from placecell.core.cancellation import current
-from placecell.core.types import Float64
+from placecell.core.cancellation import current, is_cancelled
+from placecell.core.grid_cells import SEED
+from placecell.core.jit import compiled, compiled_part
+from placecell.core.types import Float64, Int32, Int64, UInt64
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.parameters import LocalizationParameters
 
@@ -17,7 +19,11 @@ def most_voted(found: Correspondences, parameters: LocalizationParameters) -> Co
     """Return at most `parameters.most` correspondences, those in the fullest cells, in their order.
 
     For each yaw, a correspondence votes for the translation that moves its query to its place. Its
-    value is the weight of its best cell, in which each query counts once.
+    value is the weight of its best cell, in which each query counts once, by its heaviest vote.
+
+    Args:
+        found: correspondences; those of a query stand together, the heaviest first.
+        parameters: limit and cell sizes.
 
     Raises:
         Cancelled: The request is late, or its client disconnected.
@@ -25,41 +31,86 @@ def most_voted(found: Correspondences, parameters: LocalizationParameters) -> Co
     if len(found) <= parameters.most:
         return found
     worth = np.zeros(len(found))
-    # About the middle of the scan, so that a small yaw error moves the points little.
-    source = found.source - np.median(found.source, axis=0)
-    steps = int(np.ceil(360 / parameters.vote_yaw))
     token = current()
-    for yaw in 2 * np.pi * np.arange(steps) / steps:
-        token.check()
-        shift = found.target - _turned(source, yaw)
-        # Two grids, half a cell apart: a border of one is in the interior of the other.
-        for offset in (0.0, 0.5):
-            cells = np.floor(shift / parameters.vote_cell + offset).astype(np.int64)
-            worth = np.maximum(worth, _filled(found, cells))
+    _vote(
+        queries=found.queries,
+        # About the middle of the scan, so that a small yaw error moves the points little.
+        source=found.source - np.median(found.source, axis=0),
+        target=found.target - np.median(found.target, axis=0),
+        weights=found.weights,
+        yaws=2 * np.pi * np.arange(0, 360, parameters.vote_yaw) / 360,
+        edge=parameters.vote_cell,
+        seed=SEED,
+        flag=token.flag,
+        worth=worth,
+    )
+    token.check()
     best = np.argsort(-worth, kind="stable")[: parameters.most]
     return found.take(np.sort(best))
 
 
-def _turned(points: Float64, yaw: float) -> Float64:
-    """Return points (n, 3) rotated about z by yaw, radians."""
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    x, y, z = points.T
-    return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=1)
+@compiled
+def _vote(
+    queries: Int64,
+    source: Float64,
+    target: Float64,
+    weights: Float64,
+    yaws: Float64,
+    edge: float,
+    seed: UInt64,
+    flag: Int32,
+    worth: Float64,
+) -> None:
+    """Raise `worth` to the weight of all queries that vote for each correspondence's best cell.
+
+    The cells of one yaw are in a hash table with linear probing. A table entry is of the present
+    round if its stamp is.
+    """
+    slots = 64
+    while slots < 2 * len(queries):
+        slots *= 2
+    stamps = np.zeros(slots, dtype=np.int64)
+    cells = np.empty((slots, 3), dtype=np.int64)
+    last = np.empty(slots, dtype=np.int64)
+    sums = np.empty(slots)
+    slot_of = np.empty(len(queries), dtype=np.int64)
+    stamp = 0
+    for yaw in yaws:
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        # Two grids, half a cell apart: a border of one is in the interior of the other.
+        for offset in (0.0, 0.5):
+            if is_cancelled(flag):
+                return
+            stamp += 1
+            for one in range(len(queries)):
+                x = target[one, 0] - cos * source[one, 0] + sin * source[one, 1]
+                y = target[one, 1] - sin * source[one, 0] - cos * source[one, 1]
+                i = np.int64(np.floor(x / edge + offset))
+                j = np.int64(np.floor(y / edge + offset))
+                k = np.int64(np.floor((target[one, 2] - source[one, 2]) / edge + offset))
+                slot = _slot(i, j, k, seed, slots)
+                while stamps[slot] == stamp and not (
+                    cells[slot, 0] == i and cells[slot, 1] == j and cells[slot, 2] == k
+                ):
+                    slot = (slot + 1) & (slots - 1)
+                if stamps[slot] != stamp:
+                    stamps[slot] = stamp
+                    cells[slot, 0], cells[slot, 1], cells[slot, 2] = i, j, k
+                    last[slot] = -1
+                    sums[slot] = 0.0
+                if last[slot] != queries[one]:
+                    last[slot] = queries[one]
+                    sums[slot] += weights[one]
+                slot_of[one] = slot
+            for one in range(len(queries)):
+                worth[one] = max(worth[one], sums[slot_of[one]])
 
 
-def _filled(found: Correspondences, cells: "np.ndarray") -> Float64:
-    """Return the weight of all queries that vote for each correspondence's cell, float64 (m,)."""
-    cells = cells - cells.min(axis=0)
-    size = cells.max(axis=0) + 1
-    keys = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]
-    # A query that votes for a cell more than once counts by its heaviest vote.
-    order = np.lexsort((-found.weights, found.queries, keys))
-    same = (np.diff(keys[order], prepend=-1) == 0) & (
-        np.diff(found.queries[order], prepend=-1) == 0
-    )
-    weights = np.where(same, 0.0, found.weights[order])
-    starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    sums = np.add.reduceat(weights, starts)
-    filled = np.empty(len(keys))
-    filled[order] = np.repeat(sums, np.diff(starts, append=len(keys)))
-    return filled
+@compiled_part
+def _slot(i: np.int64, j: np.int64, k: np.int64, seed: UInt64, slots: int) -> np.int64:
+    """Return the slot of a cell; with the seed, nobody can choose cells that share a slot."""
+    mixed = seed[0]
+    for number in (i, j, k):
+        mixed = (mixed ^ np.uint64(number)) * seed[1]
+        mixed ^= mixed >> np.uint64(29)
+    return np.int64((mixed >> np.uint64(7)) & np.uint64(slots - 1))

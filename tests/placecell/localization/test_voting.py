@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.localization.correspondences import Correspondences
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
@@ -51,3 +52,28 @@ def test_a_query_counts_once_in_a_cell() -> None:
     )
     kept = most_voted(crowd, LocalizationParameters(most=300))
     assert np.isin(right, kept.queries).all()
+
+
+def test_two_motions_are_both_kept() -> None:
+    one, right = haystack(30, 2_000, seed=0)
+    other, also_right = haystack(30, 2_000, seed=1)
+    both = Correspondences(
+        np.concatenate([one.queries, other.queries + len(one)]),
+        np.arange(len(one) + len(other)),
+        np.arange(len(one) + len(other)),
+        np.concatenate([one.source, other.source]),
+        np.concatenate([one.target, other.target + (2_000.0, -5_000.0, 0.0)]),
+        np.ones(len(one) + len(other)),
+        len(one) + len(other),
+    )
+    kept = most_voted(both, LocalizationParameters(most=600))
+    assert np.isin(right, kept.queries).all()
+    assert np.isin(also_right + len(one), kept.queries).all()
+
+
+def test_request_that_is_late_is_stopped() -> None:
+    found, _ = haystack(30, 4_000)
+    token = CancelToken()
+    token.cancel()
+    with cancelled_by(token), pytest.raises(Cancelled):
+        most_voted(found, LocalizationParameters())

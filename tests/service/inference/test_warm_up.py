@@ -6,7 +6,7 @@ from typing import Any
 from placecell_client import encode
 
 from placecell.core import nearest
-from placecell.localization import clique, consistency, correspondences, refinement
+from placecell.localization import clique, consistency, correspondences, refinement, voting
 from service.api.body import json_arrays
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
@@ -14,7 +14,15 @@ from tests.service.service_builders import cloud, map_of, random_codes, request_
 def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: Any) -> None:
     loops = {
         each
-        for module in (json_arrays, nearest, clique, consistency, correspondences, refinement)
+        for module in (
+            json_arrays,
+            nearest,
+            clique,
+            consistency,
+            correspondences,
+            refinement,
+            voting,
+        )
         for each in vars(module).values()
         if hasattr(each, "nopython_signatures")
     }
@@ -22,6 +30,7 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         before = {each: len(each.nopython_signatures) for each in loops}
         assert before[consistency.count_votes]
         assert before[correspondences._lead]
+        assert before[voting._vote]
         yard = encode(map_of(random_codes(50), manifest.model_id))
         for name in ("a", "b", "c"):
             assert client.put(f"/maps/{name}", content=yard).status_code == 201
