@@ -30,6 +30,7 @@ from service.inference.describer import Descriptors
 from service.search.localization import LocalizationResult
 from town import City, several_robots, two_robots
 from town.drives.drive import read_origin
+from town.drives.robots import fitted
 from town.sensing.lidar import Lidar
 
 FEWEST_SEGMENTS = 5
@@ -136,13 +137,14 @@ def look_alike_streets(
         progress: wraps the loops.
     """
     city = City.build(seed, STREET_METERS, look_alikes=1.0)
-    route = city.route(city.planner.every_street())
+    whole = city.route(city.planner.every_street())
+    scans = min(scans, int(0.9 * whole.length()))
     drives = several_robots(
         folder / f"town-{seed}",
         city,
-        route,
+        fitted(whole, scans),
         2,
-        scans=min(scans, int(route.length())),
+        scans=scans,
         lidar=lidar,
         overwrite=True,
         progress=progress,

@@ -98,6 +98,7 @@ def test_simulated_places_are_asked_with_and_without_the_right_one(
     assert len(cases) == (3 if kind == "indoor" else 2)
     assert {row["trials"] for row in cases.values()} <= {2, 3}
     assert sum(row["right"] for name, row in cases.items() if name != PRESENT) == 0
+    assert len(report["groups"]) == 1
     assert report["wrong_but_sure"] == 0
     assert [*report["by_share"]] == (["0.0"] if kind == "indoor" else [])
 
