@@ -13,6 +13,7 @@ from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import describe_neighborhood
+from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.export.onnx_graph import Exported, ExportedContext, export_onnx
@@ -24,6 +25,7 @@ from training.methods.context import (
     Projection,
     group_weights,
     learn_neighborhood,
+    learn_rotation,
     rotation,
     scatter,
 )
@@ -151,6 +153,23 @@ def test_rotation_keeps_distances_and_is_fixed() -> None:
     turn = rotation(64)
     assert turn @ turn.T == pytest.approx(np.eye(64), abs=1e-5)
     assert (turn == rotation(64)).all()
+
+
+def test_learned_rotation_loses_less_by_quantization() -> None:
+    random = np.random.default_rng(0)
+    corners = random.choice([-3.0, -1, 1, 3], (4000, 8)).astype(np.float32)
+    spread = corners + random.normal(0, 0.2, corners.shape).astype(np.float32)
+    descriptors = spread @ rotation(8)
+
+    def loss(turn: np.ndarray) -> float:
+        turned = descriptors @ turn
+        quantizer = Quantizer.fit(turned, 4)
+        return float(np.square(quantizer.decode(quantizer.encode(turned)) - turned).mean())
+
+    learned = learn_rotation(descriptors, 4)
+    assert learned @ learned.T == pytest.approx(np.eye(8), abs=1e-5)
+    assert loss(learned) < 0.9 * loss(rotation(8))
+    assert (learned == learn_rotation(descriptors, 4)).all()
 
 
 def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:

@@ -26,7 +26,8 @@ from placecell.descriptors.site_calibration import SiteConstants
 from placecell.localization import confidence
 from training.data.training_set import Source, TrainingSet
 from training.export.card import write_card
-from training.methods.networks import describe
+from training.methods.context import Projection, learn_rotation
+from training.methods.networks import DescriptorNetwork, describe
 from training.methods.registry import Trained
 
 VALIDATION_SHARE = 0.1
@@ -188,7 +189,6 @@ def export_network(
     # Torch's exporter is slow to import, so it is imported only here.
     from training.export.onnx_graph import Exported, ExportedContext, export_onnx
     from training.export.quantization import quantize
-    from training.methods.context import rotation
 
     recorded = data.training.recorded()
     segment = Exported(trained.network, *axes)
@@ -200,7 +200,9 @@ def export_network(
         # Four times the dimensions with a quarter of the bits take the same number of bytes.
         around, per_byte = NEIGHBORHOOD_V1, 4
         dimension += trained.projection.axes.shape[1]
-        network = ExportedContext(segment, trained.projection, rotation(dimension))
+        parts = joined_parts(trained.network, trained.projection, *axes, recorded)
+        turn = learn_rotation(parts, per_byte)
+        network = ExportedContext(segment, trained.projection, turn)
         export_onnx(network, grid, folder / FULL_FILE)
         quantize(folder / FULL_FILE, data.training, folder / MODEL_FILE)
         files.append(FULL_FILE)
@@ -215,6 +217,20 @@ def export_network(
     ).with_files(folder, files)
     described = OnnxExtractor(folder, manifest).describe(recorded.segments, recorded.neighborhood)
     return replace(manifest, quantizer=Quantizer.fit(described, per_byte))
+
+
+def joined_parts(
+    network: DescriptorNetwork,
+    projection: Projection,
+    mean: Float32,
+    axes: Float32,
+    data: TrainingSet,
+) -> Float32:
+    """Return both parts of the descriptors side by side, without their rotation."""
+    assert data.neighborhood is not None
+    seen = np.flatnonzero(data.neighborhood.any(axis=1))
+    own = (describe(network, data.take(seen)) - mean) @ axes
+    return np.concatenate([own, projection.part(data.neighborhood[seen])], axis=1)
 
 
 def publish_eigenvalue(folder: Path, data: Data) -> Manifest:

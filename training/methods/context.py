@@ -19,6 +19,7 @@ from scipy.spatial.distance import cdist
 from scipy.stats import ortho_group
 
 from placecell.core.types import Bool, Float32, Float64, Int64
+from placecell.descriptors.quantizer import Quantizer
 from training.data.training_set import TrainingSet
 from training.methods.group_based import GroupBasedRecipe
 from training.methods.metric import MetricRecipe
@@ -60,6 +61,12 @@ class Projection:
     axes: Float32
     weight: float
     center: Float32
+
+    def part(self, neighborhood: Float32) -> Float32:
+        """Return the neighborhood's part of the descriptor, float32 (segments, dimension)."""
+        projected = (neighborhood - self.mean) @ self.axes
+        projected /= np.linalg.norm(projected, axis=1, keepdims=True)
+        return np.asarray((projected - self.center) * np.float32(self.weight))
 
 
 def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projection:
@@ -145,6 +152,26 @@ def scatter(
         within += off.T @ (np.diag(weights.sum(axis=1)) - weights) @ off
         total += weights.sum()
     return within / total, centers
+
+
+def learn_rotation(descriptors: Float32, per_byte: int, steps: int = 20) -> Float32:
+    """Learn the rotation that loses least by quantization, (dimension, dimension).
+
+    Iterative quantization (Gong and Lazebnik, 2011), with the quantizer's levels in place of signs:
+    round the rotated descriptors, then rotate the descriptors as near to them as possible.
+
+    Args:
+        descriptors: descriptors of training segments, float32 (segments, dimension).
+        per_byte: number of dimensions that share a byte (see `Quantizer`).
+        steps: number of repetitions.
+    """
+    turn = rotation(descriptors.shape[1])
+    for _ in range(steps):
+        turned = descriptors @ turn
+        quantizer = Quantizer.fit(turned, per_byte)
+        left, _, right = np.linalg.svd(descriptors.T @ quantizer.decode(quantizer.encode(turned)))
+        turn = np.asarray(left @ right, dtype=np.float32)
+    return turn
 
 
 def rotation(dimension: int) -> Float32:
