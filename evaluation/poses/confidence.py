@@ -94,7 +94,7 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
     sure = held_out >= 0.99
     highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
     stated = np.minimum(highest * held_out, cases.limits)
-    acceptance = Acceptance.of(stated, cases.false & ~cases.rejected)
+    acceptance = Acceptance.by_sensor(stated, cases.false & ~cases.rejected, cases.sensors)
     fitted = logistic(cases.features, cases.right, highest)
     threshold = acceptance.threshold(max(DEFAULT_RISK, acceptance.smallest_risk))
     told = (stated > threshold) & ~cases.rejected

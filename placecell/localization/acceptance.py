@@ -7,13 +7,16 @@ poses have a probability above a threshold. The smallest threshold is used for w
     (k + 1) / (n + 1) <= alpha
 
 Then the expected risk of a further query is at most alpha, if it is like the calibration queries.
+A user has one sensor, so the same holds for the queries of each sensor alone, as far as their
+number allows: with fewer than 1 / alpha of them, none of their false poses exceeds the threshold.
 Source: Angelopoulos, Bates, Fisch, Lei, Schuster: *Conformal risk control*. ICLR 2024.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from placecell.core.types import Bool, Float64
 
@@ -31,10 +34,12 @@ class Acceptance:
     Attributes:
         queries: number of calibration queries.
         false: probabilities of the false poses, largest first; at most the `KEPT` largest.
+        sensors: the queries of each sensor, by its name.
     """
 
     queries: int
     false: tuple[float, ...]
+    sensors: tuple[tuple[str, "Acceptance"], ...] = ()
 
     @classmethod
     def of(cls, probabilities: Float64, false: Bool) -> Self:
@@ -42,6 +47,18 @@ class Acceptance:
         wrong = np.sort(probabilities[false])[::-1][:KEPT]
         # Rounded up, so that no threshold is below the probability that it excludes.
         return cls(len(probabilities), tuple((np.ceil(wrong * 1e9) / 1e9).tolist()))
+
+    @classmethod
+    def by_sensor(cls, probabilities: Float64, false: Bool, sensors: NDArray[Any]) -> Self:
+        """Build as `of`, with the queries of each sensor, (n,) names, also by themselves."""
+        pooled = cls.of(probabilities, false)
+        return replace(
+            pooled,
+            sensors=tuple(
+                (name, Acceptance.of(probabilities[sensors == name], false[sensors == name]))
+                for name in np.unique(sensors).tolist()
+            ),
+        )
 
     @property
     def smallest_risk(self) -> float:
@@ -66,18 +83,27 @@ class Acceptance:
                 f"queries support {self.smallest_risk:.2g} or more."
             )
         if allowed < len(self.false):
-            return self.false[allowed]
-        # All false poses are allowed, or more than the file keeps.
-        return self.false[-1] if len(self.false) == KEPT else 0.0
+            pooled = self.false[allowed]
+        else:  # all false poses are allowed, or more than the file keeps
+            pooled = self.false[-1] if len(self.false) == KEPT else 0.0
+        alone = (each.threshold(max(risk, each.smallest_risk)) for _, each in self.sensors)
+        return max([pooled, *alone])
 
     def as_json(self) -> dict[str, Any]:
         """Return the content for `confidence.json`."""
-        return {"queries": self.queries, "false": list(self.false)}
+        content: dict[str, Any] = {"queries": self.queries, "false": list(self.false)}
+        if self.sensors:
+            content["sensors"] = {name: each.as_json() for name, each in self.sensors}
+        return content
 
     @classmethod
     def of_json(cls, content: dict[str, Any]) -> Self:
         """Read the content of `confidence.json`."""
-        return cls(int(content["queries"]), tuple(float(each) for each in content["false"]))
+        return cls(
+            int(content["queries"]),
+            tuple(float(each) for each in content["false"]),
+            tuple((name, cls.of_json(each)) for name, each in content.get("sensors", {}).items()),
+        )
 
 
 def check_risk(risk: float) -> None:

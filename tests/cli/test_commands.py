@@ -497,3 +497,14 @@ def test_fit_confidence_writes_constants(tmp_path: Path, monkeypatch: pytest.Mon
     assert content["fitted_on"]["towns"] == [1, 2]
     assert content["held_out"]["reliability"]
     assert "two or more" in run("fit-confidence", "--town", 1, "-o", file, status=1).output
+
+
+def test_fit_confidence_refuses_a_folder_without_pairs_and_an_unknown_sensor(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "confidence.json"
+    empty = run("fit-confidence", "--pairs", tmp_path, "-o", file, status=1)
+    assert "SEED-SENSOR-PLACE" in empty.output
+    strange = run("fit-confidence", "--drive", "town:1:sonar", "-o", file, status=1)
+    assert "sonar" in strange.output
+    assert not file.exists()

@@ -76,6 +76,20 @@ def test_a_further_query_is_falsely_accepted_at_most_at_the_risk() -> None:
     assert np.mean(accepted) <= risk + 0.012
 
 
+def test_each_sensor_alone_keeps_the_risk() -> None:
+    # Pooled, one false pose in 40 is allowed at 0.05; of the 20 queries of sensor b, none is.
+    values = np.array([0.9, 0.8, 0.3] + [1.0] * 37)
+    false = np.arange(40) < 3
+    sensors = np.array(["b", "b", "a"] + ["b"] * 18 + ["a"] * 19)
+    pooled, each = Acceptance.of(values, false), Acceptance.by_sensor(values, false, sensors)
+    assert pooled.threshold(0.05) == 0.8
+    assert each.threshold(0.05) == 0.9
+    assert dict(each.sensors)["a"] == Acceptance(20, (0.3,))
+    # Two false poses of sensor b, and one more of sensor a, are 3 in 21 and 2 in 21.
+    assert each.threshold(0.15) == 0.0
+    assert Acceptance.of_json(each.as_json()) == each
+
+
 def test_more_false_poses_than_a_file_keeps_never_lower_the_threshold() -> None:
     values = np.linspace(0, 1, 2 * KEPT)
     made = Acceptance.of(values, np.ones(len(values), dtype=bool))
