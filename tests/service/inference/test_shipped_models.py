@@ -13,6 +13,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.pair_classifier import load_pair_classifier
 from placecell.descriptors.quantizer import Quantizer
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER, shipped_models
+from placecell.descriptors.site_calibration import SiteConstants, calibrate
 from tests.service.conftest import Start
 from tests.service.service_builders import cloud, map_of, packed, post_packed, request_of
 
@@ -42,17 +43,21 @@ def test_descriptor_and_probability_over_http_equal_those_of_the_library(
         single = client.post("/describe", json=request_of(CLOUDS[:1], SENSOR)).json()
         same = single["descriptors"][0]["codes"] == codes[0].tolist()
         assert same == (manifest.neighborhood is None)
-        client.put("/maps/m", content=encode(map_of(codes, manifest.model_id, first_id=0)))
+        stored = map_of(codes, manifest.model_id, first_id=0)
+        client.put("/maps/m", content=encode(stored))
         matched = client.post("/match", json=request_of(CLOUDS, SENSOR) | {"k": 6}).json()
     classifier = load_pair_classifier(MODELS_FOLDER / name, manifest)
     assert classifier is not None
+    constants = SiteConstants.of(manifest)
+    site = constants and calibrate(
+        codes, stored.centroids, np.zeros(6, np.int64), manifest.quantizer, constants
+    )
+    probabilities = site.pair_probabilities if site else classifier.probabilities
     for query, answer in zip(codes, matched["queries"], strict=True):
         found = answer["candidates"]
         assert found[0]["distance"] == pytest.approx(0.0, abs=2 * manifest.quantizer.step)
         against = codes[[candidate["id"] for candidate in found]]
-        probability = classifier.probabilities(
-            np.repeat(query[None], len(against), axis=0), against
-        )
+        probability = probabilities(np.repeat(query[None], len(against), axis=0), against)
         assert [candidate["probability"] for candidate in found] == pytest.approx(
             probability, abs=1e-3
         )
