@@ -20,6 +20,7 @@ import numpy as np
 
 from placecell.core.types import Float64, Int64
 from placecell.localization.candidates import Candidates
+from placecell.localization.guided_matching import first_of_each
 from placecell.localization.pose import Pose
 
 THRESHOLDS = np.array([0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0003])
@@ -76,7 +77,7 @@ def _one_to_one(values: Float64, queries: Int64, rows: Int64) -> Float64:
     """Return the smallest value of each query, then of each row."""
     best = np.lexsort((rows, queries, values))
     for owners in (queries, rows):
-        best = best[np.sort(np.unique(owners[best], return_index=True)[1])]
+        best = best[first_of_each(owners[best])]
     return values[best]
 
 

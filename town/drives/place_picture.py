@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from placecell.core.types import Float32
-from town.drives.sensor_picture import HEIGHTS, through_camera
+from town.drives.sensor_picture import draw_scan
 from town.places import INDOOR, PLACES, build_place
 from town.sensing.sensors import sensor
 
@@ -49,20 +49,7 @@ def draw_places(file: Path) -> None:
         panel.axis("off")
     for panel, name in zip(axes.flat, PLACES, strict=False):
         points = scan_in(name)
-        right, up, depth = through_camera(points)
-        order = np.argsort(-depth)
-        order = order[depth[order] > 1.0]
-        drawn = panel.scatter(
-            right[order],
-            up[order],
-            c=points[order, 2],
-            s=0.25,
-            linewidths=0,
-            cmap="turbo",
-            vmin=HEIGHTS[0],
-            vmax=HEIGHTS[1],
-        )
-        panel.set(xlim=(-0.75, 0.75), ylim=(-0.4, 0.6), aspect="equal", xticks=[], yticks=[])
+        drawn = draw_scan(panel, points, size=0.25)
         panel.set_title(name, fontsize="medium")
     figure.colorbar(drawn, ax=axes, label="height above the ground, meters", shrink=0.6)
     file.parent.mkdir(parents=True, exist_ok=True)

@@ -4,6 +4,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 
 from placecell.core.types import Float32
@@ -51,6 +53,30 @@ def through_camera(points: Float32) -> tuple[Float32, Float32, Float32]:
     return -points[:, 1] / depth, up / depth, depth
 
 
+def draw_scan(panel: Axes, points: Float32, size: float) -> PathCollection:
+    """Draw a scan, obliquely from behind and colored by height.
+
+    Args:
+        panel: axes to draw in.
+        points: (n, 4), as `scan_of` returns them.
+        size: area of a point, square points.
+    """
+    right, up, depth = through_camera(points)
+    order = np.argsort(-depth)
+    order = order[depth[order] > 1.0]
+    panel.set(xlim=(-0.75, 0.75), ylim=(-0.4, 0.6), aspect="equal", xticks=[], yticks=[])
+    return panel.scatter(
+        right[order],
+        up[order],
+        c=points[order, 2],
+        s=size,
+        linewidths=0,
+        cmap="turbo",
+        vmin=HEIGHTS[0],
+        vmax=HEIGHTS[1],
+    )
+
+
 def draw_sensors(file: Path) -> None:
     """Draw one scan of each sensor, obliquely from behind and colored by height.
 
@@ -66,20 +92,7 @@ def draw_sensors(file: Path) -> None:
         place.axis("off")
     for place, (name, lidar) in zip(axes.flat, SENSORS.items(), strict=False):
         points = scan_of(lidar, scene, route)
-        right, up, depth = through_camera(points)
-        order = np.argsort(-depth)
-        order = order[depth[order] > 1.0]
-        drawn = place.scatter(
-            right[order],
-            up[order],
-            c=points[order, 2],
-            s=0.2,
-            linewidths=0,
-            cmap="turbo",
-            vmin=HEIGHTS[0],
-            vmax=HEIGHTS[1],
-        )
-        place.set(xlim=(-0.75, 0.75), ylim=(-0.4, 0.6), aspect="equal", xticks=[], yticks=[])
+        drawn = draw_scan(place, points, size=0.2)
         place.set_title(f"{name}: {len(points):,} points", fontsize="medium")
     figure.colorbar(drawn, ax=axes, label="height above the ground, meters", shrink=0.5)
     file.parent.mkdir(parents=True, exist_ok=True)
