@@ -84,9 +84,14 @@ class _Prober:
         self._connection: http.client.HTTPConnection | None = None
 
     def run(self, attacked: threading.Event, ended: threading.Event) -> None:
-        """Send requests at their interval until the attack ends; a late request delays the next."""
+        """Send requests at their interval until the attack ends, and one after its end.
+
+        A late request delays the next. The last one shows a service that died during a pause.
+        """
         probe, waits = self._probe, self.waits
-        while not ended.is_set() and not (probe.once and waits.done >= len(probe.bodies)):
+        last = False
+        while not last and not (probe.once and waits.done >= len(probe.bodies)):
+            last = ended.is_set()
             due = time.perf_counter()
             answered = self._answered(probe.bodies[waits.done % len(probe.bodies)], ended)
             wait = time.perf_counter() - due
