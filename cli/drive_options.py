@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.errors import clear_errors
-from placecell.datasets.scan_options import (
+from placecell.sources.scan_options import (
     DType,
     Order,
     ScanOptions,

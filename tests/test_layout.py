@@ -37,7 +37,9 @@ CLIENT = "placecell_client"
 # import each other. A module is ranked by the longest name here that it begins with.
 LAYERS = (
     ("placecell.core", "placecell_client"),
-    ("placecell.datasets", "placecell.descriptors"),
+    ("placecell.trajectories", "placecell.descriptors"),
+    ("placecell.sources",),
+    ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
     ("placecell.map_alignment",),
     ("placecell",),

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from placecell.datasets.drive import Drive
-from placecell.datasets.errors import DriveError
 from placecell.datasets.helipr import HeLiPR
 from placecell.datasets.kitti_odometry import KittiOdometry
 from placecell.datasets.kitti_raw import KittiRaw
 from placecell.datasets.mulran import MulRan
-from placecell.datasets.scan_options import ScanOptions, parse_columns, use_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import ScanOptions, parse_columns, use_scan_options
 
 FORMATS = (KittiOdometry, KittiRaw, MulRan, HeLiPR)
 

@@ -11,9 +11,9 @@ from typing import ClassVar
 import numpy as np
 
 from placecell.core.types import Float32, Float64
-from placecell.datasets.errors import DriveError
-from placecell.datasets.point_layout import KITTI, PointLayout, find_layout, implausible
-from placecell.datasets.scan_options import ScanOptions, current_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
+from placecell.sources.scan_options import ScanOptions, current_scan_options
 
 SHOWN = 5
 """Largest number of scans that a message names."""

@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float32
 from placecell.datasets.drive import Drive, check_motion, find_scans, read_table, size_of
-from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import current_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import current_scan_options
 
 XYZ = [("x", "<f4"), ("y", "<f4"), ("z", "<f4")]
 

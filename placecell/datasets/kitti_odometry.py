@@ -13,8 +13,8 @@ from placecell.datasets.drive import (
     read_lines,
     read_table,
 )
-from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import SECONDS, current_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import SECONDS, current_scan_options
 
 
 class KittiOdometry(Drive):

@@ -15,8 +15,8 @@ from placecell.datasets.drive import (
     read_lines,
     read_table,
 )
-from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import current_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import current_scan_options
 
 EARTH_RADIUS = 6_378_137.0
 """Equatorial radius of WGS 84, meters, as in KITTI's development kit."""

@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from placecell.core.types import Bool, Float64, Int64
 from placecell.datasets.drive import Drive, check_motion, check_rotations, find_scans
-from placecell.datasets.errors import DriveError
 from placecell.datasets.kitti_odometry import as_transforms
-from placecell.datasets.scan_options import current_scan_options
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import current_scan_options
 
 POSES = "global_pose.csv"
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.datasets.drive import check_rotations, read_table
-from placecell.datasets.errors import DriveError
 from placecell.datasets.kitti_odometry import as_transforms
 from placecell.segmentation.pipeline import Progress, silent
+from placecell.sources.errors import DriveError
 from town.city import City
 from town.drives.oncoming import Oncoming
 from town.geometry.scene import Layers, Scene, Scenes, Surfaces

@@ -9,7 +9,7 @@ import pytest
 import placecell
 from placecell.core.types import Float32, Float64
 from placecell.datasets import DriveError, ScanOptions, open_drive, parse_columns, use_scan_options
-from placecell.datasets.point_layout import PointLayout, find_layout
+from placecell.sources.point_layout import PointLayout, find_layout
 from tests.placecell.segment_builders import pose, write_odometry
 
 REAL = Path(placecell.__file__).resolve().parents[2] / "shared" / "real"

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from placecell.datasets.drive import check_rotations, find_scans, read_table, read_velodyne
-from placecell.datasets.errors import DriveError
+from placecell.sources.errors import DriveError
 from tests.placecell.segment_builders import MemoryDrive, pose, write_scan
 
 

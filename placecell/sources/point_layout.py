@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64, Int64
-from placecell.datasets.errors import DriveError
-from placecell.datasets.scan_options import METERS, DType, Order, ScanOptions
+from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import METERS, DType, Order, ScanOptions
 
 SAMPLED_SCANS = 8
 STRETCHES = 8

@@ -1,0 +1,1 @@
+"""Trajectories: poses over time, in the files of other programs."""
