@@ -133,12 +133,15 @@ class Recording:
             "groups": self.groups,
             "distinct": self.distinct,
         }
+        unfinished.touch()
+        mode = unfinished.stat().st_mode  # that of any new file; safetensors writes 0600
         save_file(
             # safetensors writes the memory of a view without regard to its strides.
             {name: np.ascontiguousarray(column) for name, column in columns.items()},
             unfinished,
             metadata={"header": json.dumps(header, sort_keys=True)},
         )
+        unfinished.chmod(mode)
         unfinished.replace(file)
 
     @classmethod

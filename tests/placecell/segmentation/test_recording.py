@@ -69,6 +69,12 @@ def test_round_trip_is_identical(file: Path) -> None:
         assert getattr(before, name) == getattr(after, name)
 
 
+def test_recording_has_the_mode_of_any_new_file(file: Path) -> None:
+    other = file.with_name("other")
+    other.touch()
+    assert file.stat().st_mode == other.stat().st_mode
+
+
 def test_columns_that_are_views_are_saved_as_they_read(tmp_path: Path) -> None:
     # Every second row of a larger array, and one stored column by column.
     whole = recording()
