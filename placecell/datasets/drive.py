@@ -10,6 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from placecell.core.text_files import read_lines
 from placecell.core.types import Float32, Float64
 from placecell.sources.errors import DriveError
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
@@ -266,24 +267,6 @@ def find_scans(folder: Path) -> list[Path]:
     return sorted(files, key=lambda file: int(file.stem))
 
 
-def read_lines(file: Path, what: str) -> list[str]:
-    """Read the lines of a UTF-8 text file, with or without byte order mark, LF or CRLF.
-
-    Raises:
-        DriveError: missing, a folder, unreadable, or no text.
-    """
-    try:
-        return file.read_text(encoding="utf-8-sig").splitlines()
-    except FileNotFoundError as error:
-        raise DriveError(f"{file}: missing; it must hold {what}") from error
-    except UnicodeDecodeError as error:
-        raise DriveError(
-            f"{file}: cannot be read as UTF-8 text (byte {error.start}); it must hold {what}"
-        ) from error
-    except OSError as error:
-        raise DriveError(f"{file}: cannot be read ({error.strerror})") from error
-
-
 WIDTHS = {
     7: "position and quaternion",
     8: "a TUM trajectory: time, position, quaternion",
@@ -319,28 +302,6 @@ def read_table(file: Path, columns: int, what: str) -> Float64:
         bad = int(np.flatnonzero(~np.isfinite(table).all(axis=1))[0])
         raise DriveError(f"{file}: a value is not finite (NaN or infinity), first in row {bad}")
     return table
-
-
-def check_rotations(poses: Float64, file: Path) -> None:
-    """Refuse poses whose rotation part is no rotation (a sign of another file format).
-
-    Raises:
-        DriveError: some rotation is not orthonormal to within 1e-3, or is a reflection.
-    """
-    rotation = poses[:, :3, :3]
-    off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
-    mirrored = (off <= 1e-3) & (np.linalg.det(rotation) < 0)
-    if mirrored.any():
-        raise DriveError(
-            f"{file}, pose {int(mirrored.argmax())}: its left 3x3 block is a reflection "
-            "(determinant -1), expected a rotation: its axes are left-handed. Invert one axis"
-        )
-    off = np.maximum(off, np.where(np.linalg.det(rotation) > 0, 0.0, 2.0))
-    if (off > 1e-3).any():
-        raise DriveError(
-            f"{file}, pose {int(off.argmax())}: its left 3x3 block is no rotation; 12 numbers a "
-            "pose are the rows of a 3x4 matrix, rotation left, translation right"
-        )
 
 
 def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Path) -> list[str]:

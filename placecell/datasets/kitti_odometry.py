@@ -4,17 +4,12 @@ from pathlib import Path
 
 import numpy as np
 
+from placecell.core.text_files import read_lines
 from placecell.core.types import Float64
-from placecell.datasets.drive import (
-    Drive,
-    check_motion,
-    check_rotations,
-    find_scans,
-    read_lines,
-    read_table,
-)
+from placecell.datasets.drive import Drive, check_motion, find_scans, read_table
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import SECONDS, current_scan_options
+from placecell.trajectories.poses import as_transforms, check_rotations
 
 
 class KittiOdometry(Drive):
@@ -89,13 +84,6 @@ def with_missing(files: list[Path], poses: int) -> list[Path]:
                 for number in range(poses)
             ]
     return files
-
-
-def as_transforms(rows: Float64) -> Float64:
-    """Return homogeneous transforms (n, 4, 4) of 3x4 matrices in row-major order (n, 12)."""
-    transforms = np.tile(np.eye(4), (len(rows), 1, 1))
-    transforms[:, :3, :] = rows.reshape(-1, 3, 4)
-    return transforms
 
 
 def read_calibration(file: Path) -> Float64:

@@ -6,17 +6,12 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from placecell.core.text_files import read_lines
 from placecell.core.types import Float64
-from placecell.datasets.drive import (
-    Drive,
-    check_motion,
-    check_rotations,
-    find_scans,
-    read_lines,
-    read_table,
-)
+from placecell.datasets.drive import Drive, check_motion, find_scans, read_table
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import current_scan_options
+from placecell.trajectories.poses import check_rotations
 
 EARTH_RADIUS = 6_378_137.0
 """Equatorial radius of WGS 84, meters, as in KITTI's development kit."""

@@ -4,18 +4,19 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation, Slerp
+from scipy.spatial.transform import Rotation
 
-from placecell.core.types import Bool, Float64, Int64
-from placecell.datasets.drive import Drive, check_motion, check_rotations, find_scans
-from placecell.datasets.kitti_odometry import as_transforms
+from placecell.core.types import Float64, Int64
+from placecell.datasets.drive import Drive, check_motion, find_scans
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import current_scan_options
+from placecell.trajectories.interpolation import interpolate, lies_between
+from placecell.trajectories.poses import as_transforms, check_rotations
 
 POSES = "global_pose.csv"
 
-GAP_NS = 200_000_000
-"""Largest time between two poses that a scan's pose is interpolated from, nanoseconds."""
+LARGEST_GAP = 0.2
+"""Largest time between two poses that a scan's pose is interpolated from, seconds."""
 
 
 def base_to_ouster() -> Float64:
@@ -44,7 +45,8 @@ class MulRan(Drive):
         stamps = np.array([int(file.stem) for file in files])
         pose_file = folder / POSES
         pose_stamps, vehicle = read_poses(pose_file)
-        known = has_pose(stamps, pose_stamps)
+        seconds, at = (pose_stamps - pose_stamps[0]) * 1e-9, (stamps - pose_stamps[0]) * 1e-9
+        known = lies_between(at, seconds, LARGEST_GAP)
         if not known.any():
             raise DriveError(
                 f"{pose_file}: no scan of {folder / 'Ouster'} lies between two of its poses. The "
@@ -57,7 +59,7 @@ class MulRan(Drive):
             )
         self.scan_files = [file for file, there in zip(files, known, strict=True) if there]
         stamps = stamps[known]
-        poses = interpolate(stamps, pose_stamps, vehicle) @ base_to_ouster()
+        poses = interpolate(at[known], seconds, vehicle) @ base_to_ouster()
         self.origin = poses[0, :3, 3].copy()
         poses[:, :3, 3] -= self.origin
         self.poses = poses
@@ -91,23 +93,3 @@ def read_poses(file: Path) -> tuple[Int64, Float64]:
     poses = as_transforms(table[first, 1:])
     check_rotations(poses, file)
     return stamps, poses
-
-
-def has_pose(stamps: Int64, pose_stamps: Int64) -> Bool:
-    """Return whether each scan lies between two poses that are close enough in time."""
-    after = np.searchsorted(pose_stamps, stamps)
-    inside = (after > 0) & (after < len(pose_stamps))
-    after = np.clip(after, 1, max(len(pose_stamps) - 1, 1))
-    if len(pose_stamps) < 2:
-        return inside
-    return inside & (pose_stamps[after] - pose_stamps[after - 1] <= GAP_NS)
-
-
-def interpolate(stamps: Int64, pose_stamps: Int64, poses: Float64) -> Float64:
-    """Interpolate poses (n, 4, 4) at times between them."""
-    seconds, at = (pose_stamps - pose_stamps[0]) * 1e-9, (stamps - pose_stamps[0]) * 1e-9
-    found = np.tile(np.eye(4), (len(stamps), 1, 1))
-    found[:, :3, :3] = Slerp(seconds, Rotation.from_matrix(poses[:, :3, :3]))(at).as_matrix()
-    for axis in range(3):
-        found[:, axis, 3] = np.interp(at, seconds, poses[:, axis, 3])
-    return found

@@ -1,5 +1,5 @@
 """Error that every reader of drives raises."""
 
+from placecell.core.errors import DriveError
 
-class DriveError(ValueError):
-    """Drive cannot be read; the message names the file and what to do."""
+__all__ = ["DriveError"]

@@ -15,12 +15,14 @@ class Trajectory:
             times, so that its poses belong to the scans in their order.
         frame: name of the frame whose poses these are, such as "base_link"; "" if not stated.
         world: name of the frame that the poses lead to, such as "odom"; "" if not stated.
+        remarks: how the file was read where it leaves a choice, for the user.
     """
 
     poses: Float64
     stamps: Float64 | None = None
     frame: str = ""
     world: str = ""
+    remarks: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.poses)

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.datasets.drive import check_rotations, read_table
-from placecell.datasets.kitti_odometry import as_transforms
+from placecell.datasets.drive import read_table
 from placecell.segmentation.pipeline import Progress, silent
 from placecell.sources.errors import DriveError
+from placecell.trajectories.poses import as_transforms, check_rotations
 from town.city import City
 from town.drives.oncoming import Oncoming
 from town.geometry.scene import Layers, Scene, Scenes, Surfaces

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from placecell.datasets import DriveError, MulRan, ScanOptions, open_drive, use_scan_options
-from placecell.datasets.mulran import base_to_ouster, interpolate
+from placecell.datasets.mulran import base_to_ouster
 from tests.placecell.datasets.dataset_builders import POSE_NS, START_NS, write_mulran
 from tests.placecell.segment_builders import pose
 
@@ -55,13 +55,6 @@ def test_sensor_looks_backward_on_the_vehicle() -> None:
     """The Ouster's x axis points to the rear: its yaw is 179.67 degrees."""
     np.testing.assert_allclose(base_to_ouster()[:3, 0], [-1, 0.006, 0], atol=1e-3)
     np.testing.assert_allclose(base_to_ouster()[:3, 3], [1.7042, -0.021, 1.8047])
-
-
-def test_pose_between_two_is_interpolated() -> None:
-    stamps = np.array([0, 100])
-    both = np.stack([pose(0, 0, 0, 0.0), pose(10, 20, 2, 0.8)])
-    found = interpolate(np.array([25]), stamps, both)
-    np.testing.assert_allclose(found[0], pose(2.5, 5, 0.5, 0.2), atol=1e-9)
 
 
 def test_scans_without_a_pose_are_left_out_and_told(folder: Path) -> None:

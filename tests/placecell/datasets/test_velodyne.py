@@ -4,7 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from placecell.datasets.drive import check_rotations, find_scans, read_table, read_velodyne
+from placecell.datasets.drive import find_scans, read_table, read_velodyne
+from placecell.trajectories.poses import check_rotations
 from placecell.sources.errors import DriveError
 from tests.placecell.segment_builders import MemoryDrive, pose, write_scan
 
