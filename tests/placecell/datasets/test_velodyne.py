@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from placecell.datasets.drive import find_scans, read_table, read_velodyne
-from placecell.trajectories.poses import check_rotations
 from placecell.sources.errors import DriveError
+from placecell.trajectories.poses import check_rotations
 from tests.placecell.segment_builders import MemoryDrive, pose, write_scan
 
 
