@@ -39,6 +39,7 @@ LAYERS = (
     ("placecell.core", "placecell_client"),
     ("placecell.trajectories", "placecell.descriptors"),
     ("placecell.sources",),
+    ("placecell.sources.bags",),
     ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
     ("placecell.map_alignment",),

@@ -30,6 +30,8 @@ class ScanOptions:
         unit: unit of the scans' coordinates.
         time_unit: unit of `times.txt`.
         strict: refuse a drive with scans that cannot be used or points that are not finite.
+        topic: topic of a bag with the clouds; none: the only one, or the one with the most points.
+        odometry: topic of a bag with the poses; none: chosen from the bag's content.
         tell: receives a line about what was found in the files and how it was handled.
     """
 
@@ -39,6 +41,8 @@ class ScanOptions:
     unit: Unit = "m"
     time_unit: TimeUnit = "s"
     strict: bool = False
+    topic: str | None = None
+    odometry: str | None = None
     tell: Callable[[str], None] = silent
 
     @property

@@ -1,0 +1,223 @@
+"""A bag: one recording, in one file or several."""
+
+import re
+import shutil
+import tempfile
+import weakref
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from placecell.sources.bags import mcap_file, ros1_file, sqlite_file
+from placecell.sources.bags.compression import ZSTD_MAGIC, decompress
+from placecell.sources.bags.container import BagTopic, Container
+from placecell.sources.errors import DriveError
+
+KINDS: dict[bytes, type[Container]] = {
+    ros1_file.MAGIC: ros1_file.Ros1File,
+    sqlite_file.MAGIC: sqlite_file.SqliteFile,
+    mcap_file.MAGIC: mcap_file.McapFile,
+}
+SUFFIXES: dict[str, type[Container]] = {
+    ".bag": ros1_file.Ros1File,
+    ".db3": sqlite_file.SqliteFile,
+    ".mcap": mcap_file.McapFile,
+}
+COMPRESSED = (".zstd", ".zst")
+METADATA = "metadata.yaml"
+LISTED = re.compile(r"^\s*-\s+[\"']?([^\"'\n]+?\.(?:db3|mcap)(?:\.zstd)?)[\"']?\s*$", re.MULTILINE)
+"""A file's name in `metadata.yaml` of a ROS 2 bag."""
+
+
+def kind_of(file: Path) -> type[Container] | None:
+    """Return the class that reads a file: by its first bytes, else by its name."""
+    suffix = plain_suffix(file)
+    if file.suffix in COMPRESSED:
+        return SUFFIXES.get(suffix)
+    try:
+        with file.open("rb") as opened:
+            begin = opened.read(16)
+    except OSError:
+        return None
+    for magic, kind in KINDS.items():
+        if begin.startswith(magic) and (kind is not sqlite_file.SqliteFile or suffix in SUFFIXES):
+            return kind
+    return SUFFIXES.get(suffix)
+
+
+def plain_suffix(file: Path) -> str:
+    """Return the suffix of a file's name, without that of a compression."""
+    name = file.with_suffix("") if file.suffix in COMPRESSED else file
+    return name.suffix.lower()
+
+
+def natural(file: Path) -> list[str | int]:
+    """Return the key that orders run_2 before run_10."""
+    parts = re.split(r"(\d+)", file.name)
+    return [int(part) if part.isdecimal() else part for part in parts]
+
+
+def bag_files(path: Path) -> list[Path]:
+    """Return the files of a bag: itself, or those of the folder, in their order."""
+    if path.is_file():
+        return [path]
+    try:
+        files = [
+            file
+            for file in path.iterdir()
+            if plain_suffix(file) in SUFFIXES and file.is_file() and not file.name.startswith(".")
+        ]
+    except OSError:
+        return []
+    names = {file.name for file in files}
+    # Tools that decompress a bag leave the compressed file beside it.
+    plain = [
+        file
+        for file in files
+        if file.suffix not in COMPRESSED or file.with_suffix("").name not in names
+    ]
+    return sorted(plain, key=natural)
+
+
+class Bag:
+    """All messages of a recording, found by topic and number.
+
+    Attributes:
+        path: file or folder.
+        files: files with messages, in their order.
+        topics: all topics, ordered by name.
+        remarks: what was odd about the files.
+
+    Raises:
+        DriveError: there is no bag, or no file of it can be read.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.files = bag_files(path)
+        if not self.files:
+            raise DriveError(f"{path}: no bag. Expected a .bag, .db3 or .mcap file, or a folder")
+        kinds = {kind for file in self.files if (kind := kind_of(file))}
+        if len(kinds) != 1:
+            names = ", ".join(file.name for file in self.files[:6])
+            raise DriveError(
+                f"{path}: files of {len(kinds)} formats ({names}); expected one recording. Open "
+                "one of the files"
+            )
+        kind = kinds.pop()
+        self.remarks = list(self.missing())
+        self.containers: list[Container] = []
+        failed: list[str] = []
+        for file in self.files:
+            try:
+                self.containers.append(kind(self.plain(file)))
+            except DriveError as error:
+                failed.append(str(error))
+        if not self.containers:
+            raise DriveError(failed[0])
+        self.remarks += [f"{error}. The file is left out" for error in failed]
+        for container in self.containers:
+            self.remarks += container.remarks
+        self.topics = joined_topics([container.topics for container in self.containers])
+
+    def missing(self) -> Iterator[str]:
+        """Yield a remark if `metadata.yaml` lists files that are not there."""
+        metadata = self.path / METADATA
+        if self.path.is_file() or not metadata.is_file():
+            return
+        listed = LISTED.findall(metadata.read_text(encoding="utf-8", errors="replace"))
+        there = {file.name.removesuffix(".zstd") for file in self.files}
+        absent = sorted({Path(name).name.removesuffix(".zstd") for name in listed} - there)
+        if absent:
+            yield f"{metadata}: lists {', '.join(absent)}, which are not there"
+
+    def plain(self, file: Path) -> Path:
+        """Return the file, or a temporary copy if it is compressed as a whole."""
+        if file.suffix not in COMPRESSED:
+            return file
+        import zstandard
+
+        folder = Path(tempfile.mkdtemp(prefix="placecell-bag-"))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        copy = folder / file.with_suffix("").name
+        try:
+            with file.open("rb") as source, copy.open("wb") as target:
+                zstandard.ZstdDecompressor().copy_stream(source, target)
+        except (OSError, zstandard.ZstdError) as error:
+            raise DriveError(
+                f"{file}: cannot be decompressed ({error}). Copy the file again, or free space in "
+                f"{tempfile.gettempdir()}"
+            ) from error
+        return copy
+
+    def topic(self, name: str) -> BagTopic | None:
+        """Return the topic with this name, written with or without the leading slash."""
+        for topic in self.topics:
+            if topic.name.strip("/") == name.strip("/"):
+                return topic
+        return None
+
+    def where(self, topic: BagTopic, index: int) -> str:
+        """Return file, topic and number of a message, for errors."""
+        file = self.containers[int(topic.places[index, 0])].path
+        return f"{file}: topic {topic.name!r}, message {index}"
+
+    def read(self, topic: BagTopic, index: int) -> bytes | memoryview:
+        """Return a message.
+
+        Raises:
+            DriveError: the file is damaged there.
+        """
+        place = topic.places[index].tolist()
+        return self.expanded(self.containers[place[0]].read(place), self.where(topic, index))
+
+    def expanded(self, data: bytes | memoryview, where: str) -> bytes | memoryview:
+        """Decompress a message of a bag in which each message is compressed."""
+        if data[:4] == ZSTD_MAGIC:
+            return decompress(bytes(data), "zstd", 0, where)
+        return data
+
+    def messages(self, topic: BagTopic) -> Iterator[tuple[int, bytes | memoryview]]:
+        """Yield time, in nanoseconds, and content of each message that can be read."""
+        for index, time in enumerate(topic.times.tolist()):
+            try:
+                yield time, self.read(topic, index)
+            except DriveError:
+                continue
+
+    def heads(self, topic: BagTopic, length: int) -> list[bytes | None]:
+        """Return the first bytes of each message; None for a damaged one."""
+        heads: list[bytes | None] = [None] * len(topic)
+        for number, container in enumerate(self.containers):
+            own = np.flatnonzero(topic.places[:, 0] == number)
+            if len(own):
+                part = BagTopic(
+                    topic.name, topic.type, topic.encoding, topic.times[own], topic.places[own]
+                )
+                for at, head in zip(own.tolist(), container.heads(part, length), strict=True):
+                    heads[at] = head
+        for at, head in enumerate(heads):
+            if head is not None and head[:4] == ZSTD_MAGIC:
+                try:
+                    heads[at] = bytes(self.read(topic, at)[:length])
+                except DriveError:
+                    heads[at] = None
+        return heads
+
+
+def joined_topics(files: Sequence[Sequence[BagTopic]]) -> list[BagTopic]:
+    """Join the topics of several files; the messages of each are ordered by time."""
+    parts: dict[tuple[str, str, str], list[tuple[int, BagTopic]]] = {}
+    for number, topics in enumerate(files):
+        for topic in topics:
+            key = (topic.name, topic.type, topic.encoding)
+            parts.setdefault(key, []).append((number, topic))
+    joined = []
+    for (name, kind, encoding), found in sorted(parts.items()):
+        times = np.concatenate([topic.times for _, topic in found])
+        places = np.concatenate([topic.places for _, topic in found])
+        places[:, 0] = np.repeat([number for number, _ in found], [len(t) for _, t in found])
+        order = np.argsort(times, kind="stable")
+        joined.append(BagTopic(name, kind, encoding, times[order], places[order]))
+    return joined

@@ -1,0 +1,94 @@
+"""SQLite database of a ROS 2 bag."""
+
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from pathlib import Path
+
+import numpy as np
+
+from placecell.sources.bags.container import BagTopic, Container, TopicIndex, table_of
+from placecell.sources.errors import DriveError
+
+MAGIC = b"SQLite format 3\0"
+
+
+class SqliteFile(Container):
+    """A `.db3` file of a ROS 2 bag.
+
+    Raises:
+        DriveError: the file is no such database, or it is damaged.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.remarks = []
+        try:
+            self.file_size = path.stat().st_size
+        except OSError as error:
+            raise DriveError(f"{path}: cannot be read ({error.strerror})") from error
+        log = path.with_name(path.name + "-wal")
+        self.has_log = log.is_file() and log.stat().st_size > 0
+        index = TopicIndex()
+        topics = {}
+        for number, name, kind, encoding in self.rows(
+            "SELECT id, name, type, serialization_format FROM topics", ()
+        ):
+            topics[number] = (str(name), str(kind), str(encoding))
+            index.add(*topics[number], table_of(()))
+        places: dict[object, list[tuple[int, int, int]]] = {number: [] for number in topics}
+        for topic, time, number in self.rows("SELECT topic_id, timestamp, id FROM messages", ()):
+            if topic in places and isinstance(time, int) and isinstance(number, int):
+                places[topic].append((time, 0, number))
+        for topic, rows in places.items():
+            index.add(*topics[topic], table_of(rows))
+        self.topics = index.topics()
+
+    def connect(self) -> sqlite3.Connection:
+        """Open the database; a write-ahead log that was not merged needs the slower mode."""
+        mode = "mode=ro" if self.has_log else "mode=ro&immutable=1"
+        connection = sqlite3.connect(f"{self.path.absolute().as_uri()}?{mode}", uri=True)
+        connection.text_factory = lambda text: text.decode(errors="replace")
+        return connection
+
+    def rows(self, query: str, values: tuple[int, ...]) -> Iterator[tuple[object, ...]]:
+        """Yield the rows of a query.
+
+        Raises:
+            DriveError: the database is damaged.
+        """
+        try:
+            with closing(self.connect()) as connection:
+                for count, row in enumerate(connection.execute(query, values)):
+                    if count > self.file_size:  # Each row takes some bytes.
+                        raise sqlite3.DatabaseError("its tables repeat themselves")
+                    yield row
+        except (sqlite3.Error, MemoryError, OverflowError) as error:
+            raise DriveError(
+                f"{self.path}: the database of the ROS 2 bag cannot be read ({error}). Copy the "
+                "file again, or repair it with 'sqlite3 FILE .recover'"
+            ) from error
+
+    def read(self, place: Sequence[int]) -> bytes:
+        number = place[2]
+        for (data,) in self.rows("SELECT data FROM messages WHERE id = ?", (number,)):
+            if isinstance(data, bytes):
+                return data
+        raise DriveError(
+            f"{self.path}: message {number} cannot be read. The database is damaged; copy it again"
+        )
+
+    def heads(self, topic: BagTopic, length: int) -> Iterator[bytes | None]:
+        wanted = topic.places[:, 2]
+        order = np.argsort(wanted, kind="stable")
+        found: list[bytes | None] = [None] * len(wanted)
+        query = "SELECT id, substr(data, 1, ?) FROM messages WHERE id BETWEEN ? AND ?"
+        if not len(wanted):
+            return
+        low, high = int(wanted[order[0]]), int(wanted[order[-1]])
+        for number, head in self.rows(query, (length, low, high)):
+            if isinstance(number, int) and isinstance(head, bytes):
+                at = np.searchsorted(wanted, number, sorter=order)
+                if at < len(order) and wanted[order[at]] == number:
+                    found[order[at]] = head
+        yield from found
