@@ -130,7 +130,7 @@ def find_layout(files: Sequence[Path], sizes: Sequence[int], options: ScanOption
     sampled = sample(files, sizes)
     if not len(whole) or not sampled:
         return stated_layout(options)
-    folder = files[0].parent
+    folder = files[0].parent if len(files) > 1 else files[0]
     if options.states_layout:
         layout = stated_layout(options)
         if divisible(whole, layout.point_bytes) < 0.5:

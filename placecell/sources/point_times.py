@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from placecell.core.types import Bool, Float64
 from placecell.sources.scan_options import SECONDS, TimeUnit
 
-SWEEP = 0.1
-"""Usual duration of a sweep, seconds."""
-LONGEST_SWEEP = SWEEP * 1000**0.5
-"""Longest duration that is read as one sweep, 3.2 s. Units differ by a factor of 1,000, so exactly
-one unit puts a sweep between 3.2 ms and 3.2 s."""
+LONGEST_GUESS = 1.0
+"""Longest sweep of a unit that is guessed, seconds. Units differ by a factor of 1,000, so exactly
+one unit puts a sweep between 1 ms and 1 s. Sensors sweep in 0.02 to 0.2 s, and a unit that is too
+small does less harm than one that is too large: the points hardly move in 1 ms."""
+LONGEST_SWEEP = 5.0
+"""Longest duration that is one sweep, in a known unit, seconds."""
 EPOCH = (9.0e8, 4.2e9)
 """Range of times since 1970, seconds: years 1998 to 2103."""
 LONGEST_FILE = 3600.0
@@ -48,7 +49,7 @@ def point_times(
 
     The unit is the one that the field's name states (`time_ns`); else the one that puts the times
     between 1998 and 2103, if they count from 1970; else the one in which the sweep takes from
-    3.2 ms to 3.2 s. Seconds and their fraction in two fields (`time_sec`, `time_nsec`) are added.
+    1 ms to 1 s. Seconds and their fraction in two fields (`time_sec`, `time_nsec`) are added.
 
     Times near 0 are relative to the stamp already. Times on the clock of the stamp become relative
     to it. Times on another clock, such as one that counts from the sensor's start, become relative
@@ -160,6 +161,6 @@ def unit_since_epoch(offsets: Float64, origin: float) -> TimeUnit | None:
 def unit_of_sweep(span: float) -> TimeUnit | None:
     """Return the largest unit in which these times span at most one sweep; None if none does."""
     for unit, scale in SECONDS.items():
-        if 0 < span * scale <= LONGEST_SWEEP:
+        if 0 < span * scale <= LONGEST_GUESS:
             return unit
     return None

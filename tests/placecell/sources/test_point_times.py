@@ -37,7 +37,7 @@ def test_times_since_1970_become_relative_to_the_stamp(unit: float) -> None:
 def test_64_bit_nanoseconds_stay_exact(dtype: type) -> None:
     start = 1_700_000_000_123_456_789
     offsets = np.array([0, 1, 2, 100_000_000])
-    times = (start + offsets).astype(dtype)
+    times: Any = (start + offsets).astype(dtype)
     expect(point_times({"t": times}, nan), offsets * 1e-9, within=1e-12)
 
 
@@ -81,6 +81,9 @@ def test_a_unit_in_the_name_is_kept() -> None:
     assert not is_time("intensity_s")
     expect(point_times({"t_us": np.array([0.0, 900.0])}, nan), [0, 9e-4])
     expect(point_times({"t": np.array([0.0, 9e-4])}, nan), [0, 9e-4])
+    expect(point_times({"t_us": np.array([0.0, 1.3e6])}, nan), [0, 1.3])
+    # Nebula's times within one packet: nanoseconds, as the smaller unit does less harm.
+    expect(point_times({"t": np.array([0.0, 1.3e6])}, nan), [0, 1.3e-3])
 
 
 @pytest.mark.parametrize(

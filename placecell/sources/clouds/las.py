@@ -1,0 +1,149 @@
+"""LAS files of the ASPRS, and LAZ, their compressed form."""
+
+import logging
+import struct
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from placecell.sources.clouds.cloud import Cloud, check_growth, cut_short, read_content
+from placecell.sources.errors import DriveError
+
+SMALLEST_HEADER = 227
+RECORD_HEADER = 54
+"""Bytes of the header of a variable length record."""
+POINTS_AT_ONCE = 1_000_000
+COMPRESSED = 0x80
+"""Bit of the point format that marks a LAZ file."""
+SHORTEST_POINT = 20
+
+
+@dataclass(frozen=True, slots=True)
+class LasHeader:
+    """Part of a LAS header that decides how much memory a file takes."""
+
+    points: int
+    start: int
+    point_bytes: int
+    compressed: bool
+
+
+def is_las(head: bytes) -> bool:
+    """Return whether a file begins as a LAS or LAZ file does."""
+    return head.startswith(b"LASF")
+
+
+def read_las(file: Path) -> Cloud:
+    """Read a LAS or LAZ file; coordinates are float64, as the file scales them.
+
+    Raises:
+        DriveError: the file is damaged.
+    """
+    content = read_content(file)
+    header = parse_header(content, file)
+    if header.compressed:
+        check_growth(file, len(content), header.points * header.point_bytes)
+        check_chunk_table(content, header, file)
+    elif header.start + header.points * header.point_bytes > len(content):
+        room = max(len(content) - header.start, 0) // header.point_bytes
+        raise cut_short(file, "points", room, header.points)
+    import laspy
+    from lazrs import LazrsError
+
+    logging.getLogger("laspy").setLevel(logging.CRITICAL)  # what it logs is raised as well
+    columns: dict[str, list[NDArray[Any]]] = {"x": [], "y": [], "z": []}
+    try:
+        with (
+            np.errstate(all="ignore"),
+            laspy.open(
+                BytesIO(content), read_evlrs=False, laz_backend=laspy.LazBackend.Lazrs
+            ) as reader,
+        ):
+            fields = tuple(reader.header.point_format.dimension_names)
+            if "gps_time" in fields:
+                columns["gps_time"] = []
+            for chunk in reader.chunk_iterator(POINTS_AT_ONCE):
+                for name, parts in columns.items():
+                    parts.append(np.asarray(getattr(chunk, name), np.float64))
+    except (
+        laspy.LaspyException, LazrsError, struct.error, ValueError, KeyError, IndexError,
+        OverflowError, EOFError, AssertionError, TypeError, MemoryError,
+    ) as error:  # fmt: skip
+        raise damaged(file, error) from error
+    except BaseException as error:
+        # lazrs is written in Rust; its panics are no Exception.
+        if type(error).__name__ != "PanicException":
+            raise
+        raise damaged(file, error) from error
+    values = {
+        name: np.concatenate(parts) if parts else np.zeros(0) for name, parts in columns.items()
+    }
+    if len(values["x"]) < header.points:
+        raise cut_short(file, "points", len(values["x"]), header.points)
+    return Cloud(values, ("x", "y", "z", *(each for each in fields if each not in "XYZ")))
+
+
+def damaged(file: Path, error: BaseException) -> DriveError:
+    """Return the error for a file that laspy or lazrs refuses."""
+    reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+    return DriveError(
+        f"{file}: its LAS content cannot be decoded ({reason}); the file is damaged. Write it again"
+    )
+
+
+def parse_header(content: bytes, file: Path) -> LasHeader:
+    """Parse the counts and sizes of the header; laspy believes them, whatever the file's size.
+
+    Raises:
+        DriveError: they contradict the file.
+    """
+    if len(content) < SMALLEST_HEADER:
+        raise cut_short(file, "bytes of header", len(content), SMALLEST_HEADER)
+    minor = content[25]
+    header_bytes, start, records = struct.unpack_from("<HII", content, 94)
+    kind, point_bytes, points = struct.unpack_from("<BHI", content, 104)
+    if content[24] != 1 or minor > 5:
+        raise DriveError(
+            f"{file}: is LAS version {content[24]}.{minor}; expected 1.0 to 1.5. Convert it, for "
+            "example with 'pdal translate'"
+        )
+    if minor >= 4:
+        if len(content) < 375:
+            raise cut_short(file, "bytes of header", len(content), 375)
+        points = struct.unpack_from("<Q", content, 247)[0]
+    within = header_bytes + records * RECORD_HEADER <= start <= len(content)
+    if not within or header_bytes < SMALLEST_HEADER or point_bytes < SHORTEST_POINT:
+        raise DriveError(
+            f"{file}: its LAS header states {records:,} records after {header_bytes} bytes, points "
+            f"of {point_bytes} bytes, and points from byte {start:,} on, but the file has "
+            f"{len(content):,} bytes; it is cut short or damaged. Copy or write it again"
+        )
+    return LasHeader(points, start, point_bytes, bool(kind & COMPRESSED))
+
+
+def check_chunk_table(content: bytes, header: LasHeader, file: Path) -> None:
+    """Refuse a chunk table with more chunks than bytes; lazrs allocates what the table claims.
+
+    Raises:
+        DriveError: the table lies outside the file, or claims too many chunks.
+    """
+    if not header.points:
+        return
+    position = -1
+    if header.start + 8 <= len(content):
+        position = struct.unpack_from("<q", content, header.start)[0]
+    if position == -1:
+        position = struct.unpack_from("<q", content, len(content) - 8)[0]
+    chunks = -1
+    if header.start < position <= len(content) - 8:
+        chunks = struct.unpack_from("<I", content, position + 4)[0]
+    if not 0 <= chunks <= min(header.points, len(content)):
+        raise DriveError(
+            f"{file}: its table of compressed chunks lies at byte {position:,} of {len(content):,} "
+            "or claims more chunks than points; the file is cut short or damaged. Copy or write "
+            "it again"
+        )
