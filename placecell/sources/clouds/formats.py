@@ -17,7 +17,7 @@ from placecell.sources.point_layout import KITTI, PointLayout
 
 @dataclass(frozen=True, slots=True)
 class ReadOptions:
-    """What files cannot tell by themselves.
+    """Options for files that do not describe themselves.
 
     Attributes:
         columns: names of the columns of a table without a header; None: x, y, z and others.

@@ -165,10 +165,9 @@ def points_of(array: NDArray[Any], columns: tuple[str, ...] | None, file: Path) 
     if array.dtype.names is not None:
         return structured(array.reshape(-1))
     remarks: tuple[str, ...] = ()
-    if array.dtype.kind in "fiu" and array.ndim == 2 and array.shape[1] > WIDEST:
-        if 3 <= array.shape[0] <= WIDEST:
-            remarks = (f"the array {array.shape} is read column after column",)
-            array = array.T
+    if array.ndim == 2 and array.shape[1] > WIDEST and 3 <= array.shape[0] <= WIDEST:
+        remarks = (f"the array {array.shape} is read column after column",)
+        array = array.T
     if not holds_points(array):
         raise DriveError(
             f"{file}: the array is {array.dtype} {array.shape}; expected numbers of shape (n, 3 or "

@@ -2,7 +2,7 @@
 
 import struct
 from dataclasses import dataclass
-from io import BytesIO, BufferedReader
+from io import BufferedReader, BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -215,9 +215,7 @@ def ascii_rows(body: bytes) -> tuple[int, bytes]:
     return len(rows), b"\n".join(rows)
 
 
-def check_compressed(
-    header: PcdHeader, body: bytes, file: Path, remarks: list[str]
-) -> PcdHeader:
+def check_compressed(header: PcdHeader, body: bytes, file: Path, remarks: list[str]) -> PcdHeader:
     """Check the sizes of a compressed body before it is decompressed.
 
     PCL leaves padding fields out of compressed data, but `pypcd4` expects them.
@@ -258,7 +256,7 @@ def decode(file: Path, header: PcdHeader, body: bytes, remarks: tuple[str, ...])
         DriveError: the data are damaged.
     """
     # Loaded here: it brings pydantic, which a service without drives loads elsewhere.
-    from pypcd4 import PointCloud
+    from pypcd4.pypcd4 import PointCloud
 
     names = tuple(name for name, _, _, _ in header.fields)
     keys = {name: f"f{index}" for index, name in reversed(list(enumerate(names)))}
@@ -268,16 +266,14 @@ def decode(file: Path, header: PcdHeader, body: bytes, remarks: tuple[str, ...])
         return Cloud(dict.fromkeys(needed, empty), names, remarks)
     stream = BytesIO(plain_header(header) + body)
     try:
-        table = np.atleast_1d(PointCloud.from_fileobj(BufferedReader(stream)).pc_data)  # type: ignore[arg-type]
+        table = np.atleast_1d(PointCloud.from_fileobj(BufferedReader(stream)).pc_data)
     except (ValueError, RuntimeError, TypeError, IndexError, OverflowError, struct.error) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise DriveError(
             f"{file}: its {header.data} data cannot be decoded ({reason}); the file is damaged. "
             "Write it again"
         ) from error
-    values = {
-        name: table[keys[name]] for name in needed if keys[name] in (table.dtype.names or ())
-    }
+    values = {name: table[keys[name]] for name in needed if keys[name] in (table.dtype.names or ())}
     return Cloud(values, names, remarks)
 
 

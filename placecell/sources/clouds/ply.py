@@ -75,14 +75,16 @@ def read_ply(file: Path) -> Cloud:
         None,
     )
     if index is None:
-        names = ", ".join(each.name for each in elements) or "none"
-        raise DriveError(f"{file}: has no element 'vertex'; its elements are: {names}")
+        found = ", ".join(each.name for each in elements) or "none"
+        raise DriveError(f"{file}: has no element 'vertex'; its elements are: {found}")
     vertex = elements[index]
     names = tuple(each.name for each in vertex.properties)
     _, needed = needed_fields(names, file)
     lists = {each.name for each in vertex.properties if each.length_type}
     if lists & set(needed):
-        raise DriveError(f"{file}: the property {min(lists & set(needed))!r} is a list, not a value")
+        raise DriveError(
+            f"{file}: the property {min(lists & set(needed))!r} is a list, not a value"
+        )
     wanted = {name: names.index(name) for name in needed}
     if encoding == "ascii":
         values = ascii_values(content[start:], elements[:index], vertex, wanted, file)

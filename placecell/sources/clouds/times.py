@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.point_times import EPOCH, unit_of_sweep
+from placecell.sources.point_times import EPOCH
 from placecell.sources.scan_options import SECONDS, TimeUnit
+from placecell.trajectories.times import UNITS, find_unit, parse_clock
 
 TIME_FILES = ("times", "timestamps", "timestamp", "time", "stamps")
 SUFFIXES = (".txt", ".csv")
@@ -27,7 +28,10 @@ def natural_key(file: Path) -> tuple[object, ...]:
     parts = re.split(r"(\d+)", file.stem)
     words = tuple(part.lower() for part in parts[::2])
     numbers = tuple(int(part) for part in parts[1::2])
-    return (words[0], *(each for pair in zip(numbers, words[1:], strict=True) for each in pair),)
+    return (
+        words[0],
+        *(each for pair in zip(numbers, words[1:], strict=True) for each in pair),
+    )
 
 
 def stamps_of_names(stems: Sequence[str]) -> Float64 | None:
@@ -47,9 +51,7 @@ def seconds_and_rest(stems: Sequence[str]) -> Float64 | None:
     """Return times that are written as seconds and their fraction."""
     matches = [SECONDS_AND_REST.search(stem) for stem in stems]
     found = [match for match in matches if match is not None]
-    if len(found) < len(stems) or not all(
-        EPOCH[0] <= int(match[1]) <= EPOCH[1] for match in found
-    ):
+    if len(found) < len(stems) or not all(EPOCH[0] <= int(match[1]) <= EPOCH[1] for match in found):
         return None
     digits = {len(match[3]) for match in found}
     if all(match[2] == "." for match in found):
@@ -85,8 +87,9 @@ def date_of(text: str) -> float | None:
     match = DATE.search(text)
     if match is None:
         return None
+    year, month, day, hour, minute, second = (int(part) for part in match.groups()[:6])
     try:
-        moment = datetime(*(int(part) for part in match.groups()[:6]), tzinfo=UTC)  # type: ignore[arg-type]
+        moment = datetime(year, month, day, hour, minute, second, tzinfo=UTC)
     except ValueError:
         return None
     return moment.timestamp() + (float(f"0.{match[7]}") if match[7] else 0.0)
@@ -115,9 +118,7 @@ def stamps_beside(
     return None
 
 
-def stamps_in(
-    file: Path, scans: Sequence[Path], stated: TimeUnit
-) -> tuple[Float64 | None, str]:
+def stamps_in(file: Path, scans: Sequence[Path], stated: TimeUnit) -> tuple[Float64 | None, str]:
     """Return the stamps that a file of times gives, and a remark."""
     times = read_times(file)
     if times is None:
@@ -133,14 +134,8 @@ def stamps_in(
     if (steps < 0).any():
         first = int((steps < 0).argmax()) + 1
         return None, f"{file.name} is not used: time decreases at scan {first}"
-    unit: TimeUnit | None = stated if stated != "s" else None
-    for each, scale in SECONDS.items():
-        if unit is None and len(times) and EPOCH[0] <= np.median(times) * scale <= EPOCH[1]:
-            unit = each
-    if unit is None:
-        unit = unit_of_sweep(float(np.median(steps))) if len(steps) else None
-    unit = unit or "s"
-    return times * SECONDS[unit], f"the times of the scans are in {file.name}, in {unit}"
+    unit = stated if stated != "s" else find_unit(times)
+    return times * UNITS[unit], f"the times of the scans are in {file.name}, in {unit}"
 
 
 def read_times(file: Path) -> Float64 | None:
@@ -154,8 +149,8 @@ def read_times(file: Path) -> Float64 | None:
         return None
     lines = [line.strip() for line in text.splitlines()]
     lines = [line for line in lines if line and not line.startswith(("#", "//", "%"))]
-    moments = [date_of(line) for line in lines if re.match(r"\d{4}-\d\d-\d\d", line)]
-    if lines and len(moments) == len(lines) and None not in moments:
+    moments = [parse_clock(line) for line in lines]
+    if lines and None not in moments:
         return np.array(moments, np.float64)
     rows = [re.split(r"[\s,;]+", line) for line in lines]
     if rows and number_of(rows[0][0]) is None and number_of(rows[0][-1]) is None:
