@@ -2,15 +2,17 @@
 
 from pathlib import Path
 
+from placecell.sources.bags import Mcap, Ros1Bag, Ros2Bag
 from placecell.sources.clouds.folder import FolderOfClouds
 from placecell.sources.errors import DriveError
 from placecell.sources.source import ScanSource
 
-SOURCES: tuple[type[ScanSource], ...] = (FolderOfClouds,)
+SOURCES: tuple[type[ScanSource], ...] = (Ros1Bag, Ros2Bag, Mcap, FolderOfClouds)
 """Classes in the order in which they are tried: the special before the general."""
 UNDERSTOOD = (
-    "PCD, PLY, LAS, LAZ, NumPy (.npy, .npz), text (.csv, .xyz, .txt, .asc, .pts) and "
-    "headerless .bin files, or a folder of them"
+    "a ROS 1 bag (.bag), a ROS 2 bag (a folder with metadata.yaml, or .db3), an MCAP file, or PCD, "
+    "PLY, LAS, LAZ, NumPy (.npy, .npz), text (.csv, .xyz, .txt, .asc, .pts) and headerless "
+    ".bin files, or a folder of them"
 )
 SHOWN = 8
 """Most names and bytes that an error shows."""

@@ -20,7 +20,9 @@ def test_an_unknown_path_is_told_with_what_was_found(tmp_path: Path) -> None:
     (tmp_path / "image.png").write_bytes(b"\x89PNG\r\n\x1a\nmore")
     (tmp_path / "folder").mkdir()
     assert not is_source(tmp_path)
-    with pytest.raises(DriveError, match=r"found a folder with folder/, image\.png\. Expected PCD"):
+    with pytest.raises(
+        DriveError, match=r"found a folder with folder/, image\.png\. Expected a ROS 1 bag"
+    ):
         open_source(tmp_path)
     with pytest.raises(DriveError, match=r"begins with b'.x89PNG"):
         open_source(tmp_path / "image.png")
