@@ -14,6 +14,7 @@ import numpy as np
 from placecell.core.types import Int64
 from placecell.sources.bags import mcap_file, ros1_file, sqlite_file
 from placecell.sources.bags.bag import METADATA, Bag, bag_files, kind_of
+from placecell.sources.bags.bag_poses import BagPoses, Extrinsic, read_poses
 from placecell.sources.bags.cloud_messages import is_cloud, read_cloud
 from placecell.sources.bags.container import BagTopic, Container
 from placecell.sources.bags.pointcloud2 import (
@@ -31,6 +32,7 @@ from placecell.sources.point_clock import PointClock
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import METERS, current_scan_options
 from placecell.sources.source import ScanSource
+from placecell.trajectories.trajectory import Trajectory
 
 SAMPLES = 5
 """Clouds that tell the points' clock and a topic's size, evenly spread."""
@@ -307,12 +309,35 @@ class BagSource(ScanSource):
         """Return the identity of a scan's points; it is the same in another container."""
         return sha256(self.scan(index).points.data).hexdigest()[:16]
 
+    @cached_property
+    def poses(self) -> BagPoses:
+        """Poses in the bag, and the pose of the sensor on the robot.
+
+        Raises:
+            DriveError: the topic that was stated has no poses, or the transforms form a loop.
+        """
+        recorded = self.cloud_topic.times[self.order].astype(np.float64) * 1e-9
+        return read_poses(self.bag, self.frame, self.odometry_topic, (self.stamps, recorded))
+
+    def trajectory(self) -> Trajectory | None:
+        """Return the sensor's poses; those of the robot if the bag has no transform to the sensor.
+
+        `ScanOptions.odometry` states the topic. `poses.body` has the robot's poses, and `extrinsic`
+        the sensor's pose on the robot.
+        """
+        return self.poses.sensor
+
+    def extrinsic(self) -> Extrinsic:
+        """Return the pose of the sensor on the robot, and how it was found."""
+        return self.poses.extrinsic
+
     def topics(self) -> Sequence[BagTopic]:
         """Return all topics of the bag: name, type, number and rate of messages."""
         return self.bag.topics
 
     def notes(self) -> Sequence[str]:
-        return [*self.remarks, *self.time_notes()]
+        posed = self.poses.remarks if "poses" in self.__dict__ else ()
+        return [*self.remarks, *self.time_notes(), *posed]
 
     def time_notes(self) -> Iterator[str]:
         """Yield a remark about the points' times."""
