@@ -11,7 +11,17 @@ from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
 PLACES = "Place recognition"
 
-ROWS = ("top1", "top1_with_mate", "cross_view_top1", "recall_at_25", "pair_auc", "pair_accuracy")
+ROWS = (
+    "top1",
+    "top1_with_mate",
+    "cross_view_top1",
+    "reranked_top1",
+    "reranked_top1_with_mate",
+    "reranked_cross_view_top1",
+    "recall_at_25",
+    "pair_auc",
+    "pair_accuracy",
+)
 
 
 def evaluate(

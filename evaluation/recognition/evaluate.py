@@ -50,6 +50,9 @@ def measure(
     For a model with a neighborhood, `alone` has the figures of segments with an empty neighborhood;
     its `top1_in_map` searches such segments in a map of segments with their neighborhood.
 
+    With the captures, `reranked_top1`, `reranked_top1_with_mate` and `reranked_cross_view_top1` are
+    the figures after re-ranking (`placecell.descriptors.reranking`), for any model.
+
     `pair_auc` and `pair_accuracy` are those of `pair_by`: the model's pair classifier, or the
     distance if it has none. The figures by distance are always given too.
     """
@@ -57,12 +60,14 @@ def measure(
     codes = manifest.quantizer.encode(extractor.describe(segments, neighborhood))
     stored = manifest.quantizer.decode(codes)
     steps = manifest.quantizer.levels(codes).astype(np.float32)
-    figures = {"model_id": manifest.model_id} | retrieval(steps, segments, groups)
+    figures = {"model_id": manifest.model_id} | retrieval(steps, segments, groups, captures)
     if manifest.neighborhood is not None:
         nothing = np.zeros((len(segments), manifest.neighborhood.size), dtype=np.float32)
         alone = manifest.quantizer.rounded(extractor.describe(segments, nothing))
         in_map = recognition.retrieve(steps, groups, queries=alone)
-        figures["alone"] = retrieval(alone, segments, groups) | {"top1_in_map": mean(in_map.right)}
+        by_itself = retrieval(alone, segments, groups)
+        figures["alone"] = {key: by_itself[key] for key in by_itself if key not in RERANKED}
+        figures["alone"]["top1_in_map"] = mean(in_map.right)
     figures |= {"expected_calibration_error": None, "brier": None}
     site = site_of(manifest, codes, segments, captures)
     if classifier is not None:
@@ -131,8 +136,13 @@ def with_site(
     }
 
 
-def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, Any]:
-    """Return the figures of nearest neighbors, with the quantized distance of the service."""
+def retrieval(
+    steps: Float32, segments: Segments, groups: Int64, captures: Int64 | None = None
+) -> dict[str, Any]:
+    """Return the figures of nearest neighbors, with the quantized distance of the service.
+
+    The figures after re-ranking are None without captures.
+    """
     found = recognition.retrieve(steps, groups)
     too_easy = recognition.seen_within(segments.sensors, recognition.CROSS_VIEW_METERS)
     crossed = recognition.retrieve(steps, groups, too_easy)
@@ -142,7 +152,28 @@ def retrieval(steps: Float32, segments: Segments, groups: Int64) -> dict[str, An
         "cross_view_top1": mean(crossed.right[crossed.has_mate]),
         "cross_view_queries": int(crossed.has_mate.sum()),
         "recall_at_25": mean(found.recalled[found.has_mate]),
-    }
+    } | reranked(found, crossed, segments, groups, captures)
+
+
+RERANKED = ("reranked_top1", "reranked_top1_with_mate", "reranked_cross_view_top1")
+
+
+def reranked(
+    found: recognition.Retrieval,
+    crossed: recognition.Retrieval,
+    segments: Segments,
+    groups: Int64,
+    captures: Int64 | None,
+) -> dict[str, float | None]:
+    """Return the figures after re-ranking, of all candidates and across views."""
+    if captures is None:
+        return dict.fromkeys(RERANKED)
+    centroids = segments.centroids().astype(np.float64)
+    right, across = (
+        recognition.reranked(each, groups, centroids, captures) for each in (found, crossed)
+    )
+    shares = mean(right), mean(right[found.has_mate]), mean(across[crossed.has_mate])
+    return dict(zip(RERANKED, shares, strict=True))
 
 
 def candidate_calibration(

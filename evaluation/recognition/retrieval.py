@@ -10,12 +10,12 @@ import numpy as np
 from scipy.stats import rankdata
 
 from placecell.core.types import Bool, Float32, Float64, Int64
+from placecell.descriptors.reranking import CANDIDATES, rerank, supports
 
 PAIRS = 20_000
 """Number of positive pairs, and of negative pairs."""
 
 CROSS_VIEW_METERS = 10.0
-CANDIDATES = 25
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,12 +27,17 @@ class Retrieval:
         has_mate: bool (segments,), whether the segment has a mate.
         recalled: bool (segments,), whether a mate is among the 25 nearest segments.
         nearest: int64 (segments,), nearest segment; -1 if there is no other.
+        candidates: int64 (segments, 25), the nearest segments, nearest first; ties by index; -1
+            where there is no other.
+        distances: float64 (segments, 25), their distances; infinite where there is no other.
     """
 
     right: Bool
     has_mate: Bool
     recalled: Bool
     nearest: Int64
+    candidates: Int64
+    distances: Float64
 
 
 def distance_rows(
@@ -109,6 +114,8 @@ def retrieve(
     count = len(groups)
     right, has_mate, recalled = (np.zeros(count, dtype=bool) for _ in range(3))
     nearest_first = np.full(count, -1)
+    candidates = np.full((count, CANDIDATES), -1)
+    apart = np.full((count, CANDIDATES), np.inf)
     for rows, distances in distance_rows(descriptors, queries):
         mates = groups[rows, None] == groups[None]
         mates[np.arange(len(rows)), rows] = False
@@ -125,7 +132,33 @@ def retrieve(
         first = distances.argmin(axis=1)
         nearest_first[rows] = first
         right[rows] = mates[np.arange(len(rows)), first]
-    return Retrieval(right, has_mate, recalled, nearest_first)
+        squared = np.take_along_axis(distances, nearest, axis=1)
+        order = np.lexsort((nearest, squared), axis=1)
+        squared = np.take_along_axis(squared, order, axis=1)
+        # A segment that is left out is infinitely far.
+        found = np.where(np.isfinite(squared), np.take_along_axis(nearest, order, axis=1), -1)
+        candidates[rows, :several] = found
+        apart[rows, :several] = np.sqrt(np.maximum(squared, 0.0))
+    return Retrieval(right, has_mate, recalled, nearest_first, candidates, apart)
+
+
+def reranked(found: Retrieval, groups: Int64, centroids: Float64, captures: Int64) -> Bool:
+    """Return whether the first candidate of each segment is a mate after re-ranking.
+
+    The segments of a capture are neighbors. Their candidates are those of the retrieval, so the
+    same mates are left out.
+
+    Args:
+        found: candidates of each segment.
+        groups: int64 (segments,), group of each segment.
+        centroids: float64 (segments, 3), centroids, meters, in one frame.
+        captures: int64 (segments,), capture that each segment was seen in.
+    """
+    maps = np.where(found.candidates >= 0, 0, -1)
+    counts = supports(centroids, centroids[found.candidates], maps, captures)
+    first = rerank(found.distances, counts)[:, :1]
+    best = np.take_along_axis(found.candidates, first, axis=1)[:, 0]
+    return np.asarray((best >= 0) & (groups[best] == groups))
 
 
 def top1(descriptors: Float32, groups: Int64) -> float:

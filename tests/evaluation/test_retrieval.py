@@ -138,3 +138,39 @@ def test_queries_may_be_other_descriptors_of_the_same_segments() -> None:
     found = retrieval.retrieve(descriptors, np.array([0, 0, 1, 1]), queries=queries)
     assert found.nearest.tolist() == [2, 0, 3, 2]
     assert found.right.tolist() == [False, True, True, True]
+
+
+# Capture 0 and capture 1 see objects 0, 1, 2. Capture 2 sees look-alikes, which stand differently.
+LOOKS = np.array([0.0, 10.0, 20.0, 1.2, 11.2, 21.2, -1.0, 9.0, 19.0], dtype=np.float32)[:, None]
+GROUPS = np.array([0, 1, 2, 0, 1, 2, 3, 4, 5])
+CAPTURES = np.array([0, 0, 0, 1, 1, 1, 2, 2, 2])
+SCENE = np.array([[0.0, 0, 0], [5, 0, 0], [0, 7, 0]])
+CENTROIDS = np.concatenate([SCENE, SCENE + 0.1, [[90.0, 0, 0], [99, 0, 0], [90, 14, 0]]])
+
+
+def test_reranking_finds_the_candidate_whose_neighbors_are_right() -> None:
+    found = retrieval.retrieve(LOOKS, GROUPS)
+    assert found.candidates[0, :2].tolist() == [6, 3]
+    assert found.distances[0, :2].tolist() == pytest.approx([1.0, 1.2])
+    assert not found.right[:3].any()
+    right = retrieval.reranked(found, GROUPS, CENTROIDS, CAPTURES)
+    assert right.tolist() == [True] * 6 + [False] * 3
+    # Segments that no capture saw together have no neighbors.
+    apart = retrieval.reranked(found, GROUPS, CENTROIDS, np.arange(9))
+    assert apart.tolist() == found.right.tolist()
+
+
+def test_reranking_leaves_out_the_same_mates() -> None:
+    near = retrieval.seen_within(np.zeros((9, 3), dtype=np.float32), 10.0)
+    found = retrieval.retrieve(LOOKS, GROUPS, near)
+    assert not found.has_mate.any()
+    assert (found.candidates[:, -3:] == -1).all()
+    assert np.isinf(found.distances[:, -3:]).all()
+    assert not retrieval.reranked(found, GROUPS, CENTROIDS, CAPTURES).any()
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_reranking_of_too_few_segments_finds_nothing(count: int) -> None:
+    found = retrieval.retrieve(LOOKS[:count], GROUPS[:count])
+    right = retrieval.reranked(found, GROUPS[:count], CENTROIDS[:count], CAPTURES[:count])
+    assert right.tolist() == [False] * count

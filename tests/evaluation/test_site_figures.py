@@ -97,3 +97,13 @@ def test_model_without_constants_or_captures_is_measured_as_before(
     assert told["pair_accuracy"] == before["pair_accuracy_uncalibrated"]
     assert told["pair_auc"] == before["pair_auc_uncalibrated"]
     assert told["brier"] == before["brier_uncalibrated"]
+
+
+def test_reranked_figures_are_none_without_captures() -> None:
+    told = figures(scale=0.5, pair={})
+    assert told["reranked_top1"] >= told["top1"] > 0.9
+    assert told["reranked_top1_with_mate"] == told["reranked_top1"]
+    assert told["reranked_cross_view_top1"] is None  # all views are from nearby
+    without = figures(scale=0.5, pair={}, with_captures=False)
+    assert without["reranked_top1"] is without["reranked_cross_view_top1"] is None
+    assert without["top1"] == told["top1"]
