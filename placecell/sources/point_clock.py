@@ -18,8 +18,11 @@ from placecell.core.types import Float64
 from placecell.sources.point_times import EPOCH
 from placecell.sources.scan_options import SECONDS, TimeUnit
 
-SHORTEST, LONGEST = 0.002, 1.9
-"""Shortest and longest plausible sweep, seconds; the units differ by more than their ratio."""
+SHORTEST, LONGEST_GUESS = 0.001, 1.0
+"""Shortest and longest plausible sweep if its unit is not known, seconds: exactly one unit fits.
+A unit that is too small does less harm than one that is too large: points hardly move in 1 ms."""
+LONGEST = 1.9
+"""Longest plausible sweep in a known unit, seconds."""
 SWEEPS_A_PERIOD = 1.5
 """Largest plausible sweep, periods of the scans."""
 SAME_CLOCK = 2.0
@@ -120,9 +123,9 @@ def find_clock(
         return None
     spread = float(np.median(positive))
     found = unit or unit_since_epoch([float(base) for base, _ in middles])
-    longest = LONGEST
+    longest = LONGEST if found else LONGEST_GUESS
     if found is None and period:
-        longest = min(LONGEST, max(SWEEPS_A_PERIOD * period, 2 * SHORTEST))
+        longest = min(LONGEST_GUESS, max(SWEEPS_A_PERIOD * period, 2 * SHORTEST))
     units = [
         each
         for each in ([found] if found else SECONDS)

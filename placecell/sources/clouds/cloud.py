@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64
 from placecell.sources.errors import DriveError
-from placecell.sources.point_times import is_time, point_times
+from placecell.sources.point_clock import PointClock, find_clock
+from placecell.sources.point_times import is_time, time_fields
 from placecell.sources.scan import LidarScan
-from placecell.sources.scan_options import METERS, Unit
+from placecell.sources.scan_options import METERS, TimeUnit, Unit
 
 FAR = 10_000.0
 """Distance of a cloud from the origin from which it is shifted, meters: float32 resolves 1 mm at
@@ -48,6 +50,14 @@ class Cloud:
     values: Mapping[str, NDArray[Any]]
     fields: tuple[str, ...]
     remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class CloudClock:
+    """Field that holds the times of points, and its clock."""
+
+    field: str
+    clock: PointClock
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +125,12 @@ def find_shift(coordinates: Float64) -> Float64:
 
 
 def as_scan(
-    cloud: Cloud, file: Path, stamp: float, scale: float, shift: Float64 | None
+    cloud: Cloud,
+    file: Path,
+    stamp: float = nan,
+    scale: float = 1.0,
+    shift: Float64 | None = None,
+    clock: CloudClock | None = None,
 ) -> tuple[LidarScan, Float64]:
     """Turn the content of a file into a scan.
 
@@ -124,6 +139,7 @@ def as_scan(
         stamp: time of the scan, seconds; NaN if unknown.
         scale: meters a unit of the coordinates.
         shift: subtracted from the coordinates, meters; None: found from them.
+        clock: clock of the points' times; None: they have none.
 
     Returns:
         The scan, and the shift, float64 (3,), meters.
@@ -131,33 +147,77 @@ def as_scan(
     Raises:
         DriveError: x, y or z is missing, or a field has another length.
     """
+    points, shift = positions(cloud, file, scale, shift)
+    raw, _ = point_times_of(cloud).get(clock.field, (None, None)) if clock else (None, None)
+    scan = LidarScan.of(points, raw, stamp)
+    if clock is None or scan.times is None:
+        return scan, shift
+    with np.errstate(all="ignore"):
+        times = clock.clock.seconds(scan.times, nanoseconds(stamp))
+    return replace(scan, times=times), shift
+
+
+def positions(
+    cloud: Cloud, file: Path, scale: float = 1.0, shift: Float64 | None = None
+) -> tuple[Float32, Float64]:
+    """Return all points, float32 (n, 3), meters, and the shift that was subtracted from them.
+
+    Raises:
+        DriveError: x, y or z is missing.
+    """
     axes, _ = needed_fields(list(cloud.values), file)
     scale *= axes.scale
     columns = [cloud.values[name] for name in axes.names]
+    exact = scale == 1.0 and all(each.dtype.newbyteorder("=") == np.float32 for each in columns)
+    if exact and (shift is None or not shift.any()):
+        # float32 files have lost what a shift would keep.
+        points = np.empty((len(columns[0]), 3), np.float32)
+        for axis, column in enumerate(columns):
+            points[:, axis] = column
+        return points, np.zeros(3)
     with np.errstate(all="ignore"):
-        exact = scale == 1.0 and all(each.dtype.newbyteorder("=") == np.float32 for each in columns)
-        if exact and (shift is None or not shift.any()):
-            # float32 files have lost what a shift would keep.
-            points, shift = stack(columns), np.zeros(3)
-        else:
-            wide = np.stack([np.asarray(each, np.float64) for each in columns], axis=1) * scale
-            shift = find_shift(wide) if shift is None else shift
-            points = (wide - shift).astype(np.float32) if shift.any() else wide.astype(np.float32)
-        # A point without an echo is at 0; the shift must not turn it into a point.
-        if shift.any():
-            points[(wide == 0).all(axis=1)] = 0
-        usable = np.isfinite(points).all(axis=1) & (points != 0).any(axis=1)
-    fields = {name.removeprefix("scalar_"): values for name, values in cloud.values.items()}
-    times = point_times(fields, stamp, usable)
-    return LidarScan.of(points, times, stamp), shift
+        wide = np.stack([np.asarray(each, np.float64) for each in columns], axis=1) * scale
+        shift = find_shift(wide) if shift is None else shift
+        points = (wide - shift).astype(np.float32)
+    # A point without an echo is at 0; the shift must not turn it into a point.
+    points[(wide == 0).all(axis=1)] = 0
+    return points, shift
 
 
-def stack(columns: Sequence[NDArray[Any]]) -> Float32:
-    """Stack three float32 columns as points (n, 3)."""
-    points = np.empty((len(columns[0]), 3), np.float32)
-    for axis, column in enumerate(columns):
-        points[:, axis] = column
-    return points
+def point_times_of(cloud: Cloud) -> dict[str, tuple[NDArray[Any], TimeUnit | None]]:
+    """Return the fields of a cloud that are times; CloudCompare writes `scalar_` before names."""
+    return time_fields({key.removeprefix("scalar_"): each for key, each in cloud.values.items()})
+
+
+def find_cloud_clock(
+    clouds: Sequence[tuple[Cloud, Path, float]], period: float | None = None
+) -> CloudClock | None:
+    """Find the field with the points' times, and its clock, from several files of a source.
+
+    Args:
+        clouds: content, file and stamp of some scans.
+        period: time from one scan to the next, seconds; None if unknown.
+    """
+    fields = [point_times_of(cloud) for cloud, _, _ in clouds]
+    names = {name: unit for each in fields for name, (_, unit) in each.items()}
+    points = [positions(cloud, file)[0] for cloud, file, _ in clouds] if names else []
+    for name, unit in names.items():
+        samples = []
+        for each, cloud_points, (_, _, stamp) in zip(fields, points, clouds, strict=True):
+            if name in each:
+                usable = LidarScan.of(cloud_points, each[name][0]).times
+                if usable is not None and len(usable):
+                    samples.append((usable, nanoseconds(stamp)))
+        with np.errstate(all="ignore"):
+            clock = find_clock(samples, period, unit)
+        if clock is not None:
+            return CloudClock(name, clock)
+    return None
+
+
+def nanoseconds(stamp: float) -> int:
+    """Return a stamp in nanoseconds; 0 if it is unknown."""
+    return round(stamp * 1e9) if isfinite(stamp) else 0
 
 
 def read_content(file: Path) -> bytes:

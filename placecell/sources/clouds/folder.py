@@ -2,14 +2,16 @@
 
 import hashlib
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
+from functools import cached_property
 from math import nan
 from pathlib import Path
 
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.clouds.cloud import as_scan, find_axes
+from placecell.sources.clouds.cloud import CloudClock, as_scan, find_axes, find_cloud_clock
 from placecell.sources.clouds.finding import find_clouds, folder_of_scans
 from placecell.sources.clouds.formats import RAW, ReadOptions, format_of, read_cloud
 from placecell.sources.clouds.raw import layout_of
@@ -21,6 +23,8 @@ from placecell.sources.scan_options import METERS, current_scan_options
 from placecell.sources.source import ScanSource
 
 MOST_REMARKS = 20
+SAMPLED = 5
+"""Number of scans from which the clock of the points' times is found."""
 
 
 class FolderOfClouds(ScanSource):
@@ -51,6 +55,8 @@ class FolderOfClouds(ScanSource):
             if layout.columns != KITTI.columns or layout.dtype != KITTI.dtype:
                 how = "as stated" if self.options.states_layout else "found from their values"
                 self.remark(f"scans have {layout}, {how}")
+        raw = self.cloud_format is RAW
+        self.scale = self.read_options.layout.scale if raw else METERS[self.options.unit]
         self.shift: Float64 | None = None
         self.examine()
 
@@ -86,6 +92,22 @@ class FolderOfClouds(ScanSource):
                 if len(self.files) == 1:
                     raise
 
+    @cached_property
+    def clock(self) -> CloudClock | None:
+        """Field with the points' times, and its clock, found from several scans."""
+        steps = np.diff(self.stamps)
+        period = float(np.median(steps[steps > 0])) if (steps > 0).any() else None
+        clouds = []
+        for index in np.unique(np.linspace(0, len(self.files) - 1, SAMPLED).astype(int)):
+            with suppress(DriveError):  # the scan raises it again
+                file = self.files[index]
+                cloud = read_cloud(file, self.read_options)
+                clouds.append((cloud, file, float(self.stamps[index])))
+        clock = find_cloud_clock(clouds, period)
+        if clock is not None:
+            self.remark(f"the times of points ({clock.field}) are in {clock.clock}")
+        return clock
+
     def find_stamps(self) -> Float64:
         """Return the time of each scan, from a file beside or from the names; else NaN."""
         if len(self.files) > 1:
@@ -108,10 +130,9 @@ class FolderOfClouds(ScanSource):
         file = self.files[index]
         cloud = read_cloud(file, self.read_options)
         self.fields = self.fields or cloud.fields
-        scale = METERS[self.options.unit]
-        if self.cloud_format is RAW:
-            scale = self.read_options.layout.scale
-        scan, shift = as_scan(cloud, file, float(self.stamps[index]), scale, self.shift)
+        scan, shift = as_scan(
+            cloud, file, float(self.stamps[index]), self.scale, self.shift, self.clock
+        )
         for text in cloud.remarks:
             self.remark(f"{file.name}: {text}")
         axes = find_axes(cloud.fields)

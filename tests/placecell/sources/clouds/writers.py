@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.clouds.cloud import as_scan
+from placecell.sources.clouds.cloud import as_scan, find_cloud_clock
 from placecell.sources.clouds.formats import ReadOptions, read_cloud
 from placecell.sources.scan import LidarScan
 
@@ -19,7 +19,9 @@ TYPES = {("F", 4): "f", ("F", 8): "d", ("U", 1): "B", ("U", 2): "H", ("U", 4): "
 
 def read(file: Path, options: ReadOptions | None = None) -> LidarScan:
     """Read a file as a scan whose stamp is unknown."""
-    return as_scan(read_cloud(file, options or ReadOptions()), file, float("nan"), 1.0, None)[0]
+    cloud = read_cloud(file, options or ReadOptions())
+    clock = find_cloud_clock([(cloud, file, float("nan"))])
+    return as_scan(cloud, file, clock=clock)[0]
 
 
 def pcd_header(
