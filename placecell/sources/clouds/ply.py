@@ -80,10 +80,11 @@ def read_ply(file: Path) -> Cloud:
     vertex = elements[index]
     names = tuple(each.name for each in vertex.properties)
     _, needed = needed_fields(names, file)
-    lists = {each.name for each in vertex.properties if each.length_type}
-    if lists & set(needed):
+    lists = {each.name for each in vertex.properties if each.length_type} & set(needed)
+    if lists:
         raise DriveError(
-            f"{file}: the property {min(lists & set(needed))!r} is a list, not a value"
+            f"{file}: the property {min(lists)!r} of its points is a list; expected one value a "
+            "point. Write the file again"
         )
     wanted = {name: names.index(name) for name in needed}
     if encoding == "ascii":
