@@ -36,9 +36,7 @@ def test_line_ends_of_old_macs_are_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_any_order_and_type_of_properties_is_read(tmp_path: Path, encoding: str) -> None:
     properties = ["uchar red", "double Z", "short y", "uint scalar_t", "float64 x", "char last"]
-    rows: list[list[Any]] = [
-        [255, 0.5, -4, time, 1.5, -1] for time in (0, 50_000_000, 100_000_000)
-    ]
+    rows: list[list[Any]] = [[255, 0.5, -4, time, 1.5, -1] for time in (0, 50_000_000, 100_000_000)]
     file = write(tmp_path, ply(encoding, properties, rows))
     scan = read(file)
     np.testing.assert_array_equal(scan.points, [[1.5, -4, 0.5]] * 3)
@@ -111,7 +109,10 @@ HEAD = b"ply\nformat %s 1.0\n"
         (ply("ascii", ["list uchar int n", *XYZ], [[-3, 1, 2, 3]]), "cannot be read"),
         (ply("ascii", ["list uchar int n", *XYZ], [[300, 1, 2, 3]]), "cannot be read"),
         (ply(LITTLE, ["list uchar int n", *XYZ], [[[1, 2], 1, 2, 3]])[:-3], "cut short"),
-        (ply(LITTLE, [*XYZ, "list uchar int n"], [[1, 2, 3, [1, 2]]])[:-3], "beyond the file's end"),
+        (
+            ply(LITTLE, [*XYZ, "list uchar int n"], [[1, 2, 3, [1, 2]]])[:-3],
+            "beyond the file's end",
+        ),
         (
             ply(LITTLE, XYZ, ROWS).replace(b"vertex 3", b"vertex 1000000000000"),
             "1,000,000,000,000 points",
