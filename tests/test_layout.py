@@ -39,6 +39,7 @@ LAYERS = (
     ("placecell.core", "placecell_client"),
     ("placecell.trajectories", "placecell.descriptors"),
     ("placecell.sources",),
+    ("placecell.sources.bags.containers",),
     ("placecell.sources.bags", "placecell.sources.clouds"),
     ("placecell.sources.catalog",),
     ("placecell.datasets",),

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.bags.bag import Bag
-from placecell.sources.bags.container import BagTopic
+from placecell.sources.bags.containers.bag import Bag
+from placecell.sources.bags.containers.container import BagTopic
 from placecell.sources.bags.pose_messages import PATH, POSES, TRANSFORMS, StampedPose
 from placecell.sources.bags.transform_tree import (
     FrameEdge,

@@ -12,11 +12,11 @@ from typing import ClassVar
 import numpy as np
 
 from placecell.core.types import Int64
-from placecell.sources.bags import mcap_file, ros1_file, sqlite_file
-from placecell.sources.bags.bag import METADATA, Bag, bag_files, kind_of
 from placecell.sources.bags.bag_poses import BagPoses, Extrinsic, read_poses
 from placecell.sources.bags.cloud_messages import is_cloud, read_cloud
-from placecell.sources.bags.container import BagTopic, Container
+from placecell.sources.bags.containers import mcap_file, ros1_file, sqlite_file
+from placecell.sources.bags.containers.bag import METADATA, Bag, bag_files, kind_of
+from placecell.sources.bags.containers.container import BagTopic, Container
 from placecell.sources.bags.pointcloud2 import (
     PointCloud2,
     TimeField,

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from placecell.core.types import Bool, Float64
-from placecell.sources.bags.bag import Bag
+from placecell.sources.bags.containers.bag import Bag
 from placecell.sources.bags.pose_messages import TRANSFORMS, StampedPose, transforms
 from placecell.sources.bags.wire import Wire
 from placecell.sources.errors import DriveError

@@ -12,8 +12,8 @@ from typing import BinaryIO
 
 import numpy as np
 
-from placecell.sources.bags.compression import KINDS, decompress
-from placecell.sources.bags.container import (
+from placecell.sources.bags.containers.compression import KINDS, decompress
+from placecell.sources.bags.containers.container import (
     UNCHUNKED,
     Container,
     RecordError,

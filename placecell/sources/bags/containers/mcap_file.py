@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
 
-from placecell.sources.bags.compression import decompress
-from placecell.sources.bags.container import (
+from placecell.sources.bags.containers.compression import decompress
+from placecell.sources.bags.containers.container import (
     UNCHUNKED,
     Container,
     RecordError,

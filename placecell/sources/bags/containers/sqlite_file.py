@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from placecell.sources.bags.container import BagTopic, Container, TopicIndex, table_of
+from placecell.sources.bags.containers.container import BagTopic, Container, TopicIndex, table_of
 from placecell.sources.errors import DriveError
 
 MAGIC = b"SQLite format 3\0"
@@ -63,7 +63,8 @@ class SqliteFile(Container):
                     if count > self.file_size:  # Each row takes some bytes.
                         raise sqlite3.DatabaseError("its tables repeat themselves")
                     yield row
-        except (sqlite3.Error, MemoryError, OverflowError) as error:
+        except (sqlite3.Error, UnicodeDecodeError, OverflowError) as error:
+            # The module `sqlite3` fails to decode messages that quote damaged text.
             raise DriveError(
                 f"{self.path}: the database of the ROS 2 bag cannot be read ({error}). Copy the "
                 "file again, or repair it with 'sqlite3 FILE .recover'"

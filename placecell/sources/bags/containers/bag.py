@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from placecell.sources.bags import mcap_file, ros1_file, sqlite_file
-from placecell.sources.bags.compression import ZSTD_MAGIC, decompress
-from placecell.sources.bags.container import BagTopic, Container
+from placecell.sources.bags.containers import mcap_file, ros1_file, sqlite_file
+from placecell.sources.bags.containers.compression import ZSTD_MAGIC, decompress
+from placecell.sources.bags.containers.container import BagTopic, Container
 from placecell.sources.errors import DriveError
 
 KINDS: dict[bytes, type[Container]] = {
