@@ -42,6 +42,7 @@ LAYERS = (
     ("placecell.sources.bags.containers",),
     ("placecell.sources.bags", "placecell.sources.clouds"),
     ("placecell.sources.catalog",),
+    ("placecell.odometry",),
     ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
     ("placecell.map_alignment",),

@@ -1,0 +1,1 @@
+"""Odometry: the sensor's motion where a source has no poses, and the direction of up."""
