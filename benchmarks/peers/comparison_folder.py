@@ -2,16 +2,16 @@
 
 import hashlib
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-from benchmarks.peers.exchange import read_answers
+from benchmarks.peers.exchange import NEAR, read_answers
 from benchmarks.peers.frames import Stretch, map_poses, query_poses, write_map, write_queries
-from benchmarks.peers.runner import PEERS
 from placecell.segmentation.pipeline import Progress, silent
 
 STAMP = "comparison.sha256"
-"""File with the hash of the comparison, written after all local maps."""
+"""File with the hash of the comparison and the kinds of its local maps, written after them."""
 
 ANSWERS = "answers"
 
@@ -24,6 +24,7 @@ def prepare_folder(
     most: int | None = None,
     seed: int = 0,
     resume: bool = False,
+    kinds: Sequence[str] = (NEAR,),
     progress: Progress = silent,
 ) -> None:
     """Write the local maps of a comparison and delete answers of other comparisons.
@@ -35,6 +36,7 @@ def prepare_folder(
         most: largest number of queries, spread evenly; None: all.
         seed: random seed of the queries' headings.
         resume: whether to keep the local maps and answers in the folder.
+        kinds: kinds of the local maps that the peers need.
         progress: wraps the loops.
 
     Raises:
@@ -42,16 +44,17 @@ def prepare_folder(
     """
     stamp, expected = folder / STAMP, digest(mapped, asking, most, seed)
     if resume:
-        if not stamp.is_file() or stamp.read_text() != expected:
+        written, *has = stamp.read_text().split() if stamp.is_file() else [""]
+        if written != expected or not set(kinds) <= set(has):
             raise ValueError(
                 f"{folder} has no complete local maps of this comparison. Run without --resume."
             )
         return
     stamp.unlink(missing_ok=True)
     shutil.rmtree(folder / ANSWERS, ignore_errors=True)
-    write_map(folder, mapped, progress)
-    write_queries(folder, asking, most, seed, progress)
-    stamp.write_text(expected)
+    write_map(folder, mapped, progress, kinds)
+    write_queries(folder, asking, most, seed, progress, kinds)
+    stamp.write_text(" ".join([expected, *kinds]))
 
 
 def digest(
@@ -66,12 +69,14 @@ def digest(
     return whole.hexdigest()
 
 
-def has_answered(folder: Path, name: str, rows: Sequence[str], queries: int) -> bool:
+def has_answered(
+    folder: Path, settings: Mapping[str, Any], rows: Sequence[str], queries: int
+) -> bool:
     """Return whether the folder has all answers of a peer with its present settings.
 
     Args:
         folder: folder of the comparison.
-        name: name of the peer.
+        settings: settings of the peer.
         rows: names of the peer's rows in the report.
         queries: number of queries.
     """
@@ -80,6 +85,6 @@ def has_answered(folder: Path, name: str, rows: Sequence[str], queries: int) -> 
             peer, _ = read_answers(folder / ANSWERS / f"{row}.jsonl", queries)
         except (OSError, ValueError):
             return False
-        if not PEERS[name].items() <= peer.settings.items():
+        if not settings.items() <= peer.settings.items():
             return False
     return True

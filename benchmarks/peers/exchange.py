@@ -1,8 +1,10 @@
 """Files that go to a peer and come back. Both environments load this module; it needs only NumPy.
 
 The folders `map` and `queries` hold one file `NNNNNN.npy` per local map: float32 (n, 3), meters, in
-a level frame with its origin at the sensor. The folder `map` also holds `poses.npy`. No file holds
-the true poses of the queries. Answers are JSON lines: first the peer, then one line per query.
+a level frame with its origin at the sensor. The folder `map` also holds `poses.npy`. Peers that are
+made for larger local maps read `map-KIND` and `queries-KIND` instead (`wide_maps.py`). No file
+holds the true poses of the queries. Answers are JSON lines: first the peer, then one line per
+query.
 """
 
 import json
@@ -19,6 +21,9 @@ Pose = NDArray[np.float64]
 
 MAP, QUERIES, POSES = "map", "queries", "poses.npy"
 
+NEAR = "near"
+"""Kind of the local maps that our segmentation gets."""
+
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
@@ -28,11 +33,13 @@ class Estimate:
         pose: transform (4, 4) from the query's frame to the map's, float64; None: no pose.
         score: the peer's own score; a higher score is more certain.
         sure: whether the peer's own rule accepts the pose.
+        evidence: figures on which the rule decides, by name.
     """
 
     pose: Pose | None
     score: float
     sure: bool
+    evidence: dict[str, float] = field(default_factory=dict)
 
 
 NOTHING = Estimate(None, float("-inf"), sure=False)
@@ -81,17 +88,23 @@ def cloud_file(folder: Path, index: int) -> Path:
     return folder / f"{index:06d}.npy"
 
 
-def read_map(folder: Path) -> list[MapFrame]:
+def folder_of(folder: Path, part: str, kind: str = NEAR) -> Path:
+    """Return the folder of the map's or the queries' local maps of a kind."""
+    return folder / (part if kind == NEAR else f"{part}-{kind}")
+
+
+def read_map(folder: Path, kind: str = NEAR) -> list[MapFrame]:
     """Read the local maps of the map; their points are loaded on first use."""
+    clouds = folder_of(folder, MAP, kind)
     return [
-        MapFrame(pose, np.load(cloud_file(folder / MAP, index), mmap_mode="r"))
-        for index, pose in enumerate(np.load(folder / MAP / POSES))
+        MapFrame(pose, np.load(cloud_file(clouds, index), mmap_mode="r"))
+        for index, pose in enumerate(np.load(clouds / POSES))
     ]
 
 
-def query_files(folder: Path) -> list[Path]:
+def query_files(folder: Path, kind: str = NEAR) -> list[Path]:
     """Return the files of the queries' local maps, in order."""
-    return sorted((folder / QUERIES).glob("*.npy"))
+    return sorted(folder_of(folder, QUERIES, kind).glob("*.npy"))
 
 
 def write_answers(file: Path, peer: Peer, answers: Iterable[PeerAnswer]) -> None:
@@ -106,6 +119,7 @@ def write_answers(file: Path, peer: Peer, answers: Iterable[PeerAnswer]) -> None
                 "score": estimate.score if pose else None,
                 "sure": estimate.sure,
                 "milliseconds": answer.milliseconds,
+                "evidence": estimate.evidence,
             }
             lines.write(json.dumps(row) + "\n")
 
@@ -142,7 +156,9 @@ def answer_of(row: dict[str, Any]) -> PeerAnswer:
     pose = np.array(row["pose"], dtype=np.float64)
     if pose.shape != (4, 4) or not np.isfinite(pose).all():
         raise ValueError("The pose must have four rows of four finite numbers.")
-    return PeerAnswer(Estimate(pose, float(row["score"]), bool(row["sure"])), milliseconds)
+    evidence = {str(name): float(figure) for name, figure in row.get("evidence", {}).items()}
+    estimate = Estimate(pose, float(row["score"]), bool(row["sure"]), evidence)
+    return PeerAnswer(estimate, milliseconds)
 
 
 def nearest_frame(frames: Sequence[MapFrame], pose: Pose) -> MapFrame:

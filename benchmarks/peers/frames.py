@@ -1,16 +1,22 @@
-"""Map and queries of a comparison: the same local maps that our segmentation gets."""
+"""Map and queries of a comparison: the same local maps that our segmentation gets.
 
-from collections.abc import Iterable, Sequence
+Peers that are made for larger local maps get those of the same stretches (`wide_maps.py`).
+"""
+
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from benchmarks.peers.exchange import MAP, POSES, QUERIES, cloud_file
+from benchmarks.peers.exchange import MAP, NEAR, POSES, QUERIES, cloud_file, folder_of
+from benchmarks.peers.wide_maps import WIDE, WideAccumulator, apart_from, traveled
 from evaluation.poses.queries import MAPPED_METERS, spread
 from placecell.core.parameters import PROTOCOL_V1, Parameters
-from placecell.core.types import Bool, Float64
+from placecell.core.types import Bool, Float32, Float64
 from placecell.datasets import Drive
 from placecell.segmentation.drive_splits import alternate_blocks, parameters_of
 from placecell.segmentation.local_map import Accumulator, transform
@@ -125,11 +131,19 @@ def poses_of(frames: Sequence[Frame]) -> Float64:
     return np.stack([stretch.to_map @ pose for stretch, _, pose in frames])
 
 
-def write_map(folder: Path, stretches: Sequence[Stretch], progress: Progress = silent) -> None:
-    """Write the files of the map."""
+def write_map(
+    folder: Path,
+    stretches: Sequence[Stretch],
+    progress: Progress = silent,
+    kinds: Iterable[str] = (NEAR,),
+) -> None:
+    """Write the files of the map, with local maps of some kinds."""
     frames = frames_of(stretches)
-    write_frames(folder / MAP, frames, progress)
-    np.save(folder / MAP / POSES, poses_of(frames))
+    for kind in kinds:
+        some = frames if kind == NEAR else spaced(frames, WIDE[kind].apart)
+        into = folder_of(folder, MAP, kind)
+        write_frames(into, some, progress, local_maps(kind, ahead=True))
+        np.save(into / POSES, poses_of(some))
 
 
 def write_queries(
@@ -138,15 +152,17 @@ def write_queries(
     most: int | None = None,
     seed: int = 0,
     progress: Progress = silent,
+    kinds: Iterable[str] = (NEAR,),
 ) -> None:
     """Write the files of the queries, each rotated by a random angle about the vertical.
 
     On a street that is driven in one direction, a method that finds no rotation would otherwise
     look right.
     """
-    write_frames(
-        folder / QUERIES, frames_of(stretches, most, np.random.default_rng(seed)), progress
-    )
+    frames = frames_of(stretches, most, np.random.default_rng(seed))
+    for kind in kinds:
+        into = folder_of(folder, QUERIES, kind)
+        write_frames(into, frames, progress, local_maps(kind, ahead=False))
 
 
 def frames_of(
@@ -164,18 +180,58 @@ def frames_of(
     return found
 
 
-def write_frames(folder: Path, frames: Sequence[Frame], progress: Progress) -> None:
+LocalMapOf = Callable[[Stretch, int], Float32]
+"""Function of a stretch and a scan that returns a local map in the drive's frame."""
+
+
+def local_maps(kind: str, *, ahead: bool) -> LocalMapOf:
+    """Return the function of the local maps of a kind.
+
+    Args:
+        kind: kind of the local maps.
+        ahead: whether wide local maps also hold scans after the capture.
+    """
+    open_at: tuple[Stretch, Callable[[int], Float32]] | None = None
+
+    def local_map(stretch: Stretch, scan: int) -> Float32:
+        nonlocal open_at
+        if open_at is None or open_at[0] is not stretch:
+            open_at = stretch, opened(stretch, kind, ahead=ahead)
+        return open_at[1](scan)
+
+    return local_map
+
+
+def opened(stretch: Stretch, kind: str, *, ahead: bool) -> Callable[[int], Float32]:
+    """Return the function of the local maps of one stretch, which reads each scan once."""
+    if kind == NEAR:
+        return Accumulator(stretch.drive, stretch.parameters, stretch.scans.start).local_map
+    accumulator = WideAccumulator(stretch.drive, stretch.scans, WIDE[kind])
+    return partial(accumulator.local_map, ahead=ahead)
+
+
+def spaced(frames: Sequence[Frame], apart: float) -> list[Frame]:
+    """Return frames of each stretch that are at least `apart` meters of travel from each other."""
+    chosen: list[Frame] = []
+    for _, group in groupby(frames, key=lambda frame: id(frame[0])):
+        of_stretch = list(group)
+        stretch = of_stretch[0][0]
+        along = traveled(stretch.drive.poses)[[scan for _, scan, _ in of_stretch]]
+        chosen += [of_stretch[index] for index in apart_from(along, apart)]
+    return chosen
+
+
+def write_frames(
+    folder: Path, frames: Sequence[Frame], progress: Progress, local_map: LocalMapOf
+) -> None:
     """Write local maps, each in a level frame with its origin at the sensor."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.npy"):
         old.unlink()
-    accumulator: Accumulator | None = None
     for index in progress(range(len(frames)), len(frames), f"local maps, {folder.name}"):
         stretch, scan, pose = frames[index]
-        if accumulator is None or accumulator.first != stretch.scans.start:
-            accumulator = Accumulator(stretch.drive, stretch.parameters, stretch.scans.start)
         to_frame = np.asarray(np.linalg.inv(pose), dtype=np.float64)
-        np.save(cloud_file(folder, index), transform(to_frame, accumulator.local_map(scan)))
+        np.save(cloud_file(folder, index), transform(to_frame, local_map(stretch, scan)))
 
 
 def leveled(pose: Float64, turn: float = 0.0) -> Float64:

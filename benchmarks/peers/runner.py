@@ -5,9 +5,10 @@ Run it by hand with:
     python -m benchmarks.peers.runner kiss-matcher FOLDER ANSWERS
 """
 
+import json
 import time
-from collections.abc import Sequence
-from dataclasses import asdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Annotated, Any, Protocol
@@ -29,19 +30,89 @@ from benchmarks.peers.exchange import (
 )
 
 PEERS: dict[str, dict[str, Any]] = {
-    "scan-context": {},
-    "map-closures": {},
-    "map-closures-level": {"density_map_resolution": 0.25, "level": True},
-    "kiss-matcher": {},
-    "kiss-matcher-3": {"candidates": 3},
-    "kiss-matcher-map": {"candidates": 0},
+    "scan-context": {"clouds": "submap"},
+    "map-closures": {"clouds": "long"},
+    "kiss-slam": {"clouds": "long"},
+    "kiss-matcher": {"clouds": "submap"},
+    "fpfh-fgr": {"clouds": "submap"},
 }
-"""Settings of each peer that differ from the defaults, chosen on the town of seed 7."""
+"""Settings of each peer that differ from its authors' values.
+
+They were chosen with `placecell bench peers --choose` on drives that no table shows.
+"""
+
+VARIANTS: dict[str, list[dict[str, Any]]] = {
+    "scan-context": [
+        {"clouds": clouds, "radius": radius, "sure_below": 0.6} | steps
+        for clouds, radius in (("submap", 80.0), ("near", 40.0))
+        for steps in ({}, {"method": "GICP", "gates": [5.0, 1.0]})
+    ],
+    "map-closures": [
+        {"clouds": "long", "density_map_resolution": pixel, "level": level}
+        for pixel in (0.5, 0.25)
+        for level in (False, True)
+    ],
+    "kiss-slam": [
+        {"clouds": "long", "density_map_resolution": pixel, "level": level}
+        for pixel in (0.5, 0.25)
+        for level in (False, True)
+    ],
+    "kiss-matcher": [
+        {"clouds": clouds, "voxel_size": voxel, "least_inliers": 5}
+        for clouds, voxel in (("submap", 1.0), ("submap", 0.5), ("near", 0.5), ("near", 0.3))
+    ],
+    "fpfh-fgr": [
+        {"clouds": clouds, "voxel_size": voxel}
+        for clouds, voxel in (("submap", 1.0), ("submap", 0.5), ("near", 0.5))
+    ],
+}
+"""Settings to choose from, of each peer."""
 
 REFINED = "+gicp"
 """Suffix of the name of a peer with refined poses."""
 
-PACKAGES = ("numpy", "scipy", "map-closures", "kiss-matcher", "small-gicp")
+PACKAGES = ("numpy", "scipy", "map-closures", "kiss-matcher", "kiss-slam", "open3d", "small-gicp")
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """Peer with its settings, under the name of its row.
+
+    Attributes:
+        row: name of its row in the report.
+        peer: name of the peer.
+        settings: settings that differ from the defaults.
+    """
+
+    row: str
+    peer: str
+    settings: dict[str, Any]
+
+    @property
+    def clouds(self) -> str:
+        """Return the kind of local maps that the peer reads."""
+        return str(self.settings["clouds"])
+
+
+def systems_of(peers: Sequence[str], *, choose: bool) -> list[System]:
+    """Return the systems to measure: each peer, or all its variants.
+
+    Args:
+        peers: names of the peers.
+        choose: whether to return the variants from which the settings are chosen.
+    """
+    if not choose:
+        return [System(name, name, PEERS[name]) for name in peers]
+    return [
+        System(f"{name} {described(settings)}", name, settings)
+        for name in peers
+        for settings in VARIANTS[name]
+    ]
+
+
+def described(settings: Mapping[str, Any]) -> str:
+    """Return settings as words of one line."""
+    return ", ".join(f"{name}={value}" for name, value in settings.items())
 
 
 class Locator(Protocol):
@@ -56,40 +127,58 @@ class Locator(Protocol):
         """Return the pose of a local map in the map."""
 
 
-def open_peer(name: str) -> Locator:
+def open_peer(name: str, settings: Mapping[str, Any]) -> Locator:
     """Return a peer by name, and import its package."""
-    settings = PEERS[name]
-    if name.startswith("map-closures"):
-        from benchmarks.peers.map_closures import MapClosuresParameters, MapClosuresPeer
+    if name == "map-closures":
+        from benchmarks.peers.systems.map_closures import MapClosuresParameters, MapClosuresPeer
 
         return MapClosuresPeer(MapClosuresParameters(**settings))
-    if name.startswith("kiss-matcher"):
-        from benchmarks.peers.kiss_matcher import KissMatcherParameters, KissMatcherPeer
+    if name == "kiss-slam":
+        from benchmarks.peers.systems.kiss_slam import KissSlamParameters, KissSlamPeer
+
+        return KissSlamPeer(KissSlamParameters(**settings))
+    if name == "kiss-matcher":
+        from benchmarks.peers.systems.kiss_matcher import KissMatcherParameters, KissMatcherPeer
 
         return KissMatcherPeer(KissMatcherParameters(**settings))
-    from benchmarks.peers.scan_context import ScanContextParameters, ScanContextPeer
+    if name == "fpfh-fgr":
+        from benchmarks.peers.systems.fast_global import FastGlobalParameters, FastGlobalPeer
 
-    return ScanContextPeer(ScanContextParameters(**settings))
+        return FastGlobalPeer(FastGlobalParameters(**settings))
+    from benchmarks.peers.systems.registered_context import (
+        RegisteredContextParameters,
+        RegisteredContextPeer,
+    )
+
+    return RegisteredContextPeer(RegisteredContextParameters(**settings))
 
 
 def run_locator(
     name: Annotated[str, typer.Argument(help=f"Name of the peer: {', '.join(PEERS)}.")],
     folder: Annotated[Path, typer.Argument(help="Folder with the map and the queries.")],
-    answers: Annotated[Path, typer.Argument(help="Folder for PEER.jsonl.")],
+    answers: Annotated[Path, typer.Argument(help="Folder for ROW.jsonl.")],
     refine: Annotated[
-        bool, typer.Option(help=f"Also write refined poses, to PEER{REFINED}.jsonl.")
+        bool, typer.Option(help=f"Also write refined poses, to ROW{REFINED}.jsonl.")
     ] = False,
+    row: Annotated[
+        str | None, typer.Option(help="Name of the peer's row. (default: its name)")
+    ] = None,
+    settings: Annotated[
+        str | None, typer.Option(help="Settings of the peer, JSON. (default: the chosen ones)")
+    ] = None,
 ) -> None:
     """Answer all queries with one peer."""
     if name not in PEERS:
         raise typer.BadParameter(f"Unknown peer {name!r}. Known peers: {', '.join(PEERS)}.")
-    locator, frames = open_peer(name), read_map(folder)
+    system = System(row or name, name, PEERS[name] if settings is None else json.loads(settings))
+    locator, frames = open_peer(name, system.settings), read_map(folder, system.clouds)
     started = time.perf_counter()
     locator.learn(frames)
     learning = time.perf_counter() - started
     plain, refined = [], []
     # The packages write to standard output, so the progress goes to standard error.
-    for file in track(query_files(folder), name, console=Console(stderr=True)):
+    files = query_files(folder, system.clouds)
+    for file in track(files, system.row, console=Console(stderr=True)):
         cloud = np.load(file)
         started = time.perf_counter()
         estimate = locator.locate(cloud)
@@ -99,17 +188,17 @@ def run_locator(
             started = time.perf_counter()
             estimate = refine_estimate(estimate, cloud, frames)
             refined.append(PeerAnswer(estimate, spent + 1000 * (time.perf_counter() - started)))
-    peer = Peer(name, asdict(locator.parameters), versions(), learning)
+    peer = Peer(system.row, asdict(locator.parameters), versions(), learning)
     answers.mkdir(parents=True, exist_ok=True)
-    write_answers(answers / f"{name}.jsonl", peer, plain)
+    write_answers(answers / f"{system.row}.jsonl", peer, plain)
     if refine:
-        peer = Peer(name + REFINED, peer.settings, peer.versions, learning)
+        peer = Peer(system.row + REFINED, peer.settings, peer.versions, learning)
         write_answers(answers / f"{peer.name}.jsonl", peer, refined)
 
 
 def refine_estimate(estimate: Estimate, cloud: Cloud, frames: Sequence[MapFrame]) -> Estimate:
     """Refine the pose of an estimate; import the package only when needed."""
-    from benchmarks.peers.refinement import refine
+    from benchmarks.peers.systems.registration import refine
 
     return refine(estimate, cloud, frames)
 

@@ -39,6 +39,14 @@ def peers(
     refine: Annotated[
         bool, typer.Option(help="Also measure poses that generalized ICP refined.")
     ] = True,
+    choose: Annotated[
+        bool,
+        typer.Option(
+            "--choose",
+            help="Measure all variants of each system instead of the chosen one. Use drives that "
+            "you do not report.",
+        ),
+    ] = False,
     python: Annotated[
         Path,
         typer.Option(help="Python interpreter of the other systems; 'make peers' installs it."),
@@ -56,9 +64,10 @@ def peers(
         ),
     ] = False,
 ) -> None:
-    """Measure other systems: MapClosures, KISS-Matcher, Scan Context.
+    """Measure other systems: MapClosures, KISS-SLAM, KISS-Matcher, Scan Context, FPFH with FGR.
 
-    They get the same local maps that Placecell segments. Each query is rotated by a random angle.
+    They get local maps of the same scans that Placecell segments, with the length and range that
+    their authors recommend. Each query is rotated by a random angle.
     The systems run in their own Python environment. Times are from the points of a local map to
     the pose; on a busy machine trust the ratios. The local maps take 0.9 GB per kilometer.
     """
@@ -80,6 +89,7 @@ def peers(
             most=queries,
             seed=seed,
             resume=resume,
+            choose=choose,
             progress=show,
         )
         write_json(report, json_file)

@@ -11,8 +11,16 @@ from typer.testing import CliRunner
 
 import benchmarks
 from benchmarks.peers.compare import run_peer
-from benchmarks.peers.exchange import MAP, POSES, QUERIES, Cloud, cloud_file, read_answers
-from benchmarks.peers.runner import PACKAGES, PEERS
+from benchmarks.peers.exchange import (
+    MAP,
+    POSES,
+    QUERIES,
+    Cloud,
+    cloud_file,
+    folder_of,
+    read_answers,
+)
+from benchmarks.peers.runner import PACKAGES, PEERS, VARIANTS, System, systems_of
 from benchmarks.peers.score import outcome_of
 from cli import app
 from tests.placecell.segment_builders import pose, write_odometry
@@ -22,6 +30,7 @@ pytestmark = pytest.mark.integration
 
 ENVIRONMENT = Path(benchmarks.__file__).parents[1] / ".venv-peers" / "bin" / "python"
 HERE = Path(sys.executable)
+CHOSEN = dict(PEERS)
 
 pytestmark = pytest.mark.integration
 
@@ -29,6 +38,12 @@ pytestmark = pytest.mark.integration
 @pytest.fixture(scope="module")
 def drives(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     return two_robots(tmp_path_factory.mktemp("town"), seed=3, scans=30, columns=200)
+
+
+@pytest.fixture(autouse=True)
+def scan_context_without_packages(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Scan Context run without registration, which needs a package of the peers."""
+    monkeypatch.setitem(PEERS, "scan-context", {"clouds": "near", "gates": []})
 
 
 def run(*words: str | Path | int, status: int = 0) -> str:
@@ -50,7 +65,7 @@ def test_report_of_two_drives(drives: tuple[Path, Path], tmp_path: Path) -> None
     (row,) = report["rows"]
     assert row["name"] == "scan-context"
     assert row["queries"] == 4
-    assert row["settings"]["sectors"] == 60
+    assert row["settings"]["radius"] == 80
     assert row["versions"]["numpy"] == np.__version__
     assert row["p50_ms"] > 0
     # No file that the peer could read holds the true poses.
@@ -124,7 +139,8 @@ def test_drives_without_a_common_frame_are_refused(tmp_path: Path) -> None:
 
 LOAD = """
 import sys
-from benchmarks.peers import exchange, runner, scan_context
+from benchmarks.peers import exchange, runner
+from benchmarks.peers.systems import registered_context
 names = {name.partition(".")[0] for name in sys.modules}
 print(*names)
 """
@@ -158,25 +174,56 @@ def blocks(seed: int, reach: float) -> Cloud:
     return np.concatenate(parts).astype(np.float32)
 
 
-@pytest.mark.parametrize("name", sorted(PEERS.keys() - {"kiss-matcher-3"}))  # as kiss-matcher
+@pytest.mark.parametrize("name", sorted(PEERS))
 def test_each_peer_localizes_a_query_of_the_map(name: str, tmp_path: Path) -> None:
     if not ENVIRONMENT.is_file():
         pytest.skip("no environment of the peers: make peers")
     # MapClosures detects features only 16 m from the edge of its image.
-    reach = 60.0 if name == "map-closures" else 25.0
+    reach = 60.0 if name in {"map-closures", "kiss-slam"} else 25.0
     frames = [pose(200.0 * index, 30.0, 1.0, yaw=0.5 * index) for index in range(3)]
     query = pose(2.0, -1.0, 0.0, yaw=2.0)
-    for part in (MAP, QUERIES):
-        (tmp_path / part).mkdir()
+    system = System(name, name, CHOSEN[name])
+    mapped, asked = (folder_of(tmp_path, part, system.clouds) for part in (MAP, QUERIES))
+    mapped.mkdir()
+    asked.mkdir()
     for index in range(3):
-        np.save(cloud_file(tmp_path / MAP, index), blocks(index, reach))
-    np.save(tmp_path / MAP / POSES, frames)
+        np.save(cloud_file(mapped, index), blocks(index, reach))
+    np.save(mapped / POSES, frames)
     inverse = np.linalg.inv(query)
     seen = blocks(1, reach) @ inverse[:3, :3].T + inverse[:3, 3]
-    np.save(cloud_file(tmp_path / QUERIES, 0), seen.astype(np.float32))
-    run_peer(name, tmp_path, ENVIRONMENT, refine=True)
+    np.save(cloud_file(asked, 0), seen.astype(np.float32))
+    run_peer(system, tmp_path, ENVIRONMENT, refine=True)
     peer, answers = read_answers(tmp_path / "answers" / f"{name}+gicp.jsonl", 1)
     assert set(PACKAGES) <= set(peer.versions)
     outcome = outcome_of(answers[0], frames[1] @ query, mapped=True)
     assert outcome.meters < 0.2
     assert outcome.degrees < 1
+
+
+def test_choose_measures_each_variant(
+    drives: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    variants: list[dict[str, object]] = [
+        {"clouds": kind, "gates": []} for kind in ("near", "submap", "long")
+    ]
+    monkeypatch.setitem(VARIANTS, "scan-context", variants)
+    words = (
+        *(*drives, "--peer", "scan-context", "--no-refine", "--queries", 2, "--choose"),
+        *("--python", HERE, "--output", tmp_path, "--json", tmp_path / "figures.json"),
+    )
+    run(*words)
+    rows = json.loads((tmp_path / "figures.json").read_text())["rows"]
+    assert [row["name"] for row in rows] == [
+        f"scan-context clouds={kind}, gates=[]" for kind in ("near", "submap", "long")
+    ]
+    assert [row["settings"]["clouds"] for row in rows] == ["near", "submap", "long"]
+    assert len(list((tmp_path / "queries-long").iterdir())) == 2
+    run(*words, "--resume")
+
+
+def test_chosen_settings_run_unless_variants_are_asked_for() -> None:
+    (one,) = systems_of(["kiss-matcher"], choose=False)
+    assert (one.row, one.settings) == ("kiss-matcher", PEERS["kiss-matcher"])
+    several = systems_of(["kiss-matcher", "fpfh-fgr"], choose=True)
+    assert {system.peer for system in several} == {"kiss-matcher", "fpfh-fgr"}
+    assert len({system.row for system in several}) == len(several)

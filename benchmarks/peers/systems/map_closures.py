@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from map_closures.config import MapClosuresConfig
-from map_closures.map_closures import MapClosures
+from map_closures.map_closures import ClosureCandidate, MapClosures
+from map_closures.voxel_map import VoxelMap
 from numpy.typing import NDArray
 
-from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame
+from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame, Pose
 
 APART = 4
 """Step between the numbers of local maps. The package ignores maps whose numbers differ by three or
@@ -27,14 +28,16 @@ NO_NORMALS = np.zeros((0, 3))
 class MapClosuresParameters:
     """Parameters of MapClosures; the defaults are those of the package."""
 
+    clouds: str = "long"
+    """Kind of the local maps; the paper's reach 100 m and cover 100 m of travel."""
+    range_m: float = 100.0
+    """Range of the local maps, meters."""
     density_map_resolution: float = 0.5
-    """Size of a pixel, meters. ORB needs 31 pixels on each side of a feature; a local map of 40 m
-    has 160 pixels in all."""
+    """Size of a pixel, meters. ORB needs 31 pixels on each side of a feature."""
     density_threshold: float = 0.05
     hamming_distance_threshold: int = 50
     level: bool = False
-    """Assume level local maps, as ours are, instead of the plane fit to the ground. The
-    fit needs ten points in a voxel of pixel size, and turns some sparse local maps over."""
+    """Assume level local maps, as ours are, instead of the plane fit to the ground."""
     inliers_threshold: int = 5
     """Number of inliers that an accepted closure must exceed."""
 
@@ -44,14 +47,7 @@ class MapClosuresPeer:
 
     def __init__(self, parameters: MapClosuresParameters) -> None:
         self.parameters = parameters
-        self.closures = MapClosures(
-            MapClosuresConfig(
-                density_map_resolution=parameters.density_map_resolution,
-                density_threshold=parameters.density_threshold,
-                hamming_distance_threshold=parameters.hamming_distance_threshold,
-                inliers_threshold=parameters.inliers_threshold,
-            )
-        )
+        self.closures = MapClosures(config_of(parameters))
 
     def learn(self, frames: Sequence[MapFrame]) -> None:
         """Take in the map."""
@@ -61,7 +57,16 @@ class MapClosuresPeer:
         self.asked = APART * len(frames)
 
     def locate(self, cloud: Cloud) -> Estimate:
-        """Return the pose of a local map in the map.
+        """Return the pose of a local map in the map."""
+        best = self.best_closure(cloud)
+        if best is None:
+            return NOTHING
+        inliers = best.number_of_inliers
+        sure = inliers > self.parameters.inliers_threshold
+        return Estimate(self.pose_of(best), float(inliers), sure, {"inliers": float(inliers)})
+
+    def best_closure(self, cloud: Cloud) -> ClosureCandidate | None:
+        """Return the closure with most inliers with a local map of the map.
 
         The package adds each query to its maps; closures with queries are left out.
         """
@@ -71,18 +76,32 @@ class MapClosuresPeer:
             for closure in self.closures.get_closures(self.asked, *self.seen(cloud))
             if closure.source_id in self.poses
         ]
-        if not found:
-            return NOTHING
-        best = max(found, key=lambda closure: closure.number_of_inliers)
-        # The pose of a closure is the transform from the older map (source) to the newer one.
-        pose = self.poses[best.source_id] @ np.linalg.inv(best.pose)
-        inliers = best.number_of_inliers
-        return Estimate(pose, float(inliers), inliers > self.parameters.inliers_threshold)
+        return max(found, key=lambda closure: closure.number_of_inliers, default=None)
+
+    def pose_of(self, closure: ClosureCandidate) -> Pose:
+        """Return the pose of the query.
+
+        The pose of a closure is the transform from the older map (source) to the newer one.
+        """
+        return np.asarray(self.poses[closure.source_id] @ np.linalg.inv(closure.pose))
 
     def seen(self, cloud: Cloud) -> tuple[NDArray[np.float64], ...]:
         """Return the package's arguments for a local map: its points, and normals if it is level.
 
-        The normals are empty, so the package skips the plane fit.
+        The points go through the voxel map of the authors' pipeline. The normals are empty, so the
+        package skips the plane fit.
         """
-        points = cloud.astype(np.float64)
+        voxels = VoxelMap(self.parameters.density_map_resolution, self.parameters.range_m)
+        voxels.integrate_frame(np.asarray(cloud, dtype=np.float64), np.eye(4))
+        points = np.asarray(voxels.point_cloud())
         return (points, NO_NORMALS, NO_NORMALS) if self.parameters.level else (points,)
+
+
+def config_of(parameters: MapClosuresParameters) -> MapClosuresConfig:
+    """Return the configuration of the package."""
+    return MapClosuresConfig(
+        density_map_resolution=parameters.density_map_resolution,
+        density_threshold=parameters.density_threshold,
+        hamming_distance_threshold=parameters.hamming_distance_threshold,
+        inliers_threshold=parameters.inliers_threshold,
+    )

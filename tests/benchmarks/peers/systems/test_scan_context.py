@@ -3,19 +3,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from benchmarks.peers.exchange import NOTHING, Cloud, MapFrame
-from benchmarks.peers.scan_context import (
+from benchmarks.peers.exchange import Cloud
+from benchmarks.peers.systems.scan_context import (
     ScanContextParameters,
-    ScanContextPeer,
     ScanContexts,
-    about_z,
     distances,
     ring_key,
     scan_context,
 )
-from tests.placecell.segment_builders import pose
 
-SMALL = ScanContextParameters(rings=2, sectors=4, radius=20.0, sensor_height=2.0, sure_below=0.13)
+SMALL = ScanContextParameters(rings=2, sectors=4, radius=20.0, sensor_height=2.0)
 
 
 def cloud(*rows: tuple[float, float, float]) -> Cloud:
@@ -117,34 +114,3 @@ def test_number_of_candidates_is_limited_by_the_map() -> None:
     found = many.find(scene(20))
     assert len(found) == 10
     assert [one.distance for one in found] == sorted(one.distance for one in found)
-
-
-@pytest.mark.parametrize("turn", [0.0, 1.0, -2.5, 3.1])
-def test_pose_is_that_of_the_local_map_rotated_by_the_best_angle(turn: float) -> None:
-    frames = [
-        MapFrame(pose(10.0 * seed, -3.0, 1.0, yaw=0.4 * seed), scene(seed)) for seed in (1, 2)
-    ]
-    peer = ScanContextPeer(ScanContextParameters())
-    peer.learn(frames)
-    true = frames[1].pose @ about_z(turn)
-    query = frames[1].cloud @ about_z(turn)[:3, :3]  # the inverse turn, of rows
-    estimate = peer.locate(query.astype(np.float32))
-    assert estimate.pose is not None
-    assert estimate.pose[:3, 3] == pytest.approx(true[:3, 3])
-    off = np.arccos((np.trace(estimate.pose[:3, :3].T @ true[:3, :3]) - 1) / 2)
-    assert np.degrees(off) <= 3.01  # half a sector
-
-
-def test_only_a_similar_context_is_sure() -> None:
-    peer = ScanContextPeer(ScanContextParameters())
-    peer.learn([MapFrame(np.eye(4), scene(0))])
-    same, other = peer.locate(scene(0)), peer.locate(scene(1))
-    assert same.sure
-    assert not other.sure
-    assert other.score < -0.13 < same.score <= 0
-
-
-def test_empty_local_map_has_no_pose() -> None:
-    peer = ScanContextPeer(ScanContextParameters())
-    peer.learn([MapFrame(np.eye(4), scene(0))])
-    assert peer.locate(cloud()) is NOTHING

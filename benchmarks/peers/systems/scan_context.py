@@ -1,7 +1,8 @@
 """Scan Context, the baseline, implemented after the paper.
 
 Kim and Kim 2018, *Scan Context: Egocentric Spatial Descriptor for Place Recognition within 3D Point
-Cloud Map*. Parameters are those of the paper, or of the authors' program if the paper has none.
+Cloud Map*. Parameters are those of the paper, or of the authors' program if the paper has none. The
+peer that answers with it also registers, as the authors' SC-A-LOAM does (`registered_context.py`).
 """
 
 from collections.abc import Sequence
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from benchmarks.peers.exchange import NOTHING, Cloud, Estimate, MapFrame, Pose
+from benchmarks.peers.exchange import Cloud, Pose
 
 Context = NDArray[np.float64]
 
@@ -27,8 +28,6 @@ class ScanContextParameters:
     """Added to all heights, so that ground points differ from empty cells, which are 0."""
     candidates: int = 10
     """Number of local maps with the nearest ring keys, whose contexts are compared."""
-    sure_below: float = 0.13
-    """Distance below which the authors' program closes a loop (SC_DIST_THRES)."""
 
 
 DEFAULT = ScanContextParameters()
@@ -119,30 +118,6 @@ class ScanContexts:
         apart = distances(query, self.contexts[frame])
         best = int(apart.argmin())
         return FrameMatch(frame, float(apart[best]), 2 * np.pi * best / self.parameters.sectors)
-
-
-class ScanContextPeer:
-    """Pose by Scan Context: the position of the best local map, and the best angle.
-
-    Scan Context estimates no translation: the position error is the distance between the query and
-    that local map.
-    """
-
-    def __init__(self, parameters: ScanContextParameters = DEFAULT) -> None:
-        self.parameters = parameters
-
-    def learn(self, frames: Sequence[MapFrame]) -> None:
-        """Take in the map."""
-        self.poses = [frame.pose for frame in frames]
-        self.contexts = ScanContexts([frame.cloud for frame in frames], self.parameters)
-
-    def locate(self, cloud: Cloud) -> Estimate:
-        """Return the pose of a local map in the map."""
-        if not len(cloud):
-            return NOTHING
-        best = self.contexts.find(cloud)[0]
-        pose = self.poses[best.frame] @ about_z(best.yaw)
-        return Estimate(pose, -best.distance, best.distance < self.parameters.sure_below)
 
 
 def about_z(yaw: float) -> Pose:

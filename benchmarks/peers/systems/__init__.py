@@ -1,0 +1,1 @@
+"""Compared systems, each behind the interface `Locator` of `benchmarks/peers/runner.py`."""
