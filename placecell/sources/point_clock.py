@@ -9,6 +9,7 @@ a small spread.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, Literal
 
 import numpy as np
@@ -48,6 +49,7 @@ class PointClock:
     unit: TimeUnit
     origin: Origin
 
+    @np.errstate(all="ignore")  # Any bits may stand for a time.
     def seconds(self, raw: NDArray[Any], stamp_ns: int = 0) -> Float64:
         """Return times relative to the stamp, float64, seconds; implausible values become 0."""
         if not len(raw):
@@ -59,9 +61,8 @@ class PointClock:
             values, base = from_base(raw, lowest=self.origin == "first")
             times = values * scale
             if self.origin == "epoch":
-                times += (int(base * NANOSECONDS[self.unit]) - stamp_ns) * 1e-9
-        with np.errstate(invalid="ignore"):
-            odd = ~(np.abs(times) <= FARTHEST)
+                times += (in_nanoseconds(base, self.unit) - stamp_ns) * 1e-9
+        odd = ~(np.abs(times) <= FARTHEST)
         if odd.any():
             times[odd] = 0.0
         return times
@@ -92,6 +93,13 @@ def from_base(raw: NDArray[Any], lowest: bool = False) -> tuple[Float64, Any]:
     return values - start, start
 
 
+def in_nanoseconds(time: float, unit: TimeUnit) -> int:
+    """Return a time in nanoseconds, exactly if it is an integer; 0 if it is beyond all times."""
+    value = time * NANOSECONDS[unit]
+    return int(value) if isfinite(value) else 0
+
+
+@np.errstate(all="ignore")
 def find_clock(
     samples: Sequence[tuple[NDArray[Any], int]],
     period: float | None = None,
@@ -134,11 +142,14 @@ def find_clock(
     if not units:
         return None
     sweep = spread * SECONDS[units[0]]
-    scale = NANOSECONDS[units[0]]
     relative = [abs(float(base)) * SECONDS[units[0]] for base, _ in middles]
     if np.median(relative) <= 2 * sweep + 0.05:
         return PointClock(units[0], "stamp")
-    apart = [abs(int(base * scale) - stamp_ns) * 1e-9 for base, stamp_ns in middles if stamp_ns]
+    apart = [
+        abs(in_nanoseconds(base, units[0]) - stamp_ns) * 1e-9
+        for base, stamp_ns in middles
+        if stamp_ns
+    ]
     same = bool(apart) and float(np.median(apart)) <= SAME_CLOCK
     return PointClock(units[0], "epoch" if same else "first")
 

@@ -1,6 +1,6 @@
 """Poses in a bag: odometry, poses, paths and tf."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -111,6 +111,9 @@ def read_poses(
         if extent(found) < STANDS:
             remarks.append(f"{standing(bag, topic.name, found)}, so it is not used")
             continue
+        if found.stamps is None:  # A planner's path has no times.
+            remarks.append(f"{bag.path}: the path {topic.name!r} has no times, so it is not used")
+            continue
         rank = KINDS.index(topic.type) if topic.type != PATH else len(KINDS)
         ranked.append((not overlaps(found, times), rank, -len(found), topic.name, found))
     chain = tree_poses(tree, sensor) if tree.edges else None
@@ -167,21 +170,31 @@ def wanted_poses(
 def topic_messages(bag: Bag, topic: BagTopic) -> Iterator[tuple[int, list[StampedPose]]]:
     """Yield time of recording and poses of each message; damaged ones are passed over.
 
+    Messages of a path repeat it so far, so only the last one counts.
+
     Raises:
         DriveError: all messages are damaged.
     """
     error: DriveError | None = None
-    any_read = False
-    for index, time in enumerate(topic.times.tolist()):
+    read = 0
+    last_first = topic.type == PATH
+    messages: Iterable[tuple[int, bytes | memoryview | None]] = (
+        ((index, None) for index in reversed(range(len(topic))))
+        if last_first
+        else enumerate(bag.contents(topic))
+    )
+    for index, data in messages:
         try:
-            wire = Wire(bag.read(topic, index), topic.encoding, bag.where(topic, index))
-            poses = list(POSES[topic.type](wire))
+            content = bag.read(topic, index) if data is None else data
+            poses = list(POSES[topic.type](Wire(content, topic.encoding, bag.where(topic, index))))
         except DriveError as damage:
             error = error or damage
             continue
-        any_read = True
-        yield time, poses
-    if error and not any_read:
+        read += 1
+        yield int(topic.times[index]), poses
+        if last_first:
+            return
+    if error and not read:
         raise error
 
 
@@ -199,8 +212,6 @@ def topic_poses(
             "'ros1' or 'cdr'. Give the poses as a file with --poses"
         )
     messages = list(topic_messages(bag, topic))
-    if topic.type == PATH and messages:  # Each message repeats the path so far.
-        messages = [max(messages, key=lambda message: len(message[1]))]
     poses = [pose for _, each in messages for pose in each]
     recorded = np.array([time for time, each in messages for _ in each], np.int64)
     usable, values = valid(poses)

@@ -82,6 +82,11 @@ class CloudTopic:
         return self.samples[0].frame if self.samples else ""
 
     @property
+    def of_camera(self) -> bool:
+        """Return whether a depth camera made the clouds: they may have more points."""
+        return self.frame.lower().endswith(("optical_frame", "optical"))
+
+    @property
     def in_world(self) -> bool:
         """Return whether the clouds lie in a frame that stands still, as registered ones do."""
         return self.frame.rpartition("/")[2].lower() in WORLD_FRAMES
@@ -119,8 +124,8 @@ def sampled(bag: Bag, topic: BagTopic) -> CloudTopic:
 def choose_topic(bag: Bag, wanted: str | None) -> tuple[CloudTopic, list[CloudTopic]]:
     """Choose the topic with the clouds, and return it with all others that have clouds.
 
-    Without a wish: a topic in the frame of a sensor rather than of the world, then the one with the
-    most points a cloud.
+    Without a wish: a topic in the frame of a sensor rather than of the world, of a LiDAR rather
+    than of a camera, then the one with the most points a cloud.
 
     Raises:
         DriveError: there is no such topic, or none with clouds.
@@ -143,7 +148,9 @@ def choose_topic(bag: Bag, wanted: str | None) -> tuple[CloudTopic, list[CloudTo
     if not topics:
         raise no_clouds(bag)
     found_topics = [sampled(bag, topic) for topic in topics]
-    found_topics.sort(key=lambda each: (not each.samples, each.in_world, -each.points))
+    found_topics.sort(
+        key=lambda each: (not each.samples, each.in_world, each.of_camera, -each.points)
+    )
     if not found_topics[0].samples:
         raise found_topics[0].error or no_clouds(bag)
     return found_topics[0], found_topics[1:]
@@ -181,7 +188,7 @@ def integers(cloud: PointCloud2) -> bool:
     return all(field.type in ("i2", "u2", "i4", "u4") for field in axes_of(cloud, ""))
 
 
-def stamp_of(head: bytes | None, topic: BagTopic) -> int:
+def stamp_of(head: bytes | memoryview | None, topic: BagTopic) -> int:
     """Return the stamp at the begin of a serialized message, nanoseconds; 0 if there is none."""
     if head is None:
         return 0
@@ -189,7 +196,7 @@ def stamp_of(head: bytes | None, topic: BagTopic) -> int:
     if topic.encoding == "ros1":
         at, order = (0 if starts_with_time else 4), "<"
     else:
-        at, order = 4, CDR_ORDERS.get(head[:2], "")
+        at, order = 4, CDR_ORDERS.get(bytes(head[:2]), "")
     if not order or len(head) < at + 8:
         return 0
     seconds, nanoseconds = np.frombuffer(head[at : at + 8], order + "u4").tolist()
@@ -267,7 +274,7 @@ class BagSource(ScanSource):
         """Yield the stamp of each message; 0 for one that has none or is damaged."""
         topic = self.cloud_topic
         if topic.encoding in ("ros1", "cdr"):
-            for head in self.bag.heads(topic, HEAD):
+            for head in self.bag.contents(topic, HEAD):
                 yield stamp_of(head, topic)
             return
         for index in range(len(topic)):
@@ -355,6 +362,14 @@ def opens_as(path: Path, kind: type[Container]) -> bool:
     return any(kind_of(file) is kind for file in bag_files(path)[:1])
 
 
+def describes_bag(metadata: Path) -> bool:
+    """Return whether a file is the `metadata.yaml` of a ROS 2 bag."""
+    try:
+        return "rosbag2_bagfile_information" in metadata.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
 class Ros1Bag(BagSource):
     """A ROS 1 bag, or a folder with the parts of one."""
 
@@ -374,7 +389,9 @@ class Ros2Bag(BagSource):
     def recognizes(cls, path: Path) -> bool:
         if opens_as(path, sqlite_file.SqliteFile):
             return True
-        return (path / METADATA).is_file() and opens_as(path, mcap_file.McapFile)
+        if opens_as(path, mcap_file.McapFile):
+            return (path / METADATA).is_file()
+        return not bag_files(path) and describes_bag(path / METADATA)
 
 
 class Mcap(BagSource):

@@ -175,6 +175,7 @@ def overlap(field: PointField, other: PointField) -> bool:
     return field.offset < other.end and other.offset < field.end
 
 
+@np.errstate(all="ignore")  # Any bits may stand for a number.
 def coordinates(cloud: PointCloud2, where: str, scale: float = 1.0) -> NDArray[np.float32]:
     """Return x, y and z of all points, float32 (n, 3), times `scale`.
 
@@ -195,8 +196,7 @@ def coordinates(cloud: PointCloud2, where: str, scale: float = 1.0) -> NDArray[n
         points = np.stack(columns, axis=2).reshape(-1, 3)
     if scale != 1.0:
         points = points * scale
-    with np.errstate(over="ignore", invalid="ignore"):  # float64 beyond float32 becomes infinite
-        return points.astype(np.float32, copy=False)
+    return points.astype(np.float32, copy=False)  # float64 beyond float32 becomes infinite
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,6 +232,7 @@ def time_fields(fields: Sequence[PointField]) -> list[TimeField]:
     ]
 
 
+@np.errstate(all="ignore")
 def raw_times(cloud: PointCloud2, where: str, time: TimeField) -> NDArray[Any] | None:
     """Return the times of all points as they stand in the message; None if it has none.
 

@@ -121,10 +121,9 @@ def read_transforms(bag: Bag) -> TransformTree:
     for topic in bag.topics:
         if topic.type not in TRANSFORMS or topic.encoding not in ("ros1", "cdr"):
             continue
-        for index in range(len(topic)):
+        for data in bag.contents(topic):
             try:
-                wire = Wire(bag.read(topic, index), topic.encoding, bag.where(topic, index))
-                for pose in transforms(wire):
+                for pose in transforms(Wire(data or b"", topic.encoding, str(bag.path))):
                     found.setdefault((pose.parent, pose.child), []).append(pose)
                     if topic.name.endswith("static"):
                         fixed.add((pose.parent, pose.child))

@@ -97,7 +97,10 @@ class Bag:
         self.path = path
         self.files = bag_files(path)
         if not self.files:
-            raise DriveError(f"{path}: no bag. Expected a .bag, .db3 or .mcap file, or a folder")
+            absent = "".join(f" ({remark})" for remark in self.missing())
+            raise DriveError(
+                f"{path}: no file of a bag is there{absent}. Expected .bag, .db3 or .mcap files"
+            )
         kinds = {kind for file in self.files if (kind := kind_of(file))}
         if len(kinds) != 1:
             names = ", ".join(file.name for file in self.files[:6])
@@ -178,32 +181,29 @@ class Bag:
             return decompress(bytes(data), "zstd", 0, where)
         return data
 
-    def messages(self, topic: BagTopic) -> Iterator[tuple[int, bytes | memoryview]]:
-        """Yield time, in nanoseconds, and content of each message that can be read."""
-        for index, time in enumerate(topic.times.tolist()):
-            try:
-                yield time, self.read(topic, index)
-            except DriveError:
-                continue
+    def contents(
+        self, topic: BagTopic, length: int | None = None
+    ) -> Iterator[bytes | memoryview | None]:
+        """Yield all messages of a topic in their order; None for a damaged one.
 
-    def heads(self, topic: BagTopic, length: int) -> list[bytes | None]:
-        """Return the first bytes of each message; None for a damaged one."""
-        heads: list[bytes | None] = [None] * len(topic)
-        for number, container in enumerate(self.containers):
-            own = np.flatnonzero(topic.places[:, 0] == number)
-            if len(own):
-                part = BagTopic(
-                    topic.name, topic.type, topic.encoding, topic.times[own], topic.places[own]
-                )
-                for at, head in zip(own.tolist(), container.heads(part, length), strict=True):
-                    heads[at] = head
-        for at, head in enumerate(heads):
-            if head is not None and head[:4] == ZSTD_MAGIC:
+        Args:
+            topic: the topic.
+            length: bytes of each that are needed, from its begin; None: all.
+        """
+        files = topic.places[:, 0]
+        starts = np.flatnonzero(np.diff(files, prepend=-1)).tolist()
+        for start, end in zip(starts, [*starts[1:], len(files)], strict=True):
+            container = self.containers[int(files[start])]
+            for index, data in enumerate(
+                container.contents(topic.places[start:end], length), start
+            ):
+                if data is None or data[:4] != ZSTD_MAGIC:
+                    yield data
+                    continue
                 try:
-                    heads[at] = bytes(self.read(topic, at)[:length])
+                    yield self.read(topic, index)[:length]
                 except DriveError:
-                    heads[at] = None
-        return heads
+                    yield None
 
 
 def joined_topics(files: Sequence[Sequence[BagTopic]]) -> list[BagTopic]:

@@ -75,11 +75,18 @@ class Container(ABC):
             DriveError: the file is damaged there.
         """
 
-    def heads(self, topic: BagTopic, length: int) -> Iterator[bytes | None]:
-        """Yield the first bytes of each message; None for a damaged one."""
-        for place in topic.places.tolist():
+    def contents(
+        self, places: Int64, length: int | None = None
+    ) -> Iterator[bytes | memoryview | None]:
+        """Yield messages by rows of `BagTopic.places`; None for a damaged one.
+
+        Args:
+            places: int64 (n, 3).
+            length: bytes of each that are needed, from its begin; None: all.
+        """
+        for place in places.tolist():
             try:
-                yield bytes(self.read(place)[:length])
+                yield self.read(place)[:length]
             except DriveError:
                 yield None
 

@@ -31,6 +31,8 @@ MAGIC = b"\x89MCAP0\r\n"
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, INDEX, CHUNK_INDEX = 2, 3, 4, 5, 6, 7, 8
 DATA_END = 15
 HEAD, MESSAGE_HEAD, FOOTER_BYTES = 9, 22, 29
+ENCODINGS = {"ros1msg": "ros1", "ros2msg": "cdr", "ros2idl": "cdr"}
+"""Encoding of messages, by that of the schema, where a channel does not state it."""
 COMPRESSIONS = ("", "lz4", "zstd")
 
 
@@ -199,7 +201,10 @@ class McapFile(Container):
         schema = self.schemas.get(channel.schema_id)
         table = places if isinstance(places, np.ndarray) else table_of(places)
         kind = schema.name if schema else ""
-        self.index.add(channel.topic, kind, channel.message_encoding, table)
+        encoding = channel.message_encoding
+        if not encoding and schema:
+            encoding = ENCODINGS.get(schema.encoding, "")
+        self.index.add(channel.topic, kind, encoding, table)
 
     def make_index(self, file: BinaryIO, reason: str) -> None:
         """Read the whole file to find its messages, up to the first damage."""

@@ -5,12 +5,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 
-import numpy as np
-
-from placecell.sources.bags.containers.container import BagTopic, Container, TopicIndex, table_of
+from placecell.core.types import Int64
+from placecell.sources.bags.containers.container import Container, TopicIndex, table_of
 from placecell.sources.errors import DriveError
 
 MAGIC = b"SQLite format 3\0"
+BATCH = 100
+"""Messages that one query reads."""
 
 
 class SqliteFile(Container):
@@ -51,7 +52,7 @@ class SqliteFile(Container):
         connection.text_factory = lambda text: text.decode(errors="replace")
         return connection
 
-    def rows(self, query: str, values: tuple[int, ...]) -> Iterator[tuple[object, ...]]:
+    def rows(self, query: str, values: Sequence[int]) -> Iterator[tuple[object, ...]]:
         """Yield the rows of a query.
 
         Raises:
@@ -79,17 +80,20 @@ class SqliteFile(Container):
             f"{self.path}: message {number} cannot be read. The database is damaged; copy it again"
         )
 
-    def heads(self, topic: BagTopic, length: int) -> Iterator[bytes | None]:
-        wanted = topic.places[:, 2]
-        order = np.argsort(wanted, kind="stable")
-        found: list[bytes | None] = [None] * len(wanted)
-        query = "SELECT id, substr(data, 1, ?) FROM messages WHERE id BETWEEN ? AND ?"
-        if not len(wanted):
-            return
-        low, high = int(wanted[order[0]]), int(wanted[order[-1]])
-        for number, head in self.rows(query, (length, low, high)):
-            if isinstance(number, int) and isinstance(head, bytes):
-                at = np.searchsorted(wanted, number, sorter=order)
-                if at < len(order) and wanted[order[at]] == number:
-                    found[order[at]] = head
-        yield from found
+    def contents(
+        self, places: Int64, length: int | None = None
+    ) -> Iterator[bytes | memoryview | None]:
+        numbers = places[:, 2].tolist()
+        part = "data" if length is None else f"substr(data, 1, {length})"
+        for first in range(0, len(numbers), BATCH):
+            some = numbers[first : first + BATCH]
+            listed = ",".join("?" * len(some))
+            query = f"SELECT id, {part} FROM messages WHERE id IN ({listed})"
+            try:
+                found = {row[0]: row[1] for row in self.rows(query, some)}
+            except DriveError:  # One by one, those that are whole are found.
+                yield from super().contents(places[first : first + BATCH], length)
+                continue
+            for number in some:
+                data = found.get(number)
+                yield data if isinstance(data, bytes) else None

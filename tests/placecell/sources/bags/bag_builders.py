@@ -1,7 +1,7 @@
 """Bags with clouds, odometry and transforms, written by `rosbags` and `mcap`."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -343,3 +343,78 @@ FORMATS: dict[str, tuple[str, BagWriter]] = {
     "ros1.mcap": ("ros1", lambda p, m: write_mcap(p, m, "ros1")),
 }
 """Serialization and writer of each kind of bag, by the name of its file or folder."""
+
+
+def write_split(folder: Path, messages: Sequence[Message], parts: int = 3) -> Path:
+    """Write a ROS 2 bag in several MCAP files with zstd, as `ros2 bag record` splits it."""
+    folder.mkdir()
+    names = []
+    for part in range(parts):
+        names.append(f"{folder.name}_{part}.mcap")
+        first, last = (len(messages) * each // parts for each in (part, part + 1))
+        write_mcap(folder / names[-1], messages[first:last])
+    listed = "".join(f"    - {name}\n" for name in names)
+    (folder / "metadata.yaml").write_text(
+        "rosbag2_bagfile_information:\n"
+        "  version: 5\n"
+        "  storage_identifier: mcap\n"
+        f"  relative_file_paths:\n{listed}"
+    )
+    return folder
+
+
+PADDED = Layout(
+    {"x": "f4", "y": "f4", "z": "f4", "intensity": "f4", "t": "u4", "ring": "u2"},
+    order=("ring", "x", "y", "z", "t", "intensity"),
+    gap=2,
+    row_gap=6,
+)
+"""Padding between all values and behind the rows."""
+LAYOUTS = {"padded": PADDED, "big-endian": replace(PADDED, big=True, gap=0)}
+MOUNT = np.array(
+    [[0.0, -1.0, 0.0, 0.4], [1.0, 0.0, 0.0, -0.1], [0.0, 0.0, 1.0, 1.7], [0.0, 0.0, 0.0, 1.0]]
+)
+"""Pose of the sensor on the robot, in the transforms of `drive_messages`."""
+
+
+def drive_messages(
+    scans: Sequence[NDArray[np.float32]],
+    poses: Sequence[NDArray[np.float64]],
+    encoding: str,
+    layout: Layout = PADDED,
+    stamps_ns: Sequence[int] | None = None,
+) -> list[Message]:
+    """Return clouds with NaN and zero points, odometry of the robot, and tf to the sensor.
+
+    Args:
+        scans: points of each scan.
+        poses: poses of the sensor.
+        encoding: `ros1` or `cdr`.
+        layout: how the points are written.
+        stamps_ns: time of each scan.
+    """
+    stamps = stamps_ns or [START_NS + number * PERIOD_NS for number in range(len(scans))]
+    static = transforms_message([("base_link", "lidar", MOUNT)], stamps[0], encoding)
+    messages: list[Message] = [("/tf_static", stamps[0], static)]
+    on_robot = np.linalg.inv(MOUNT)
+    for scan, pose, stamp in zip(scans, poses, stamps, strict=True):
+        points = np.insert(scan, slice(0, len(scan), 1 + len(scan) // 5), np.nan, axis=0)
+        points = np.insert(points, slice(2, len(points), 1 + len(points) // 9), 0, axis=0)
+        count = len(points)
+        columns: dict[str, NDArray[Any]] = dict(xyz(points))
+        columns["intensity"] = np.arange(count)
+        columns["t"] = np.linspace(0, 99e6, count).astype(np.uint32)
+        columns["ring"] = np.arange(count) % 64
+        cloud = cloud_of(columns, layout, stamp)
+        odometry = odometry_message(pose @ on_robot, stamp, encoding)
+        messages.append(("/odom", stamp, odometry))
+        messages.append(("/points", stamp, cloud_message(cloud, encoding)))
+    return messages
+
+
+DRIVES: dict[str, tuple[str, BagWriter]] = {
+    "drive.bag": ("ros1", write_ros1),
+    "drive_sqlite": ("cdr", write_ros2),
+    "drive_mcap_split_zstd": ("cdr", write_split),
+}
+"""Serialization and writer of each kind of bag that a drive is compared in."""

@@ -249,12 +249,16 @@ def test_other_topics_with_poses_are_named_and_can_be_stated(tmp_path: Path) -> 
         Mcap(found_path).trajectory()
 
 
-def test_path_without_times_has_poses_in_order(tmp_path: Path) -> None:
+def test_path_without_times_is_used_only_if_it_is_stated(tmp_path: Path) -> None:
     store = typestore("cdr")
     stamped = store.types["geometry_msgs/msg/PoseStamped"]
     poses = [stamped(header(store, 0, "map"), pose_of(store, each)) for each in WAY]
     message = store.types["nav_msgs/msg/Path"](header(store, stamp(0), "map"), poses)
-    found = read_poses(Bag(write_mcap(tmp_path / "a.mcap", [("/path", stamp(0), message)])))
+    bag = Bag(write_mcap(tmp_path / "a.mcap", [("/path", stamp(0), message)]))
+    unused = read_poses(bag)
+    assert unused.body is None
+    assert any("the path '/path' has no times" in remark for remark in unused.remarks)
+    found = read_poses(bag, wanted="/path")
     assert found.body is not None
     assert found.body.stamps is None
     assert found.body.world == "map"

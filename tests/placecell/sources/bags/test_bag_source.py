@@ -30,6 +30,7 @@ from tests.placecell.sources.bags.bag_builders import (
     cloud_of,
     livox_message,
     odometry_message,
+    serialized,
     write_mcap,
     write_ros1,
     write_ros2,
@@ -213,6 +214,44 @@ def test_topic_is_chosen_by_points_and_by_frame_and_said(tmp_path: Path) -> None
         pytest.raises(DriveError, match="has no topic '/nothing'"),
     ):
         open_bag(path)
+
+
+def test_lidar_is_chosen_before_a_depth_camera_with_more_points(tmp_path: Path) -> None:
+    camera = cloud_of(xyz(scans(1, 900)[0]), stamp_ns=START_NS, frame="camera_depth_optical_frame")
+    made = messages(scans(1, 100), "cdr")
+    made.append(("/camera/points", START_NS, cloud_message(camera, "cdr")))
+    assert open_bag(write_mcap(tmp_path / "a.mcap", made)).cloud_topic.name == "/points"
+
+
+def test_metadata_without_files_is_told(tmp_path: Path) -> None:
+    folder = write_ros2(tmp_path / "run", messages(scans(1), "cdr"))
+    (folder / "run.db3").unlink()
+    with pytest.raises(DriveError, match=r"no file of a bag is there .*lists run.db3, which are"):
+        open_bag(folder)
+
+
+@pytest.mark.parametrize(
+    ("name", "encoding", "schema", "stated"),
+    [
+        ("sensor_msgs::msg::dds_::PointCloud2_", "cdr", "omgidl", "cdr"),
+        ("sensor_msgs/msg/PointCloud2", "cdr", "ros2idl", ""),
+        ("sensor_msgs/PointCloud2", "ros1", "ros1msg", ""),
+    ],
+)
+def test_types_and_encodings_of_other_recorders_are_read(
+    name: str, encoding: str, schema: str, stated: str, tmp_path: Path
+) -> None:
+    from mcap.writer import Writer
+
+    points = usable(scans(1)[0])
+    data = serialized(cloud_message(cloud_of(xyz(points)), encoding), encoding)
+    with (tmp_path / "a.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        channel = writer.register_channel("/a", stated, writer.register_schema(name, schema, b""))
+        writer.add_message(channel, START_NS, data, START_NS)
+        writer.finish()  # type: ignore[no-untyped-call]
+    assert_array_equal(open_bag(tmp_path / "a.mcap").scan(0).points, points)
 
 
 @pytest.mark.parametrize("stamp", [0, START_NS])

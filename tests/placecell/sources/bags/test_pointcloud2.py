@@ -283,6 +283,24 @@ def test_wild_times_become_the_stamp() -> None:
     assert scan.times[[3, 5]].tolist() == [0, 0]
 
 
+def test_times_beyond_all_numbers_become_the_stamp() -> None:
+    clock = TimeField(("time",)), PointClock("s", "epoch")
+    for value in (1e300, -1e300, 1e15):
+        scan = decode(timed("time", "f8", np.full(5, value)), "test", clock)
+        assert scan.times is not None
+        assert scan.times.tolist() == [0] * 5
+
+
+def test_signaling_nan_is_a_nan() -> None:
+    points = POINTS.copy()
+    points.view(np.uint32)[1, 2] = 0x7F800001
+    mixed = Layout({"x": "f4", "y": "f8", "z": "f4"})
+    cloud = cloud_of(xyz(points), mixed)
+    data = bytearray(cloud.data)
+    data[16 + 12 : 16 + 16] = points[1, 2].tobytes()
+    assert_array_equal(decode(replace(cloud, data=bytes(data)), "test").points, POINTS[[0, 2, 3]])
+
+
 def test_cloud_without_the_time_field_has_no_times() -> None:
     clock = TimeField(("t",)), PointClock("ns", "stamp")
     assert decode(cloud_of(xyz(POINTS)), "test", clock).times is None
