@@ -401,12 +401,12 @@ def check_unit(folder: Path, layout: PointLayout, sampled: Sequence[bytes]) -> N
         values = np.frombuffer(content[: len(content) // item * item], TYPES[layout.dtype])
         table = layout.as_table(values)
         axes = [layout.columns.index(axis) for axis in "xyz"]
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):  # damaged values may be enormous
             points = table[:, axes].astype(np.float64) * layout.scale
-        points = points[np.isfinite(points).all(axis=1) & np.any(points != 0, axis=1)]
-        if len(points):
-            ranges.append(np.median(np.linalg.norm(points, axis=1)))
-            centers.append(np.linalg.norm(np.median(points, axis=0)))
+            points = points[np.isfinite(points).all(axis=1) & np.any(points != 0, axis=1)]
+            if len(points):
+                ranges.append(np.median(np.linalg.norm(points, axis=1)))
+                centers.append(np.linalg.norm(np.median(points, axis=0)))
     if not ranges or np.median(ranges) <= FARTHEST_MEDIAN:
         return
     far = float(np.median(ranges))

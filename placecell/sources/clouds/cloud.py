@@ -254,3 +254,9 @@ def cut_short(file: Path, what: str, found: int, expected: int) -> DriveError:
         f"{file}: cut short: the header states {expected:,} {what}, but the file has {found:,}. "
         "Copy or write the file again"
     )
+
+
+def reason_of(error: BaseException) -> str:
+    """Return a library's message in one line of printable characters, for an error."""
+    text = str(error).split("\n")[0].strip()[:160] or type(error).__name__
+    return "".join(sign if sign.isprintable() else "?" for sign in text)

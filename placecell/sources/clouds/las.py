@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell.sources.clouds.cloud import Cloud, check_growth, cut_short, read_content
+from placecell.sources.clouds.cloud import Cloud, check_growth, cut_short, read_content, reason_of
 from placecell.sources.errors import DriveError
 
 SMALLEST_HEADER = 227
@@ -20,6 +20,12 @@ POINTS_AT_ONCE = 1_000_000
 COMPRESSED = 0x80
 """Bit of the point format that marks a LAZ file."""
 SHORTEST_POINT = 20
+LASZIP, LASZIP_RECORD = b"laszip encoded", 22204
+"""User and number of the record on the compression."""
+ITEMS = 32
+"""Offset in that record of the number of the parts of a point, before the parts."""
+ITEM_BYTES = {6: 20, 7: 8, 8: 6, 9: 29, 10: 30, 11: 6, 12: 8, 13: 29}
+"""Bytes of each type of a part; extra bytes (0, 14) may have any number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +36,8 @@ class LasHeader:
     start: int
     point_bytes: int
     compressed: bool
+    header_bytes: int
+    records: int
 
 
 def is_las(head: bytes) -> bool:
@@ -45,6 +53,7 @@ def read_las(file: Path) -> Cloud:
     """
     content = read_content(file)
     header = parse_header(content, file)
+    content = plain_text(content, header, file)
     if header.compressed:
         check_growth(file, len(content), header.points * header.point_bytes)
         check_chunk_table(content, header, file)
@@ -89,9 +98,9 @@ def read_las(file: Path) -> Cloud:
 
 def damaged(file: Path, error: BaseException) -> DriveError:
     """Return the error for a file that laspy or lazrs refuses."""
-    reason = str(error).splitlines()[0] if str(error) else type(error).__name__
     return DriveError(
-        f"{file}: its LAS content cannot be decoded ({reason}); the file is damaged. Write it again"
+        f"{file}: its LAS content cannot be decoded ({reason_of(error)}); the file is damaged. "
+        "Write it again"
     )
 
 
@@ -122,7 +131,54 @@ def parse_header(content: bytes, file: Path) -> LasHeader:
             f"of {point_bytes} bytes, and points from byte {start:,} on, but the file has "
             f"{len(content):,} bytes; it is cut short or damaged. Copy or write it again"
         )
-    return LasHeader(points, start, point_bytes, bool(kind & COMPRESSED))
+    return LasHeader(points, start, point_bytes, bool(kind & COMPRESSED), header_bytes, records)
+
+
+def plain_text(content: bytes, header: LasHeader, file: Path) -> bytes:
+    """Replace characters beyond ASCII in the names of the records' users.
+
+    laspy refuses files with such a name that is not UTF-8.
+
+    Raises:
+        DriveError: a record is damaged.
+    """
+    names = []
+    position = header.header_bytes
+    for _ in range(header.records):
+        user, kind, length = struct.unpack_from("<16sHH", content, position + 2)
+        names.append(slice(position + 2, position + 18))
+        if user.startswith(LASZIP) and kind == LASZIP_RECORD:
+            check_items(content[position + RECORD_HEADER :][:length], header, file)
+        position += RECORD_HEADER + length
+        if position > header.start:
+            raise DriveError(
+                f"{file}: its {header.records:,} LAS records reach beyond its first point; the "
+                "file is damaged. Write it again"
+            )
+    if all(content[name].isascii() for name in names):
+        return content
+    plain = bytearray(content)
+    for name in names:
+        plain[name] = bytes(byte if byte < 128 else ord("?") for byte in plain[name])
+    return bytes(plain)
+
+
+def check_items(record: bytes, header: LasHeader, file: Path) -> None:
+    """Check the parts of a point in the record on the compression; lazrs panics if one is wrong.
+
+    Raises:
+        DriveError: a part has another size than its type, or they are not as long as a point.
+    """
+    count = int.from_bytes(record[ITEMS : ITEMS + 2], "little")
+    parts = record[ITEMS + 2 :][: 6 * count]
+    items = list(struct.iter_unpack("<HHH", parts[: len(parts) // 6 * 6]))
+    wrong = [kind for kind, size, _ in items if ITEM_BYTES.get(kind, size) != size]
+    total = sum(size for _, size, _ in items)
+    if wrong or len(items) != count or total != header.point_bytes:
+        raise DriveError(
+            f"{file}: its record on the compression names parts of {total} bytes, but a point has "
+            f"{header.point_bytes}; the file is damaged. Write it again"
+        )
 
 
 def check_chunk_table(content: bytes, header: LasHeader, file: Path) -> None:

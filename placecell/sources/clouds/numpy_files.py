@@ -1,6 +1,7 @@
 """NumPy files: .npy with an array of points, .npz with one or several arrays."""
 
 import struct
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -12,7 +13,14 @@ import numpy as np
 from numpy.lib import format as npy
 from numpy.typing import NDArray
 
-from placecell.sources.clouds.cloud import Cloud, check_growth, cut_short, find_axes, read_content
+from placecell.sources.clouds.cloud import (
+    Cloud,
+    check_growth,
+    cut_short,
+    find_axes,
+    read_content,
+    reason_of,
+)
 from placecell.sources.errors import DriveError
 from placecell.sources.point_times import is_time
 
@@ -74,7 +82,8 @@ def read_npz(file: Path, columns: tuple[str, ...] | None) -> Cloud:
         ValueError, struct.error,
     ) as error:  # fmt: skip
         raise DriveError(
-            f"{file}: the archive cannot be read ({error}); the file is damaged. Write it again"
+            f"{file}: the archive cannot be read ({reason_of(error)}); the file is damaged. "
+            "Write it again"
         ) from error
     if not arrays and refused:
         raise DriveError(refused)
@@ -140,12 +149,11 @@ def array_of(content: bytes, file: Path) -> NDArray[Any]:
         raise
     except (
         ValueError, EOFError, OSError, TypeError, SyntaxError, KeyError, struct.error,
-        OverflowError, MemoryError, RecursionError, UnicodeError,
+        OverflowError, MemoryError, RecursionError, UnicodeError, tokenize.TokenError,
     ) as error:  # fmt: skip
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise DriveError(
-            f"{file}: the NumPy array cannot be read ({reason[:200]}); the file is damaged. Write "
-            "it again"
+            f"{file}: the NumPy array cannot be read ({reason_of(error)}); the file is damaged. "
+            "Write it again"
         ) from error
 
 

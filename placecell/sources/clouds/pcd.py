@@ -13,6 +13,7 @@ from placecell.sources.clouds.cloud import (
     cut_short,
     needed_fields,
     read_content,
+    reason_of,
 )
 from placecell.sources.errors import DriveError
 
@@ -268,10 +269,9 @@ def decode(file: Path, header: PcdHeader, body: bytes, remarks: tuple[str, ...])
     try:
         table = np.atleast_1d(PointCloud.from_fileobj(BufferedReader(stream)).pc_data)
     except (ValueError, RuntimeError, TypeError, IndexError, OverflowError, struct.error) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise DriveError(
-            f"{file}: its {header.data} data cannot be decoded ({reason}); the file is damaged. "
-            "Write it again"
+            f"{file}: its {header.data} data cannot be decoded ({reason_of(error)}); the file is "
+            "damaged. Write it again"
         ) from error
     values = {name: table[keys[name]] for name in needed if keys[name] in (table.dtype.names or ())}
     return Cloud(values, names, remarks)

@@ -12,7 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell.sources.clouds.cloud import HEAD, Cloud, cut_short, needed_fields, read_content
+from placecell.sources.clouds.cloud import (
+    HEAD,
+    Cloud,
+    cut_short,
+    needed_fields,
+    read_content,
+    reason_of,
+)
 from placecell.sources.errors import DriveError
 
 TYPES = {
@@ -274,6 +281,6 @@ def ascii_values(
         return found
     except (ValueError, IndexError, OverflowError) as error:
         raise DriveError(
-            f"{file}: a row of its ascii points cannot be read ({error}); the file is damaged. "
-            "Write it again"
+            f"{file}: a row of its ascii points cannot be read ({reason_of(error)}); the file is "
+            "damaged. Write it again"
         ) from error

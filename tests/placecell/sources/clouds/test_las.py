@@ -12,6 +12,17 @@ from tests.placecell.sources.clouds.writers import POINTS, las, read
 CLOUD = np.random.default_rng(3).normal(0, 20, (5000, 3))
 
 
+def changed(content: bytes, offset: int, code: str, value: float) -> bytes:
+    """Return a file with a value of the header replaced."""
+    packed = struct.pack(f"<{code}", value)
+    return content[:offset] + packed + content[offset + len(packed) :]
+
+
+PLAIN, PACKED, LONG = las(CLOUD), las(CLOUD, True), las(CLOUD, True, 4, 6)
+START = struct.unpack_from("<I", PACKED, 96)[0]
+TABLE = struct.unpack_from("<q", PACKED, START)[0]
+
+
 def write(folder: Path, content: bytes) -> Path:
     file = folder / "cloud.laz"
     file.write_bytes(content)
@@ -51,20 +62,21 @@ def test_fields_are_named(tmp_path: Path) -> None:
     assert cloud.fields[-1] == "gps_time"
 
 
+def test_names_that_are_not_utf_8_are_read(tmp_path: Path) -> None:
+    """Programs write Latin-1, which laspy refuses in the name of a record's user."""
+    content = las(POINTS).replace(b"OTHER", b"M\xfcnch")
+    np.testing.assert_allclose(read(write(tmp_path, content)).points, POINTS, atol=5.1e-4)
+    user = b"\0\0laszip encoded"
+    record = b"\0\0M\xfcller" + bytes(46)  # a record without content, before the one of LAZ
+    packed = changed(PACKED, 96, "I", START + len(record))
+    packed = changed(packed, 100, "I", 2).replace(user, record + user)
+    packed = changed(packed, START + len(record), "q", TABLE + len(record))
+    assert len(read(write(tmp_path, packed)).points) == len(CLOUD)
+
+
 @pytest.mark.parametrize("compressed", [False, True])
 def test_zero_points_are_an_empty_scan(tmp_path: Path, compressed: bool) -> None:
     assert read(write(tmp_path, las(np.zeros((0, 3)), compressed))).points.shape == (0, 3)
-
-
-def changed(content: bytes, offset: int, code: str, value: float) -> bytes:
-    """Return a file with a value of the header replaced."""
-    packed = struct.pack(f"<{code}", value)
-    return content[:offset] + packed + content[offset + len(packed) :]
-
-
-PLAIN, PACKED, LONG = las(CLOUD), las(CLOUD, True), las(CLOUD, True, 4, 6)
-START = struct.unpack_from("<I", PACKED, 96)[0]
-TABLE = struct.unpack_from("<q", PACKED, START)[0]
 
 
 @pytest.mark.parametrize(
@@ -86,6 +98,10 @@ TABLE = struct.unpack_from("<q", PACKED, START)[0]
         (changed(PACKED, START, "q", 2**60), "table of compressed chunks lies at byte"),
         (changed(PACKED, START, "q", -1), "table of compressed chunks lies at byte"),
         (changed(PACKED, TABLE + 4, "I", 2**32 - 1), "more chunks than points"),
+        (PACKED.replace(b"laszip encoded", b"something else"), "cannot be decoded"),
+        (changed(PACKED, START - 14, "H", 0), "names parts of 0 bytes, but a point has 28"),
+        (changed(PACKED, 247, "H", 60_000), "1 LAS records reach beyond its first point"),
+        (changed(PACKED, START - 10, "H", 21), "names parts of 29 bytes"),
         (PACKED[:-500], "cut short or damaged"),
         (PACKED[: START + 4], "cut short or damaged"),
     ],

@@ -49,7 +49,9 @@ def test_any_order_and_type_of_properties_is_read(tmp_path: Path, encoding: str)
 def test_lists_of_a_point_are_skipped(tmp_path: Path, encoding: str) -> None:
     properties = ["float x", "list uchar int views", "float y", "float z"]
     lengths = [0, 3, 1]
-    rows = [[x, [7] * count, y, z] for (x, y, z), count in zip(ROWS, lengths, strict=True)]
+    rows: list[list[Any]] = [
+        [x, [7] * count, y, z] for (x, y, z), count in zip(ROWS, lengths, strict=True)
+    ]
     file = write(tmp_path, ply(encoding, properties, rows))
     np.testing.assert_array_equal(read(file).points, POINTS)
     rows = [[x, y, z, [7] * count] for (x, y, z), count in zip(ROWS, lengths, strict=True)]
@@ -76,7 +78,7 @@ def test_no_points_are_an_empty_scan(tmp_path: Path, encoding: str) -> None:
 
 
 def test_nan_and_zero_points_are_dropped_and_counted(tmp_path: Path) -> None:
-    rows = [[1, 2, 3], [float("nan"), 1, 1], [0, 0, 0]]
+    rows: list[list[float]] = [[1, 2, 3], [float("nan"), 1, 1], [0, 0, 0]]
     for encoding in ENCODINGS:
         scan = read(write(tmp_path, ply(encoding, XYZ, rows)))
         np.testing.assert_array_equal(scan.points, [[1, 2, 3]])
