@@ -5,6 +5,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -191,8 +192,8 @@ class Bag:
             length: bytes of each that are needed, from its begin; None: all.
         """
         files = topic.places[:, 0]
-        starts = np.flatnonzero(np.diff(files, prepend=-1)).tolist()
-        for start, end in zip(starts, [*starts[1:], len(files)], strict=True):
+        bounds = [*np.flatnonzero(np.diff(files, prepend=-1)).tolist(), len(files)]
+        for start, end in pairwise(bounds):
             container = self.containers[int(files[start])]
             for index, data in enumerate(
                 container.contents(topic.places[start:end], length), start

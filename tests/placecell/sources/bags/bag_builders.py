@@ -245,8 +245,9 @@ def write_ros1(
     messages: Sequence[Message],
     compression: Ros1Compression = "none",
     chunk_bytes: int = 1 << 20,
+    empty: Sequence[tuple[str, str]] = (),
 ) -> Path:
-    """Write a ROS 1 bag."""
+    """Write a ROS 1 bag; `empty` are topics and types without messages."""
     store = typestore("ros1")
     writer = rosbag1.Writer(path)
     writer.chunk_threshold = chunk_bytes
@@ -254,6 +255,8 @@ def write_ros1(
         writer.set_compression(rosbag1.Writer.CompressionFormat[compression.upper()])
     with writer:
         connections: dict[str, Any] = {}
+        for topic, kind in empty:
+            writer.add_connection(topic, kind, typestore=store)
         for topic, time, message in messages:
             kind = message.__msgtype__
             if topic not in connections:
@@ -268,8 +271,9 @@ def write_ros2(
     messages: Sequence[Message],
     storage: Literal["sqlite3", "mcap"] = "sqlite3",
     compression: Literal["none", "file", "message", "storage"] = "none",
+    empty: Sequence[tuple[str, str]] = (),
 ) -> Path:
-    """Write a ROS 2 bag."""
+    """Write a ROS 2 bag; `empty` are topics and types without messages."""
     store = typestore("cdr")
     plugin = StoragePlugin.MCAP if storage == "mcap" else StoragePlugin.SQLITE3
     writer = rosbag2.Writer(path, version=9, storage_plugin=plugin)
@@ -277,6 +281,8 @@ def write_ros2(
         writer.set_compression(CompressionMode[compression.upper()], CompressionFormat.ZSTD)
     with writer:
         connections: dict[str, Any] = {}
+        for topic, kind in empty:
+            writer.add_connection(topic, kind, typestore=store)
         for topic, time, message in messages:
             kind = message.__msgtype__
             if topic not in connections:
@@ -293,8 +299,12 @@ def write_mcap(
     chunked: bool = True,
     indexed: bool = True,
     chunk_bytes: int = 1 << 20,
+    empty: Sequence[tuple[str, str]] = (),
 ) -> Path:
-    """Write an MCAP file with the profile of ROS 1 or ROS 2."""
+    """Write an MCAP file with the profile of ROS 1 or ROS 2.
+
+    Topics and types of `empty` have no messages.
+    """
     from mcap.writer import CompressionType, IndexType, Writer
 
     with path.open("wb") as file:
@@ -311,6 +321,8 @@ def write_mcap(
         )
         writer.start(profile="ros1" if encoding == "ros1" else "ros2", library="tests")
         channels: dict[str, int] = {}
+        for topic, kind in empty:
+            writer.register_channel(topic, encoding, writer.register_schema(kind, "ros2msg", b""))
         for topic, time, message in messages:
             kind = message.__msgtype__
             if topic not in channels:

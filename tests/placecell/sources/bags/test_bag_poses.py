@@ -12,11 +12,14 @@ from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64
 from placecell.sources.bags import Bag, Mcap, Ros1Bag, read_poses
+from placecell.sources.catalog import open_source
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import ScanOptions, use_scan_options
 from tests.placecell.sources.bags.bag_builders import (
+    ODOMETRY,
     PERIOD_NS,
     START_NS,
+    TRANSFORMS,
     Message,
     cloud_message,
     cloud_of,
@@ -27,6 +30,7 @@ from tests.placecell.sources.bags.bag_builders import (
     typestore,
     write_mcap,
     write_ros1,
+    write_ros2,
     xyz,
 )
 
@@ -299,6 +303,22 @@ def test_odometry_without_times_gets_those_of_recording(tmp_path: Path) -> None:
     assert found.body.stamps is not None
     assert_allclose(found.body.stamps, [stamp(n) * 1e-9 for n in range(COUNT)])
     assert any("headers of '/odom' have no times" in each for each in found.remarks)
+
+
+@pytest.mark.parametrize("name", ["a.bag", "a_sqlite", "a.mcap"])
+def test_topics_without_messages_are_passed_over(name: str, tmp_path: Path) -> None:
+    """A recorder lists the topics that it waited for."""
+    path = tmp_path / name
+    kept = clouds("ros1" if name == "a.bag" else "cdr")
+    if name == "a.bag":
+        write_ros1(path, kept, empty=(("/tf", TRANSFORMS), ("/odom", ODOMETRY)))
+    elif name == "a_sqlite":
+        write_ros2(path, kept, empty=(("/tf", TRANSFORMS), ("/odom", ODOMETRY)))
+    else:
+        write_mcap(path, kept, empty=(("/tf", TRANSFORMS), ("/odom", ODOMETRY)))
+    source = open_source(path)
+    assert source.trajectory() is None
+    assert len(source) == COUNT
 
 
 def test_bag_without_poses_has_no_trajectory(tmp_path: Path) -> None:

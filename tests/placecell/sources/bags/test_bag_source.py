@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from placecell.core.types import Float32
 from placecell.sources.bags import BagSource, Mcap, Ros1Bag, Ros2Bag
+from placecell.sources.bags.cloud_messages import read_cloud
+from placecell.sources.bags.pointcloud2 import decode
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import ScanOptions, use_scan_options
 from tests.placecell.sources.bags.bag_builders import (
@@ -383,6 +385,34 @@ def test_clouds_of_foxglove_are_read(tmp_path: Path) -> None:
         assert_array_equal(source.scan(0).points, points)
         assert source.stamps_ns.tolist() == [START_NS]
         assert source.frame == "lidar"
+
+
+def test_cloud_of_foxglove_in_cdr_is_read() -> None:
+    points = usable(scans(1)[0])
+    fields = b"".join(
+        struct.pack("<I2sxxIBxxx", 2, axis.encode() + b"\0", 4 * n, 7)
+        for n, axis in enumerate("xyz")
+    )
+    data = (
+        bytes.fromhex("00010000")
+        + struct.pack("<iII6sxx4x", 5, 6, 6, b"lidar\0")
+        + struct.pack("<7d", 0, 0, 0, 0, 0, 0, 1)
+        + struct.pack("<II", 12, 3)
+        + fields
+        + struct.pack("<I", points.nbytes)
+        + points.tobytes()
+    )
+    cloud = read_cloud(data, "foxglove_msgs/PointCloud", "cdr", "test")
+    assert (cloud.stamp_ns, cloud.frame) == (5_000_000_006, "lidar")
+    assert_array_equal(decode(cloud, "test").points, points)
+
+
+def test_point_cloud_of_old_drivers_is_read() -> None:
+    points = usable(scans(1)[0])
+    data = struct.pack("<IIII5sI", 1, 5, 6, 5, b"lidar", len(points)) + points.tobytes()
+    cloud = read_cloud(data + bytes(4), "sensor_msgs/PointCloud", "ros1", "test")
+    assert (cloud.stamp_ns, cloud.frame) == (5_000_000_006, "lidar")
+    assert_array_equal(decode(cloud, "test").points, points)
 
 
 def test_foxglove_cloud_with_a_pose_or_unknown_encoding_is_refused(tmp_path: Path) -> None:
