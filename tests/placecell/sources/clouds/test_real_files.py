@@ -95,7 +95,7 @@ def las(content: bytes) -> Float64:
         points = struct.unpack_from("<Q", content, 247)[0]
     scale, offset = struct.unpack_from("<3d", content, 131), struct.unpack_from("<3d", content, 155)
     rows = [struct.unpack_from("<3i", content, start + row * size) for row in range(points)]
-    return np.array(rows) * scale + offset
+    return np.asarray(np.array(rows) * scale + offset)
 
 
 FILES: dict[str, tuple[int, Callable[[bytes], Float64]]] = {
