@@ -10,6 +10,7 @@ import torch
 
 from placecell.core.parameters import NEIGHBORHOOD_V1, PROTOCOL_V1
 from placecell.core.segments import Segments
+from placecell.core.types import Float32
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import describe_neighborhood
@@ -172,9 +173,11 @@ def test_learned_rotation_loses_less_by_quantization() -> None:
     assert (learned == learn_rotation(descriptors, 4)).all()
 
 
-def exported(data: TrainingSet, dimension: int = 8) -> ExportedContext:
+def exported(
+    data: TrainingSet, dimension: int = 8, statistics: tuple[Float32, Float32] | None = None
+) -> ExportedContext:
     torch.manual_seed(0)
-    network = DescriptorNetwork("fast", *normalization_statistics(data)).eval()
+    network = DescriptorNetwork("fast", *(statistics or normalization_statistics(data))).eval()
     random = np.random.default_rng(0)
     projection = Projection(
         np.zeros(SIZE, np.float32),
@@ -206,6 +209,27 @@ def test_onnx_equals_torch_and_8_bits_come_close(tmp_path: Path) -> None:
     content = (tmp_path / "small.onnx").read_bytes()
     assert b"QuantizeLinear" in content
     assert str(tmp_path).encode() not in content
+
+
+def test_8_bits_come_close_although_a_rare_voxel_has_a_huge_value(tmp_path: Path) -> None:
+    data = many_groups(seed=0, groups=20)
+    occupancy, extents = voxelize(data.segments, data.parameters)
+    mean, deviation = normalization_statistics(data)
+    occupied = np.count_nonzero(occupancy, axis=0)
+    rare = tuple(np.argwhere(occupied == 1)[0])
+    deviation[rare] = np.sort(deviation[occupied > 1])[0] / 300
+    others = np.flatnonzero(occupancy[(slice(None), *rare)] == 0)
+    network = exported(data, statistics=(mean, deviation))
+    assert data.neighborhood is not None
+    given = {"occupancy": occupancy, "extents": extents, "surroundings": data.neighborhood}
+    with torch.no_grad():
+        expected = network(*(torch.from_numpy(value) for value in given.values())).numpy()
+    export_onnx(network, PROTOCOL_V1.grid, tmp_path / "full.onnx")
+    quantize(tmp_path / "full.onnx", data, tmp_path / "small.onnx")
+    (small,) = onnxruntime.InferenceSession(tmp_path / "small.onnx").run(["descriptor"], given)
+    errors = np.linalg.norm(small - expected, axis=1)[others]
+    spread = np.linalg.norm(expected - np.roll(expected, 7, axis=0), axis=1)
+    assert errors.mean() < 0.1 * spread.mean()
 
 
 def test_segment_without_neighborhood_is_ranked_by_its_own_part() -> None:
