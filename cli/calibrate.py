@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def calibrate(
     map_drives: Annotated[
         list[Path],
-        typer.Argument(help="Drive folders, recordings of 'placecell prepare', or map files."),
+        typer.Argument(help="Drives, recordings of 'placecell prepare', or map files."),
     ],
     model: Model = None,
     every: Every = None,
@@ -81,8 +81,9 @@ def site_of(
     from placecell_client import MapFileError, decode
 
     from evaluation.recognition.calibrate import calibrate_map, calibrate_recording
+    from placecell.segmentation.recording import is_recording
 
-    if path.is_file():
+    if is_recording(path):  # map files have the same carrier format
         try:
             content = decode(path.read_bytes())
         except MapFileError:

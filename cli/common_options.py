@@ -6,7 +6,11 @@ from typing import Annotated
 import typer
 
 Drive = Annotated[
-    Path, typer.Argument(help="Drive folder, or recording file from 'placecell prepare'.")
+    Path,
+    typer.Argument(
+        help="Drive: a bag, an MCAP file, a folder of scans, or a folder in a known layout; or a "
+        "recording file from 'placecell prepare'."
+    ),
 ]
 Every = Annotated[
     int | None,

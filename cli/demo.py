@@ -18,7 +18,7 @@ def demo(
     drive: Annotated[
         Path | None,
         typer.Option(
-            help="Folder of a recorded drive; the robots get alternate blocks of it. "
+            help="Recorded drive; the robots get alternate blocks of it. "
             "(default: a simulated drive through the synthetic town)"
         ),
     ] = None,

@@ -1,13 +1,15 @@
-"""Options of all commands that read recorded drives: the layout of the drive's files."""
+"""Options of all commands that read recorded drives: scans, poses, mount of the sensor."""
 
 import functools
 import inspect
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from cli.errors import clear_errors
+from cli.tables import show
 from placecell.sources.scan_options import (
     DType,
     Order,
@@ -21,6 +23,78 @@ from placecell.sources.scan_options import (
 PANEL = "Recorded drives"
 
 OPTIONS: dict[str, tuple[Any, Any]] = {
+    "topic": (
+        Annotated[
+            str | None,
+            typer.Option(
+                metavar="NAME",
+                help="Topic of a bag with the clouds. (default: the only one, or the one with the "
+                "most points)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "poses": (
+        Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE",
+                help="Trajectory: KITTI, TUM, EuRoC, CSV, g2o, or a bag with poses. (default: the "
+                "drive's own poses, else odometry)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "pose_offset": (
+        Annotated[
+            float | None,
+            typer.Option(
+                metavar="SECONDS",
+                help="Seconds to add to the times of --poses. (default: 0)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "odometry": (
+        Annotated[
+            str | None,
+            typer.Option(
+                metavar="TOPIC",
+                help="Poses by a topic of the bag, or by kiss-icp from the scans; none refuses a "
+                "drive without poses. (default: the bag's own poses, else kiss-icp)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "extrinsic": (
+        Annotated[
+            str | None,
+            typer.Option(
+                metavar="MOUNT",
+                help="Sensor's pose in the frame of the poses: a file, 'x y z roll pitch yaw' in "
+                "meters and radians (append deg for degrees), or identity. (default: the bag's "
+                "transforms, else identity)",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        None,
+    ),
+    "deskew": (
+        Annotated[
+            bool,
+            typer.Option(
+                "--deskew/--no-deskew",
+                help="Remove motion distortion where points have times. Use --no-deskew if the "
+                "points are deskewed already.",
+                rich_help_panel=PANEL,
+            ),
+        ],
+        True,
+    ),
     "columns": (
         Annotated[
             str | None,
@@ -95,7 +169,10 @@ def takes_drives(command: Callable[..., None]) -> Callable[..., None]:
         with clear_errors():
             names = given.pop("columns")
             options = ScanOptions(
-                columns=None if names is None else parse_columns(names), tell=tell, **given
+                columns=None if names is None else parse_columns(names),
+                tell=tell,
+                progress=show,
+                **given,
             )
         with use_scan_options(options):
             command(**words)

@@ -48,8 +48,8 @@ def evaluate(
     map_drive: Annotated[
         Path | None,
         typer.Option(
-            metavar="FOLDER",
-            help="Drive folder for the map. (default: loop closures, in what DRIVE saw before)",
+            metavar="DRIVE",
+            help="Drive for the map. (default: loop closures, in what DRIVE saw before)",
             rich_help_panel=PLACES,
         ),
     ] = None,
@@ -98,6 +98,7 @@ def evaluate_protocol(
     from evaluation.poses.place_recognition import PROTOCOLS
     from evaluation.poses.places import evaluate_places, robots_of_places
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+    from placecell.segmentation.recording import is_recording
 
     with clear_errors():
         if name not in PROTOCOLS:
@@ -108,8 +109,8 @@ def evaluate_protocol(
             )
         if scans is not None:
             raise ValueError("--scans selects groups of segments. Omit it with --protocol.")
-        if drive.is_file():
-            raise ValueError(f"{drive}: --protocol needs the drive's folder, not a recording.")
+        if is_recording(drive):
+            raise ValueError(f"{drive}: --protocol needs the drive itself, not a recording.")
         folders = {each: model_folder(each) for each in models or [DEFAULT_MODEL]}
         pair = robots_of_places(drive, map_drive, every, show)
         reports = {

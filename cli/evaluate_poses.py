@@ -21,14 +21,14 @@ def evaluate_poses(
     map_drive: Annotated[
         Path,
         typer.Argument(
-            help="Drive folder for the map. town:SEED or town:SEED:SENSOR:PLACE simulates two "
+            help="Drive for the map. town:SEED or town:SEED:SENSOR:PLACE simulates two "
             "robots that drive the same way in opposite directions: A makes the map, B localizes."
         ),
     ],
     query_drive: Annotated[
         Path | None,
         typer.Argument(
-            help="Drive folder for the queries, in the same place. (default: alternate blocks of "
+            help="Drive for the queries, in the same place. (default: alternate blocks of "
             "MAP_DRIVE are map and queries)"
         ),
     ] = None,

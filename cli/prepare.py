@@ -12,7 +12,11 @@ from cli.tables import JsonFile, write_json
 
 def prepare(
     drives: Annotated[
-        list[Path], typer.Argument(help="Drive folders in the KITTI, MulRan or HeLiPR layout.")
+        list[Path],
+        typer.Argument(
+            help="Drives: bags, MCAP files, folders of scans, or folders in the KITTI, MulRan or "
+            "HeLiPR layout."
+        ),
     ],
     output: Annotated[
         Path,

@@ -7,10 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.progress import track
-
 from cli.errors import clear_errors, fail
-from cli.tables import progress_console
+from cli.tables import show
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["clear_errors", "fail", "load", "show", "source", "sources"]
 
 SOURCE_HELP = (
-    "Drive folder (KITTI, MulRan or HeLiPR layout) or recording file from 'placecell prepare'. "
+    "Drive (a bag, an MCAP file, a folder of scans, or a folder in the KITTI, MulRan or HeLiPR "
+    "layout) or recording file from 'placecell prepare'. "
     "@FIRST:LAST selects the groups that lie wholly within these scans, both included."
 )
 
@@ -40,11 +39,6 @@ TOWN_SCANS = 300
 """Number of scans of each robot's drive through a training town."""
 
 
-def show(items: Iterable[int], total: int, what: str) -> Iterable[int]:
-    """Iterate with a progress bar on standard error."""
-    return track(items, description=what, total=total, console=progress_console())
-
-
 def parse_scans(text: str) -> tuple[int, int]:
     """Parse FIRST:LAST, both included.
 
@@ -58,13 +52,13 @@ def parse_scans(text: str) -> tuple[int, int]:
 
 
 def load(path: Path, every: int | None = None) -> "Recording":
-    """Load a recording file, or segment the drive of a folder."""
+    """Load a recording file, or segment a drive: a folder or a file, told by its content."""
     from placecell.core.parameters import PROTOCOL_V1
     from placecell.datasets import open_drive
     from placecell.segmentation.pipeline import record
-    from placecell.segmentation.recording import Recording
+    from placecell.segmentation.recording import Recording, is_recording
 
-    if path.is_file():
+    if is_recording(path) or path.suffix == ".safetensors":
         recording = Recording.load(path)
         step = recording.parameters.frame_step
         if every is not None and every != step:
@@ -94,7 +88,7 @@ def refuse_nothing(drive: "Drive", recordings: "Sequence[Recording]") -> None:
     raise ValueError(
         f"{drive.folder}: no segments were found in {len(drive)} scans of "
         f"{np.mean([len(scan) for scan in scans] or [0]):,.0f} points (median range "
-        f"{np.median(ranges):.1f} m), read as {drive.point_layout}. A segment is an object of 100 "
+        f"{np.median(ranges):.1f} m), read as {drive.content}. A segment is an object of 100 "
         "points or more that stands on the ground within 60 m of the sensor. Check that z points "
         "up, the unit (--unit), the columns (--columns), and that the poses are sensor poses"
     )

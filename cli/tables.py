@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -41,6 +42,13 @@ def progress_console() -> "Console":
     from rich.console import Console
 
     return Console(stderr=True)
+
+
+def show(items: Iterable[int], total: int, what: str) -> Iterable[int]:
+    """Iterate with a progress bar on standard error."""
+    from rich.progress import track
+
+    return track(items, description=what, total=total, console=progress_console())
 
 
 def new_table(*headers: str, title: str | None = None) -> "Table":

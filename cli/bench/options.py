@@ -19,7 +19,7 @@ Source = Annotated[
     typer.Option(
         "--segments",
         metavar="PATH",
-        help="Drive folder or recording file from 'placecell prepare' with the segments. "
+        help="Drive or recording file from 'placecell prepare' with the segments. "
         "(default: a short drive through the synthetic town)",
     ),
 ]

@@ -13,11 +13,11 @@ DEFAULT_PYTHON = Path(".venv-peers/bin/python")
 
 
 def peers(
-    map_drive: Annotated[Path, typer.Argument(help="Drive folder for the map.")],
+    map_drive: Annotated[Path, typer.Argument(help="Drive for the map.")],
     query_drive: Annotated[
         Path | None,
         typer.Argument(
-            help="Drive folder for the queries, in a known common frame, as from "
+            help="Drive for the queries, in a known common frame, as from "
             "'placecell town'. (default: alternate blocks of MAP_DRIVE)"
         ),
     ] = None,

@@ -12,8 +12,10 @@ import numpy as np
 
 from placecell.core.text_files import read_lines
 from placecell.core.types import Float32, Float64
+from placecell.odometry.deskew import SensorMotion, deskew
 from placecell.sources.errors import DriveError
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
+from placecell.sources.point_times import is_time
 from placecell.sources.scan_options import ScanOptions, current_scan_options
 
 SHOWN = 5
@@ -57,6 +59,8 @@ class Drive(ABC):
 
     name: ClassVar[str]
     layout: ClassVar[str]
+    scan_folder: ClassVar[str] = ""
+    """Folder inside the drive's folder that a reader of scans alone opens."""
 
     folder: Path
     scan_files: list[Path]
@@ -72,8 +76,17 @@ class Drive(ABC):
     def recognizes(cls, folder: Path) -> bool:
         """Return whether the folder has this layout."""
 
+    @classmethod
+    def has_poses(cls, folder: Path) -> bool:  # noqa: ARG003
+        """Return whether a folder of this layout has the drive's poses."""
+        return True
+
     def __len__(self) -> int:
         return len(self.scan_files)
+
+    def scan_name(self, index: int) -> str:
+        """Return the name of a scan in messages."""
+        return self.scan_files[index].name
 
     @property
     def title(self) -> str:
@@ -98,6 +111,9 @@ class Drive(ABC):
         if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:
             how = "as stated" if self.options.states_layout else "found from their values"
             self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
+        if any(is_time(name) for name in self.point_layout.columns):
+            done = "deskewed by the poses" if self.options.deskew else "not deskewed, as stated"
+            self.options.tell(f"{self.folder}: points have times; the scans are {done}")
         self.check_sizes([self.point_layout.point_bytes] * len(sizes), sizes)
 
     def check_sizes(self, point_bytes: Sequence[int], sizes: Sequence[int]) -> None:
@@ -128,6 +144,7 @@ class Drive(ABC):
         """
         try:
             points = self.read_points(index)
+            times = self.read_times(index) if self.options.deskew else None
             usable = usable_points(points, self.scan_files[index])
         except DriveError as error:
             self.skip(index, str(error).rpartition(": ")[2])
@@ -139,7 +156,29 @@ class Drive(ABC):
                     "or infinity). Without --strict they are dropped"
                 )
             self.dropouts.dropped[index] = bad
-        return usable
+        if times is None:
+            return usable
+        return self.deskewed(usable, times[np.isfinite(points).all(axis=1)], index)
+
+    @cached_property
+    def motion(self) -> SensorMotion | None:
+        """Motion of the sensor; None if the times of the scans do not ascend."""
+        return SensorMotion.of(self.times, self.poses)
+
+    def deskewed(self, points: Float32, times: Float64, index: int) -> Float32:
+        """Return points that are moved to the time of their scan.
+
+        Args:
+            points: float32 (n, 3), meters, sensor frame.
+            times: float64 (n,), relative to the scan's, seconds.
+            index: index of the scan.
+        """
+        stamp = float(self.times[index])
+        if self.motion is None or not len(points):
+            return points
+        if not self.motion.covers(stamp + float(times.min()), stamp + float(times.max())):
+            return points
+        return deskew(points, times, stamp, self.motion)
 
     def read_points(self, index: int) -> Float32:
         """Read the points of a scan file, float32 (n, 3), meters; values may be not finite.
@@ -149,6 +188,19 @@ class Drive(ABC):
         """
         return self.point_layout.read(self.scan_files[index])
 
+    def read_times(self, index: int) -> Float64 | None:
+        """Read the time of each point of a scan file, relative to the scan's, seconds, or None.
+
+        Raises:
+            DriveError: the file is missing, unreadable, empty or cut short.
+        """
+        return self.point_layout.read_times(self.scan_files[index], float(self.times[index]))
+
+    @property
+    def content(self) -> str:
+        """Content of a scan's file, for messages."""
+        return str(self.point_layout)
+
     def skip(self, index: int, why: str) -> None:
         """Record that a scan cannot be used.
 
@@ -156,7 +208,10 @@ class Drive(ABC):
             DriveError: the options are strict.
         """
         if self.options.strict:
-            raise DriveError(f"{self.scan_files[index]}: {why}. Without --strict it is skipped")
+            raise DriveError(
+                f"{self.scan_files[index].parent / self.scan_name(index)}: {why}. Without "
+                "--strict it is skipped"
+            )
         self.dropouts.skipped[index] = why
 
     def check_usable(self, scans: range) -> None:
@@ -178,7 +233,7 @@ class Drive(ABC):
         words = []
         if skipped:
             some = ", ".join(
-                f"{self.scan_files[index].name}: {self.dropouts.skipped[index]}"
+                f"{self.scan_name(index)}: {self.dropouts.skipped[index]}"
                 for index in skipped[:SHOWN]
             )
             more = f", and {len(skipped) - SHOWN} more" if len(skipped) > SHOWN else ""

@@ -9,6 +9,7 @@ from placecell.core.types import Float64
 from placecell.datasets.drive import Drive, check_motion, find_scans, read_table
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import SECONDS, current_scan_options
+from placecell.trajectories.extrinsic import describe_extrinsic, parse_extrinsic
 from placecell.trajectories.poses import as_transforms, check_rotations
 
 
@@ -34,7 +35,7 @@ class KittiOdometry(Drive):
         self.folder = folder
         self.scan_files = find_scans(folder / "velodyne")
         pose_file = folder / pose_name
-        beside = folder.parent.parent / "poses" / f"{folder.name}.txt"
+        beside = poses_beside(folder)
         if not pose_file.exists() and beside.exists():
             pose_file = beside
         camera = read_table(pose_file, 12, "a 3x4 pose a line, row by row: 12 numbers")
@@ -46,7 +47,13 @@ class KittiOdometry(Drive):
             )
         camera_poses = as_transforms(camera)
         check_rotations(camera_poses, pose_file)
-        sensor_to_camera = read_calibration(folder / "calib.txt")
+        options = current_scan_options()
+        if options.extrinsic is None:
+            sensor_to_camera = read_calibration(folder / "calib.txt")
+        else:
+            sensor_to_camera = parse_extrinsic(options.extrinsic)
+            mount = describe_extrinsic(sensor_to_camera)
+            options.tell(f"{folder}: the sensor is mounted at {mount}, as stated")
         poses = np.linalg.inv(sensor_to_camera) @ camera_poses @ sensor_to_camera
         self.origin = poses[0, :3, 3].copy()
         poses[:, :3, 3] -= self.origin
@@ -57,7 +64,6 @@ class KittiOdometry(Drive):
             raise DriveError(
                 f"{time_file}: {len(self.times)} times for {len(self.scan_files)} scans"
             )
-        options = current_scan_options()
         if options.time_unit != "s":
             self.times = (self.times - self.times[0]) * SECONDS[options.time_unit]
         for remark in check_motion(self.poses, self.times, pose_file, time_file):
@@ -67,6 +73,15 @@ class KittiOdometry(Drive):
     @classmethod
     def recognizes(cls, folder: Path) -> bool:
         return (folder / "velodyne").is_dir()
+
+    @classmethod
+    def has_poses(cls, folder: Path) -> bool:
+        return (folder / "poses.txt").exists() or poses_beside(folder).exists()
+
+
+def poses_beside(folder: Path) -> Path:
+    """Return the file that has the poses of a sequence in KITTI's own archives."""
+    return folder.parent.parent / "poses" / f"{folder.name}.txt"
 
 
 def with_missing(files: list[Path], poses: int) -> list[Path]:

@@ -30,6 +30,7 @@ class KittiRaw(Drive):
 
     name = "KITTI raw"
     layout = "velodyne_points/data/*.bin, oxts/data/*.txt, calib_imu_to_velo.txt"
+    scan_folder = "velodyne_points"
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -37,6 +37,7 @@ class MulRan(Drive):
 
     name = "MulRan"
     layout = "Ouster/*.bin, global_pose.csv"
+    scan_folder = "Ouster"
     georeferenced = True
 
     def __init__(self, folder: Path) -> None:

@@ -1,10 +1,11 @@
 """Segmentation pipeline: the paper's preprocessing (III-A) from a drive to grouped segments."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from placecell.core.parameters import Parameters
+from placecell.core.progress import Progress, silent
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, UInt8
 from placecell.datasets import Drive
@@ -17,13 +18,7 @@ from placecell.segmentation.local_map import Accumulator
 from placecell.segmentation.recording import Recording
 from placecell.segmentation.region_growing import segment_indices
 
-Progress = Callable[[Iterable[int], int, str], Iterable[int]]
-"""Function that shows the progress of a loop: (items, number of items, title) -> the items."""
-
-
-def silent(items: Iterable[int], total: int, what: str) -> Iterable[int]:  # noqa: ARG001
-    """Return the items and show no progress."""
-    return items
+__all__ = ["Progress", "packed_grids", "record", "segment_captures", "segment_map", "silent"]
 
 
 def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:

@@ -33,6 +33,22 @@ COLUMNS = {
 """Element type and row shape of each column. The keys are those of the file."""
 
 
+LONGEST_HEADER = 100_000_000
+"""Largest size of a safetensors header, bytes, as the library limits it."""
+
+
+def is_recording(path: Path) -> bool:
+    """Return whether a path is a file in the carrier format of recordings, by its first bytes."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(9)
+    except OSError:
+        return False
+    return (
+        len(head) == 9 and head[8:] == b"{" and int.from_bytes(head[:8], "little") <= LONGEST_HEADER
+    )
+
+
 class RecordingError(ValueError):
     """File that is no valid recording of this version."""
 

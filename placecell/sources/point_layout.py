@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64, Int64
 from placecell.sources.errors import DriveError
+from placecell.sources.point_times import is_time, point_times
 from placecell.sources.scan_options import METERS, DType, Order, ScanOptions
 
 SAMPLED_SCANS = 8
@@ -35,6 +36,11 @@ TINY, HUGE = 1e-5, 1e6
 """Smallest and largest plausible magnitude of sensor values; others are misread bits."""
 FARTHEST_MEDIAN = 250.0
 """Largest plausible median range, meters; a LiDAR scan's is some 10 m."""
+
+SWEEPS = (0.01, 0.5)
+"""Shortest and longest duration of a sweep that is told by the values of a column, seconds."""
+ASCENDING, DIFFERENT = 0.97, 0.01
+"""Smallest share of points that are no earlier, and that are later, than the point before."""
 
 ITEM_SIZES: dict[DType, int] = {"float32": 4, "float64": 8}
 TYPES: dict[DType, str] = {"float32": "<f4", "float64": "<f8"}
@@ -76,6 +82,36 @@ class PointLayout:
         Raises:
             DriveError: missing, unreadable, empty or cut short.
         """
+        table = self.read_table(file)
+        axes = [self.columns.index(axis) for axis in "xyz"]
+        points = np.ascontiguousarray(table[:, axes])
+        if self.scale != 1.0:
+            points = points * self.scale
+        with np.errstate(over="ignore"):  # float64 beyond float32 becomes infinite, and is dropped
+            return points.astype(np.float32, copy=False)
+
+    def read_times(self, file: Path, stamp: float) -> Float64 | None:
+        """Read the time of each point of a scan, relative to the scan's, seconds; None if none.
+
+        Args:
+            file: file of the scan.
+            stamp: time of the scan, seconds.
+
+        Raises:
+            DriveError: missing, unreadable, empty or cut short.
+        """
+        named = [index for index, name in enumerate(self.columns) if is_time(name)]
+        if not named:
+            return None
+        table = self.read_table(file)
+        return point_times({self.columns[index]: table[:, index] for index in named}, stamp)
+
+    def read_table(self, file: Path) -> NDArray[np.floating]:
+        """Read all values of a scan, (points, columns).
+
+        Raises:
+            DriveError: missing, unreadable, empty or cut short.
+        """
         try:
             content = file.read_bytes()
         except OSError as error:
@@ -87,14 +123,7 @@ class PointLayout:
                 f"{file}: {len(content)} bytes is no whole number of points "
                 f"({self.point_bytes} bytes each: {self}); the file is cut short or of another kind"
             )
-        values = np.frombuffer(content, TYPES[self.dtype])
-        table = self.as_table(values)
-        axes = [self.columns.index(axis) for axis in "xyz"]
-        points = np.ascontiguousarray(table[:, axes])
-        if self.scale != 1.0:
-            points = points * self.scale
-        with np.errstate(over="ignore"):  # float64 beyond float32 becomes infinite, and is dropped
-            return points.astype(np.float32, copy=False)
+        return self.as_table(np.frombuffer(content, TYPES[self.dtype]))
 
     def as_table(self, values: NDArray[np.floating]) -> NDArray[np.floating]:
         """Arrange a file's values as (points, columns)."""
@@ -220,10 +249,37 @@ def layout_from_content(
             raise DriveError(f"{found}; {told}, which is not sure. {STATE_IT}")
     if wrong := axes_problem(values, best):
         raise DriveError(f"{found}: {told}, but {wrong}. {STATE_IT}")
-    names = {3: NAMES[:3], 4: NAMES}.get(
-        best, ("x", "y", "z", *(f"column_{number}" for number in range(3, best)))
-    )
+    names = {3: NAMES[:3], 4: NAMES}.get(best) or names_of(sampled, best, dtype)
     return PointLayout(columns=names, dtype=dtype, scale=scale)
+
+
+def names_of(sampled: Sequence[bytes], count: int, dtype: DType) -> tuple[str, ...]:
+    """Return names for columns whose number is found: a column with the points' times is told.
+
+    Points are stored as the sensor measured them, all of them or beam after beam. So the times
+    ascend almost everywhere, and they span one sweep.
+    """
+    names = ["x", "y", "z", *(f"column_{number}" for number in range(3, count))]
+    tables = [
+        np.frombuffer(content, TYPES[dtype])[: len(content) // ITEM_SIZES[dtype] // count * count]
+        for content in sampled
+    ]
+    for column in range(3, count):
+        values = [table.reshape(-1, count)[:, column].astype(np.float64) for table in tables]
+        if all(is_sweep(each) for each in values):
+            names[column] = "time"
+            break
+    return tuple(names)
+
+
+def is_sweep(values: Float64) -> bool:
+    """Return whether values are the times of the points of one sweep, seconds."""
+    if len(values) < FEWEST_POINTS or not np.isfinite(values).all():
+        return False
+    span = float(values.max() - values.min())
+    steps = np.diff(values)
+    ascending = np.mean(steps >= 0) >= ASCENDING and np.mean(steps > 0) >= DIFFERENT
+    return bool(SWEEPS[0] <= span <= SWEEPS[1] and np.abs(values).max() <= 1.0 and ascending)
 
 
 def fitting_columns(sizes: NDArray[np.int_], fits: dict[int, float], dtype: DType) -> str:

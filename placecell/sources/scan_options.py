@@ -4,12 +4,19 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
+
+from placecell.core.progress import Progress
+from placecell.core.progress import silent as no_progress
 
 DType = Literal["float32", "float64"]
 Order = Literal["rows", "columns"]
 Unit = Literal["m", "cm", "mm"]
 TimeUnit = Literal["s", "ms", "us", "ns"]
+
+KISS_ICP, NO_ODOMETRY = "kiss-icp", "none"
+"""Values of `ScanOptions.odometry` that are no topic."""
 
 METERS: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 SECONDS: dict[TimeUnit, float] = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
@@ -31,7 +38,14 @@ class ScanOptions:
         time_unit: unit of `times.txt`.
         strict: refuse a drive with scans that cannot be used or points that are not finite.
         topic: topic of a bag with the clouds; none: the only one, or the one with the most points.
-        odometry: topic of a bag with the poses; none: chosen from the bag's content.
+        poses: file of a trajectory; none: the source's own poses, or odometry.
+        pose_offset: seconds to add to the times of `poses`; none: 0, or found if it is sure.
+        odometry: topic of a bag with the poses, `kiss-icp`, or `none` to refuse a source without
+            poses; none: chosen from the source's content.
+        extrinsic: mount of the sensor in the frame of the poses, as `parse_extrinsic` takes it;
+            none: as the source states it, else identity.
+        deskew: move points that have times to the scan's time.
+        progress: shows the progress of odometry.
         tell: receives a line about what was found in the files and how it was handled.
     """
 
@@ -42,13 +56,23 @@ class ScanOptions:
     time_unit: TimeUnit = "s"
     strict: bool = False
     topic: str | None = None
+    poses: Path | None = None
+    pose_offset: float | None = None
     odometry: str | None = None
+    extrinsic: str | None = None
+    deskew: bool = True
+    progress: Progress = no_progress
     tell: Callable[[str], None] = silent
 
     @property
     def states_layout(self) -> bool:
         """Return whether the options state the layout of scans."""
         return self.columns is not None or self.dtype is not None or self.order != "rows"
+
+    @property
+    def odometry_topic(self) -> str | None:
+        """Topic of a bag with the poses, if the options state one."""
+        return None if self.odometry in (None, KISS_ICP, NO_ODOMETRY) else self.odometry
 
 
 _current: ContextVar[ScanOptions] = ContextVar("reading", default=ScanOptions())  # noqa: B039 -- frozen

@@ -1,9 +1,11 @@
 """Extrinsic calibration: where the sensor is mounted on the frame whose poses are known."""
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from placecell.core.errors import DriveError
 from placecell.core.text_files import read_lines
@@ -118,8 +120,8 @@ def of_numbers(text: str, name: str, key: str = "") -> Float64:
 
 def describe_extrinsic(transform: Float64) -> str:
     """Return a mount as text: position, meters, and rotation, degrees."""
-    from scipy.spatial.transform import Rotation
-
     x, y, z = transform[:3, 3]
-    roll, pitch, yaw = Rotation.from_matrix(transform[:3, :3]).as_euler("xyz", degrees=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # at a pitch of 90 degrees, yaw is taken as 0
+        roll, pitch, yaw = Rotation.from_matrix(transform[:3, :3]).as_euler("xyz", degrees=True)
     return f"{x:.2f} {y:.2f} {z:.2f} m, {roll:.1f} {pitch:.1f} {yaw:.1f} deg (roll, pitch, yaw)"

@@ -17,9 +17,9 @@ def folder(tmp_path: Path) -> Path:
     return write_odometry(tmp_path / "sequences" / "00", SCANS, POSES)
 
 
-def refused(folder: Path, file: str) -> str:
+def refused(folder: Path, file: str, path: Path | None = None) -> str:
     with pytest.raises(DriveError) as caught:
-        open_drive(folder)
+        open_drive(path or folder)
     assert str(folder / file) in str(caught.value)
     return str(caught.value)
 
@@ -99,7 +99,7 @@ def test_tr_that_is_no_rotation(folder: Path) -> None:
     assert "no rotation" in refused(folder, "calib.txt")
 
 
-@pytest.mark.parametrize("file", ["calib.txt", "poses.txt", "times.txt"])
+@pytest.mark.parametrize("file", ["calib.txt", "times.txt"])
 def test_missing_file(folder: Path, file: str) -> None:
     (folder / file).unlink()
     assert "missing" in refused(folder, file)
@@ -190,11 +190,12 @@ def test_no_scans(folder: Path) -> None:
 
 
 def test_missing_folder(tmp_path: Path) -> None:
-    assert "no such folder" in refused(tmp_path / "none", "")
+    assert "no such file or folder" in refused(tmp_path / "none", "")
 
 
-def test_file_instead_of_a_folder(folder: Path) -> None:
-    assert "no such folder" in refused(folder / "poses.txt", "")
+def test_file_that_is_no_drive(folder: Path) -> None:
+    (folder / "notes.txt").write_text("no points")
+    assert "known layout" in refused(folder, "notes.txt", folder / "notes.txt")
 
 
 def test_unknown_folder_error_lists_the_layouts(tmp_path: Path) -> None:
