@@ -118,7 +118,7 @@ class SourceDrive(Drive):
     def motion(self) -> SensorMotion | None:
         """Motion of the sensor, from all poses that there are."""
         track = self.source_poses.track
-        if track is None:
+        if track is None or track.stamps is None:
             return SensorMotion.of(self.times, self.poses)
         poses = track.poses.copy()
         poses[:, :3, 3] -= self.origin

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.types import Float64, Int64
+from placecell.odometry.source_odometry import odometry_of
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import KISS_ICP, NO_ODOMETRY, ScanOptions
 from placecell.sources.source import ScanSource
@@ -176,4 +177,7 @@ def by_odometry(source: ScanSource, options: ScanOptions) -> SourcePoses:
         return SourcePoses("one scan", np.zeros(1, np.int64), np.eye(4)[None], source.stamps, None)
     if options.odometry == NO_ODOMETRY:
         raise DriveError(f"{source.path}: has no poses, and --odometry none. {GIVE_POSES}")
-    raise DriveError(f"{source.path}: has no poses. {GIVE_POSES}")
+    found = odometry_of(source, options.deskew, options.progress, options.tell)
+    stamps = source.stamps if np.isfinite(source.stamps).all() else None
+    scans = np.arange(len(source))
+    return SourcePoses(KISS_ICP, scans, found.poses, stamps, Trajectory(found.poses, stamps))

@@ -1,0 +1,44 @@
+"""Leveling: the rotation that makes z of a drive's world point up, from the ground of its scans."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from placecell.core.types import Float64
+from placecell.odometry.ground_plane import GroundPlane, NoGroundError, find_common_ground
+from placecell.odometry.scan_odometry import read, rotated
+from placecell.sources.source import ScanSource
+
+FIRST_SECONDS = 20.0
+"""Time in which the ground of an odometry is sought: its slopes even out, its drift is small."""
+MOST_SCANS = 12
+
+
+def ground_in_world(source: ScanSource, scans: Sequence[int], poses: Float64) -> GroundPlane | None:
+    """Return the ground that most of the scans agree on, with `up` in the poses' world, or None.
+
+    Args:
+        source: the source.
+        scans: indices of the scans.
+        poses: pose of each of these scans, float64 (scans, 4, 4).
+    """
+    chosen = np.unique(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(int))
+    clouds = [rotated(read(source, int(scans[at])).points, poses[at]) for at in chosen]
+    try:
+        return find_common_ground([cloud for cloud in clouds if len(cloud)])
+    except NoGroundError:
+        return None
+
+
+def leveling_of(ground: GroundPlane) -> Float64:
+    """Return the transform (4, 4) that turns a world so that the ground's up is its z."""
+    level = np.eye(4)
+    level[:3, :3] = ground.leveling()
+    return level
+
+
+def first_scans(stamps: Float64) -> int:
+    """Return the number of scans in the first seconds; unknown times are 0.1 s apart."""
+    if not np.isfinite(stamps).all():
+        stamps = 0.1 * np.arange(len(stamps))
+    return max(1, int(np.searchsorted(stamps, stamps[0] + FIRST_SECONDS)))
