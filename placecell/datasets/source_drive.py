@@ -8,13 +8,12 @@ import numpy as np
 
 from placecell.core.types import Float32, Float64
 from placecell.datasets.drive import Drive, check_motion
-from placecell.datasets.source_poses import SourcePoses, find_poses
+from placecell.datasets.source_poses import SourcePoses, find_poses, prefixed
 from placecell.odometry.deskew import SensorMotion
 from placecell.sources.errors import DriveError
 from placecell.sources.point_layout import implausible
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import (
-    ScanOptions,
     current_scan_options,
     silent,
     use_scan_options,
@@ -93,7 +92,7 @@ class SourceDrive(Drive):
         self.options.tell(
             f"{self.folder}: the scans have no times; they are taken as {UNKNOWN_STEP} s apart"
         )
-        return np.arange(len(self.scans)) * UNKNOWN_STEP
+        return UNKNOWN_STEP * np.arange(len(self.scans), dtype=np.float64)
 
     def tell_times(self) -> None:
         """Tell whether scans are deskewed, by the first scan."""
@@ -200,15 +199,18 @@ def open_source_drive(path: Path, folder: Path | None = None, layouts: str = "")
                 raise
             raise DriveError(f"{error}; or a drive in a known layout ({layouts})") from error
     told = set[str]()
-    tell_notes(source, options, told)
-    drive = SourceDrive(source, folder)
-    tell_notes(source, options, told)
+
+    def tell_once(message: str) -> None:
+        if message not in told:
+            told.add(message)
+            options.tell(message)
+
+    def tell_notes() -> None:
+        for note in source.notes():
+            tell_once(prefixed(str(source.path), note))
+
+    tell_notes()
+    with use_scan_options(replace(options, tell=tell_once)):
+        drive = SourceDrive(source, folder)
+    tell_notes()  # of what was read since
     return drive
-
-
-def tell_notes(source: ScanSource, options: ScanOptions, told: set[str]) -> None:
-    """Tell the remarks of a source that were not told yet."""
-    for note in source.notes():
-        if note not in told:
-            told.add(note)
-            options.tell(f"{source.path}: {note}")

@@ -7,6 +7,8 @@ import numpy as np
 
 from placecell.core.types import Float64, Int64
 from placecell.odometry.source_odometry import odometry_of
+from placecell.sources.bags import Bag, BagSource, Mcap, Ros1Bag, Ros2Bag
+from placecell.sources.bags import read_poses as read_bag_poses
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import KISS_ICP, NO_ODOMETRY, ScanOptions
 from placecell.sources.source import ScanSource
@@ -19,6 +21,8 @@ UPRIGHT = 0.5
 """Smallest absolute z of the sensor's z axis in the frame of the poses, unless it is a camera's."""
 STILL = 1e-9
 """Largest change of poses that never move, meters."""
+
+BAGS = (Ros1Bag, Ros2Bag, Mcap)
 
 GIVE_POSES = (
     "Give poses with --poses FILE (KITTI, TUM, EuRoC, CSV or g2o), or with --odometry TOPIC for a "
@@ -45,40 +49,71 @@ class SourcePoses:
     track: Trajectory | None
 
 
+@dataclass(frozen=True, slots=True)
+class FoundPoses:
+    """Poses before they are matched to the scans.
+
+    Attributes:
+        name: origin of the poses, for messages.
+        trajectory: the poses.
+        mount: transform from the sensor's frame to the frame of the poses, (4, 4).
+        how: how the mount was found.
+    """
+
+    name: str
+    trajectory: Trajectory
+    mount: Float64
+    how: str
+
+
 def find_poses(source: ScanSource, options: ScanOptions) -> SourcePoses:
     """Find the poses of a source's scans, and tell what was used.
 
     Raises:
         DriveError: there are none, or they do not fit the scans.
     """
-    trajectory, name = own_trajectory(source, options)
-    if trajectory is None:
+    given = given_poses(source, options)
+    if given is None:
         return by_odometry(source, options)
-    for remark in trajectory.remarks:
-        options.tell(f"{name}: {remark}")
-    mount = mount_of(source, trajectory, name, options)
-    found = poses_of_scans(trajectory, source.stamps, name, options.pose_offset)
+    for remark in given.trajectory.remarks:
+        options.tell(prefixed(given.name, remark))
+    options.tell(f"{given.name}: {given.how}")
+    found = poses_of_scans(given.trajectory, source.stamps, given.name, options.pose_offset)
     for remark in found.remarks:
         options.tell(remark)
     options.tell(
-        f"{source.path}: {len(found.scans)} of {len(source)} scans have a pose, from {name}"
+        f"{source.path}: {len(found.scans)} of {len(source)} scans have a pose, from {given.name}"
     )
-    return on_sensor(found, mount, name)
+    return on_sensor(found, given.mount, given.name)
 
 
-def own_trajectory(source: ScanSource, options: ScanOptions) -> tuple[Trajectory | None, str]:
-    """Return the poses that are given or that the source has, and their origin.
+def prefixed(name: str, text: str) -> str:
+    """Return a remark that begins with the name of its origin."""
+    return text if text.startswith(name) else f"{name}: {text}"
+
+
+def given_poses(source: ScanSource, options: ScanOptions) -> FoundPoses | None:
+    """Return the poses that are stated or that the source has, with the sensor's mount.
+
+    None if odometry is wanted or needed.
 
     Raises:
-        DriveError: the file cannot be read, or the stated topic has no poses.
+        DriveError: the file cannot be read, the stated topic has no poses, or the mount is wrong.
     """
     if options.poses is not None:
-        return read_poses(options.poses), str(options.poses)
+        return with_mount(source, read_poses(options.poses), str(options.poses), options)
     if options.odometry == KISS_ICP:
-        return None, ""
-    trajectory = source.trajectory()
+        return None
     stated = options.odometry_topic
-    name = f"the topic {stated}" if stated else "the source's own poses"
+    name = f"{source.path}, topic {stated}" if stated else f"{source.path}"
+    if isinstance(source, BagSource):
+        # A stated mount is that on the robot; else the bag's transforms tell it.
+        if options.extrinsic is None and source.poses.sensor is not None:
+            how = f"mount of the sensor by {source.poses.extrinsic.how}"
+            return FoundPoses(name, source.poses.sensor, np.eye(4), how)
+        trajectory = source.poses.body
+    else:
+        trajectory = source.trajectory()
     if trajectory is None and stated:
         raise DriveError(
             f"{source.path}: has no poses on {stated}; {source.format} has none. {GIVE_POSES}"
@@ -88,10 +123,35 @@ def own_trajectory(source: ScanSource, options: ScanOptions) -> tuple[Trajectory
             f"{source.path}: its own poses never change, so they are not used. State the topic "
             "with --odometry to use them"
         )
-        return None, ""
-    if trajectory is not None and trajectory.frame:
-        name += f" ({trajectory.frame} in {trajectory.world or 'its own world'})"
-    return trajectory, name
+        return None
+    return None if trajectory is None else with_mount(source, trajectory, name, options)
+
+
+def with_mount(
+    source: ScanSource, trajectory: Trajectory, name: str, options: ScanOptions
+) -> FoundPoses:
+    """Return poses with the mount that is stated; else the poses are taken as the sensor's.
+
+    Raises:
+        DriveError: the stated mount cannot be read.
+    """
+    mount = np.eye(4)
+    if options.extrinsic is not None:
+        mount = parse_extrinsic(options.extrinsic)
+        how = f"the sensor is mounted at {describe_extrinsic(mount)}, as stated"
+    elif trajectory.frame and trajectory.frame == source.frame:
+        how = f"the poses are those of the sensor's frame {source.frame!r}"
+    elif trajectory.frame:
+        how = (
+            f"the mount of {source.frame or 'the sensor'} on {trajectory.frame} is not known; the "
+            "poses are taken as the sensor's. State it with --extrinsic"
+        )
+    else:
+        how = (
+            "the poses are taken as the sensor's. State its mount with --extrinsic if they are "
+            "another frame's"
+        )
+    return FoundPoses(name, trajectory, mount, how)
 
 
 def read_poses(file: Path) -> Trajectory:
@@ -100,56 +160,17 @@ def read_poses(file: Path) -> Trajectory:
     Raises:
         DriveError: the file cannot be read, or the bag has no poses.
     """
-    if not file.exists() or not is_binary(file):
-        return read_trajectory(file)
-    from placecell.sources.catalog import is_source, open_source
-
-    if is_source(file):
-        trajectory = open_source(file).trajectory()
-        if trajectory is None:
-            raise DriveError(f"{file}: has no poses. {GIVE_POSES}")
-        return trajectory
+    if any(kind.recognizes(file) for kind in BAGS):
+        body = read_bag_poses(Bag(file)).body
+        if body is None:
+            raise DriveError(f"{file}: has no poses that move. {GIVE_POSES}")
+        return body
     return read_trajectory(file)
-
-
-def is_binary(file: Path) -> bool:
-    """Return whether a path is a folder, or a file that is no text."""
-    if file.is_dir():
-        return True
-    with file.open("rb") as opened:
-        return b"\0" in opened.read(4096)
 
 
 def is_still(trajectory: Trajectory) -> bool:
     """Return whether all poses are the same."""
     return bool(np.ptp(trajectory.poses, axis=0).max() < STILL)
-
-
-def mount_of(
-    source: ScanSource, trajectory: Trajectory, name: str, options: ScanOptions
-) -> Float64:
-    """Return the transform from the sensor to the frame of the poses, and tell its origin.
-
-    Raises:
-        DriveError: the stated one cannot be read.
-    """
-    if options.extrinsic is not None:
-        mount = parse_extrinsic(options.extrinsic)
-        options.tell(f"{name}: the sensor is mounted at {describe_extrinsic(mount)}, as stated")
-        return mount
-    if trajectory.frame and trajectory.frame == source.frame:
-        options.tell(f"{name}: the poses are those of the sensor's frame {source.frame!r}")
-    elif trajectory.frame:
-        options.tell(
-            f"{name}: the mount of {source.frame or 'the sensor'} on {trajectory.frame} is not "
-            "known; the poses are taken as the sensor's. State it with --extrinsic"
-        )
-    else:
-        options.tell(
-            f"{name}: the poses are taken as the sensor's. State its mount with --extrinsic if "
-            "they are another frame's"
-        )
-    return np.eye(4)
 
 
 def on_sensor(found: ScanPoses, mount: Float64, name: str) -> SourcePoses:

@@ -40,5 +40,5 @@ def leveling_of(ground: GroundPlane) -> Float64:
 def first_scans(stamps: Float64) -> int:
     """Return the number of scans in the first seconds; unknown times are 0.1 s apart."""
     if not np.isfinite(stamps).all():
-        stamps = 0.1 * np.arange(len(stamps))
+        stamps = 0.1 * np.arange(len(stamps), dtype=np.float64)
     return max(1, int(np.searchsorted(stamps, stamps[0] + FIRST_SECONDS)))

@@ -137,7 +137,7 @@ def times_of(source: ScanSource, scans: Sequence[int]) -> Float64:
     """Return ascending times of scans, seconds; unknown and repeated ones are 0.1 s apart."""
     stamps = source.stamps[np.asarray(scans)]
     if not np.isfinite(stamps).all():
-        return USUAL_PERIOD * np.arange(len(scans))
+        return USUAL_PERIOD * np.arange(len(scans), dtype=np.float64)
     steps = np.abs(np.diff(stamps))
     steps[steps <= 0] = USUAL_PERIOD
     return np.concatenate([[0.0], np.cumsum(steps)])

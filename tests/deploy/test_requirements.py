@@ -18,7 +18,7 @@ LOCKED = {
     "build": None,
     "service": ["service"],
     "demo": ["service", "town", "plots"],
-    "development": ["service", "town", "plots", "training", "development"],
+    "development": ["service", "town", "plots", "training", "odometry", "development"],
     "docs": ["docs"],
 }
 UNHASHED = {"torch", "pytorch-metric-learning"}

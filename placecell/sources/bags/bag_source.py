@@ -226,7 +226,7 @@ class BagSource(ScanSource):
         self.path = path
         self.bag = Bag(path)
         self.scale = METERS[options.unit]
-        self.odometry_topic = options.odometry
+        self.odometry_topic = options.odometry_topic
         chosen, others = choose_topic(self.bag, options.topic)
         self.cloud_topic = chosen.topic
         self.frame = chosen.frame

@@ -194,8 +194,8 @@ def test_missing_folder(tmp_path: Path) -> None:
 
 
 def test_file_that_is_no_drive(folder: Path) -> None:
-    (folder / "notes.txt").write_text("no points")
-    assert "known layout" in refused(folder, "notes.txt", folder / "notes.txt")
+    (folder / "notes.dat").write_bytes(b"\0\1\2\3 no points\xff")
+    assert "known layout" in refused(folder, "notes.dat", folder / "notes.dat")
 
 
 def test_unknown_folder_error_lists_the_layouts(tmp_path: Path) -> None:
