@@ -3,6 +3,7 @@
 import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,12 +15,16 @@ from placecell.core.text_files import read_lines
 from placecell.core.types import Float32, Float64
 from placecell.odometry.deskew import SensorMotion, deskew
 from placecell.sources.errors import DriveError
+from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
-from placecell.sources.point_times import is_time
+from placecell.sources.point_times import split_name
 from placecell.sources.scan_options import ScanOptions, current_scan_options
 
 SHOWN = 5
 """Largest number of scans that a message names."""
+
+CLOCK_SCANS = 5
+"""Number of scans that tell the clock of the points' times."""
 
 
 @dataclass(slots=True)
@@ -111,9 +116,11 @@ class Drive(ABC):
         if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:
             how = "as stated" if self.options.states_layout else "found from their values"
             self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
-        if any(is_time(name) for name in self.point_layout.columns):
+        if self.clock is not None:
             done = "deskewed by the poses" if self.options.deskew else "not deskewed, as stated"
-            self.options.tell(f"{self.folder}: points have times; the scans are {done}")
+            self.options.tell(
+                f"{self.folder}: points have times ({self.clock}); the scans are {done}"
+            )
         self.check_sizes([self.point_layout.point_bytes] * len(sizes), sizes)
 
     def check_sizes(self, point_bytes: Sequence[int], sizes: Sequence[int]) -> None:
@@ -194,7 +201,25 @@ class Drive(ABC):
         Raises:
             DriveError: the file is missing, unreadable, empty or cut short.
         """
-        return self.point_layout.read_times(self.scan_files[index], float(self.times[index]))
+        column = self.point_layout.time_column
+        if column is None or self.clock is None:
+            return None
+        raw = self.point_layout.read_table(self.scan_files[index])[:, column]
+        return self.clock.seconds(raw, round(float(self.times[index]) * 1e9))
+
+    @cached_property
+    def clock(self) -> PointClock | None:
+        """Clock of the points' times, found from several scans; None if there is none."""
+        column = self.point_layout.time_column
+        if column is None:
+            return None
+        samples = []
+        for index in np.unique(np.linspace(0, len(self) - 1, CLOCK_SCANS).astype(int)).tolist():
+            with suppress(DriveError):  # The scan is skipped when it is read.
+                raw = self.point_layout.read_table(self.scan_files[index])[:, column]
+                samples.append((raw, round(float(self.times[index]) * 1e9)))
+        period = float(np.median(np.diff(self.times))) if len(self) > 1 else None
+        return find_clock(samples, period, split_name(self.point_layout.columns[column])[1])
 
     @property
     def content(self) -> str:

@@ -54,7 +54,8 @@ def cache_file(title: str, parts: Sequence[object]) -> Path:
 def load(file: Path, scans: int) -> CachedOdometry | None:
     """Read an odometry; None if there is none for this number of scans."""
     try:
-        header = json.loads(file.open(encoding="utf-8").readline().lstrip("# "))
+        with file.open(encoding="utf-8") as opened:
+            header = json.loads(opened.readline().lstrip("# "))
         poses = read_trajectory(file).poses
         drift = header["drift_percent"]
     except (OSError, ValueError, KeyError, TypeError, DriveError):

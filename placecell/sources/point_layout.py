@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from placecell.core.types import Float32, Float64, Int64
 from placecell.sources.errors import DriveError
-from placecell.sources.point_times import is_time, point_times
+from placecell.sources.point_times import is_time
 from placecell.sources.scan_options import METERS, DType, Order, ScanOptions
 
 SAMPLED_SCANS = 8
@@ -90,21 +90,10 @@ class PointLayout:
         with np.errstate(over="ignore"):  # float64 beyond float32 becomes infinite, and is dropped
             return points.astype(np.float32, copy=False)
 
-    def read_times(self, file: Path, stamp: float) -> Float64 | None:
-        """Read the time of each point of a scan, relative to the scan's, seconds; None if none.
-
-        Args:
-            file: file of the scan.
-            stamp: time of the scan, seconds.
-
-        Raises:
-            DriveError: missing, unreadable, empty or cut short.
-        """
-        named = [index for index, name in enumerate(self.columns) if is_time(name)]
-        if not named:
-            return None
-        table = self.read_table(file)
-        return point_times({self.columns[index]: table[:, index] for index in named}, stamp)
+    @property
+    def time_column(self) -> int | None:
+        """Index of the column with the times of the points; None if there is none."""
+        return next((at for at, name in enumerate(self.columns) if is_time(name)), None)
 
     def read_table(self, file: Path) -> NDArray[np.floating]:
         """Read all values of a scan, (points, columns).

@@ -35,6 +35,8 @@ OTHER_NAMES = {
     PREFIX + "KEY": "'placecell maps': key to send",
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
+    "PLACECELL_CACHE": "`placecell`: folder that keeps trajectories of odometry. (default: "
+    "`~/.cache/placecell`)",
 }
 """Environment names that are not settings of the service, and their meaning."""
 

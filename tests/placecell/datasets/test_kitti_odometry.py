@@ -194,8 +194,8 @@ def test_missing_folder(tmp_path: Path) -> None:
 
 
 def test_file_that_is_no_drive(folder: Path) -> None:
-    (folder / "notes.dat").write_bytes(b"\0\1\2\3 no points\xff")
-    assert "known layout" in refused(folder, "notes.dat", folder / "notes.dat")
+    (folder / "photo.png").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
+    assert "known layout" in refused(folder, "photo.png", folder / "photo.png")
 
 
 def test_unknown_folder_error_lists_the_layouts(tmp_path: Path) -> None:
