@@ -12,7 +12,7 @@ import numpy as np
 
 from placecell.sources.bags.containers import mcap_file, ros1_file, sqlite_file
 from placecell.sources.bags.containers.compression import ZSTD_MAGIC, decompress
-from placecell.sources.bags.containers.container import BagTopic, Container
+from placecell.sources.bags.containers.container import BagTopic, Container, runs
 from placecell.sources.errors import DriveError
 
 KINDS: dict[bytes, type[Container]] = {
@@ -192,8 +192,7 @@ class Bag:
             length: bytes of each that are needed, from its begin; None: all.
         """
         files = topic.places[:, 0]
-        bounds = [*np.flatnonzero(np.diff(files, prepend=-1)).tolist(), len(files)]
-        for start, end in pairwise(bounds):
+        for start, end in pairwise(runs(files)):
             container = self.containers[int(files[start])]
             for index, data in enumerate(
                 container.contents(topic.places[start:end], length), start

@@ -4,6 +4,7 @@ import struct
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import BinaryIO
 
@@ -84,11 +85,31 @@ class Container(ABC):
             places: int64 (n, 3).
             length: bytes of each that are needed, from its begin; None: all.
         """
-        for place in places.tolist():
+        chunks = places[:, 1]
+        for begin, end in pairwise(runs(chunks)):
+            if length is not None and end > begin:
+                yield from self.heads(int(chunks[begin]), places[begin:end, 2].tolist(), length)
+                continue
+            for place in places[begin:end].tolist():
+                try:
+                    yield self.read(place)
+                except DriveError:
+                    yield None
+
+    def heads(
+        self, chunk: int, offsets: Sequence[int], length: int
+    ) -> Iterator[bytes | memoryview | None]:
+        """Yield the first bytes of messages in a chunk; None for a damaged one."""
+        for offset in offsets:
             try:
-                yield self.read(place)[:length]
+                yield self.read((0, chunk, offset))[:length]
             except DriveError:
                 yield None
+
+
+def runs(values: Int64) -> list[int]:
+    """Return where each run of equal values begins, and the number of values."""
+    return [*np.flatnonzero(np.diff(values, prepend=values[:1] - 1)).tolist(), len(values)]
 
 
 class TopicIndex:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
 
-from placecell.sources.bags.containers.compression import decompress
+from placecell.sources.bags.containers.compression import BLOCK, begin_of, decompress
 from placecell.sources.bags.containers.container import (
     UNCHUNKED,
     Container,
@@ -269,6 +269,36 @@ class McapFile(Container):
                 "Convert the file with 'mcap compress'"
             )
         return decompress(chunk.data, chunk.compression, chunk.uncompressed_size, where)
+
+    def heads(
+        self, chunk: int, offsets: Sequence[int], length: int
+    ) -> Iterator[bytes | memoryview | None]:
+        """Yield the first bytes of messages; the rest of the chunk is not decompressed."""
+        begin = b""
+        if chunk != UNCHUNKED and self.cache[0] != chunk:
+            begin = self.chunk_begin(chunk, max(offsets) + HEAD + MESSAGE_HEAD + length)
+        for offset in offsets:
+            data = begin[offset : offset + HEAD + MESSAGE_HEAD + length]
+            if offset >= 0 and len(data) > HEAD + MESSAGE_HEAD and data[0] == MESSAGE:
+                (size,) = unpack("Q", data, 1)
+                yield data[HEAD + MESSAGE_HEAD : HEAD + size]
+            else:
+                yield from super().heads(chunk, [offset], length)
+
+    def chunk_begin(self, at: int, length: int) -> bytes:
+        """Return the first bytes of a chunk's content; fewer if it is damaged."""
+        from mcap.records import Chunk
+
+        try:
+            with self.path.open("rb") as file:
+                kind, start, size = self.record_at(file, at)
+                there = read_at(file, start, min(size, length + BLOCK), self.file_size)
+            chunk: Chunk = decoded(Chunk.read, there)
+            if kind != CHUNK or chunk.compression not in COMPRESSIONS:
+                return b""
+            return begin_of(chunk.data, chunk.compression, length, str(self.path))
+        except (OSError, RecordError, DriveError):
+            return b""
 
     def read(self, place: Sequence[int]) -> bytes | memoryview:
         _, chunk, offset = place

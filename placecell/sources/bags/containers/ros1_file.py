@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from placecell.sources.bags.containers.compression import KINDS, decompress
+from placecell.sources.bags.containers.compression import BLOCK, KINDS, begin_of, decompress
 from placecell.sources.bags.containers.container import (
     UNCHUNKED,
     Container,
@@ -27,6 +27,8 @@ from placecell.sources.errors import DriveError
 MAGIC = b"#ROSBAG V"
 VERSION = b"#ROSBAG V2.0\n"
 MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7
+LONGEST_HEAD = 512
+"""Bytes of a message's record before its data; if there are more, the whole chunk is read."""
 ENTRY = np.dtype([("sec", "<u4"), ("nsec", "<u4"), ("offset", "<u4")])
 
 
@@ -100,6 +102,20 @@ def record_in(content: bytes | memoryview, at: int) -> Record:
     if start + 4 + length > len(content):
         raise RecordError("the data of a record is cut short")
     return Record(fields, start + 4, length)
+
+
+def message_head(content: bytes, at: int, length: int) -> bytes | None:
+    """Return the first bytes of the message at an offset of a chunk's content, if it is whole."""
+    try:
+        (size,) = unpack("I", content, at)
+        start = at + 4 + size
+        if unpack("B", header_fields(content[at + 4 : start]).get(b"op", b"")) != (MESSAGE,):
+            return None
+        (stored,) = unpack("I", content, start)
+    except RecordError:
+        return None
+    head = content[start + 4 : start + 4 + min(length, stored)]
+    return head if len(head) == min(length, stored) else None
 
 
 class Ros1File(Container):
@@ -347,6 +363,33 @@ class Ros1File(Container):
         except RecordError as error:
             raise self.damaged(offset, error) from error
         return memoryview(content)[record.start : record.end]
+
+    def heads(
+        self, chunk: int, offsets: Sequence[int], length: int
+    ) -> Iterator[bytes | memoryview | None]:
+        """Yield the first bytes of messages; the rest of the chunk is not decompressed."""
+        begin = b""
+        if chunk != self.cache[0]:
+            begin = self.chunk_begin(chunk, max(offsets) + LONGEST_HEAD + length)
+        for offset in offsets:
+            head = message_head(begin, offset, length)
+            if head is not None:
+                yield head
+            else:
+                yield from super().heads(chunk, [offset], length)
+
+    def chunk_begin(self, at: int, length: int) -> bytes:
+        """Return the first bytes of a chunk's content; fewer if it is damaged."""
+        stored = self.chunks.get(at)
+        if stored is None or stored.compression == "none":
+            return b""
+        try:
+            with self.path.open("rb") as file:
+                size = min(stored.size, length + BLOCK)
+                data = read_at(file, stored.start, size, self.file_size)
+            return begin_of(data, stored.compression, length, str(self.path))
+        except (OSError, RecordError, DriveError):
+            return b""
 
     def message_at(self, file: BinaryIO, at: int) -> bytes:
         """Return the message at an offset of the file.
