@@ -235,8 +235,9 @@ class Engine:
         maps: Sequence[str] | None = None,
         k: int = 10,
         principal: Principal = ANYONE,
+        rerank: bool = True,
     ) -> MatchResult:
-        """Return the k nearest map segments of each segment.
+        """Return the k nearest map segments of each segment, re-ranked if centroids are known.
 
         Args:
             seen: descriptors, which are searched in maps of their model; or a scan, which is
@@ -244,12 +245,13 @@ class Engine:
             maps: names of maps; all maps unless given.
             k: largest number of candidates of a segment.
             principal: principal, whose scope may not cover all maps.
+            rerank: order the candidates by the neighbors that support them, the best k of 25.
 
         Raises:
             Problem: as `query`.
         """
         timing = Timing()
-        query = self.query(seen, maps, k, principal, timing)
+        query = self.query(seen, maps, k, principal, timing, rerank)
         return self.matches(query, query.describe_alone())
 
     def localize(
@@ -287,6 +289,7 @@ class Engine:
         k: int,
         principal: Principal,
         timing: Timing,
+        rerank: bool = False,
     ) -> Query:
         """Select the maps to search and prepare the segments: the first step of a search.
 
@@ -300,9 +303,9 @@ class Engine:
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)
             selection = select_maps(self.maps, self.models, maps, only, principal)
-            return query_of_codes(seen, selection, k, self.settings.limits, timing)
+            return query_of_codes(seen, selection, k, self.settings.limits, timing, rerank)
         selection = select_maps(self.maps, self.models, maps, None, principal)
-        return query_of_scan(seen, self.models.default, selection, k, timing)
+        return query_of_scan(seen, self.models.default, selection, k, timing, rerank)
 
     def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
         """Search the nearest segments: the third step of a match."""

@@ -9,6 +9,7 @@ from contextlib import suppress
 
 import numpy as np
 
+from placecell.descriptors.reranking import supports
 from placecell.localization import Candidates, LocalizationParameters, localize
 from service.core.problems import Problem
 from service.core.settings import Limits
@@ -56,3 +57,4 @@ def _compile_all(models: Models, limits: Limits) -> None:
     # With a lower limit, correspondences are also voted on, as in requests of many segments.
     parameters = LocalizationParameters(most=SEGMENTS - 1)
     localize(candidates, parameters, models.default.confidence)
+    supports(centers, centers[:, None], np.zeros((SEGMENTS, 1), np.int64))

@@ -104,9 +104,10 @@ class AsyncClient(BaseClient):
         sensors: ArrayLike | None = None,
         maps: Sequence[str] | None = None,
         k: int = 10,
+        rerank: bool = True,
     ) -> Matches:
         """See `Client.match`."""
-        return await self._send(self._calls.match(description, segments, sensors, maps, k))
+        return await self._send(self._calls.match(description, segments, sensors, maps, k, rerank))
 
     async def localize(
         self,

@@ -144,6 +144,7 @@ class Client(BaseClient):
         sensors: ArrayLike | None = None,
         maps: Sequence[str] | None = None,
         k: int = 10,
+        rerank: bool = True,
     ) -> Matches:
         """Find the k nearest map segments of each query segment.
 
@@ -155,14 +156,17 @@ class Client(BaseClient):
             sensors: Sensor positions, as for `describe`.
             maps: Names of the maps to search. Default: all maps of loaded models.
             k: Largest number of candidates per query.
+            rerank: Order the candidates by the other segments that support them, and return the
+                best k of 25. All segments must be from one scan. A service that is older than this
+                option needs False for a description.
 
         Returns:
-            Candidates of each query, nearest first.
+            Candidates of each query, best first.
 
         Raises:
             ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
-        return self._send(self._calls.match(description, segments, sensors, maps, k))
+        return self._send(self._calls.match(description, segments, sensors, maps, k, rerank))
 
     def localize(
         self,

@@ -10,12 +10,13 @@ import numpy as np
 from scipy.stats import rankdata
 
 from placecell.core.types import Bool, Float32, Float64, Int64
-from placecell.descriptors.reranking import CANDIDATES, rerank, supports
+from placecell.descriptors.reranking import rerank, supports
 
 PAIRS = 20_000
 """Number of positive pairs, and of negative pairs."""
 
 CROSS_VIEW_METERS = 10.0
+CANDIDATES = 25
 
 
 @dataclass(frozen=True, slots=True)

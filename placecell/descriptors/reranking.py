@@ -19,8 +19,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from placecell.core.cancellation import current, is_cancelled
-from placecell.core.jit import compiled
-from placecell.core.types import Float64, Int32, Int64
+from placecell.core.jit import compiled, compiled_part
+from placecell.core.types import Float64, Int32, Int64, UInt8
 
 CANDIDATES = 25
 """Number of nearest candidates of a segment among which the best one is sought."""
@@ -120,52 +120,107 @@ def count_supports(
         flag: flag of a `CancelToken`.
         counts: int64 (q, k), all 0.
     """
+    most = NEIGHBORS * DEPTH
+    # The candidates of all neighbors of a query, one after the other.
+    owners, others = np.empty(most, np.int64), np.empty(most, np.int64)
+    x, y, z = np.empty(most), np.empty(most), np.empty(most)
+    least, farthest = np.empty(most), np.empty(most)
+    fits = np.empty(most, np.uint8)
+    agreeing, turns = np.zeros(TURNS, np.int64), np.zeros(TURNS, np.uint8)
     comparisons = 0
-    agreeing = np.zeros(TURNS, dtype=np.int64)
-    turns = np.zeros(TURNS, dtype=np.uint8)
     for query in range(len(maps)):
         if is_cancelled(flag):
             return comparisons
+        size = 0
+        for neighbor in neighbors[query]:
+            if neighbor < 0:
+                break
+            east = centroids[neighbor, 0] - centroids[query, 0]
+            north = centroids[neighbor, 1] - centroids[query, 1]
+            rise = centroids[neighbor, 2] - centroids[query, 2]
+            distance = np.sqrt(east * east + north * north)
+            for other in range(min(maps.shape[1], DEPTH)):
+                owners[size], others[size] = neighbor, maps[neighbor, other]
+                x[size] = places[neighbor, other, 0]
+                y[size] = places[neighbor, other, 1]
+                z[size] = places[neighbor, other, 2] - rise
+                least[size] = (distance - DISTANCE_TOLERANCE) ** 2
+                farthest[size] = (distance + DISTANCE_TOLERANCE) ** 2
+                size += 1
         for column in range(maps.shape[1]):
             place = maps[query, column]
             if place < 0:
                 continue
-            agreeing[:] = 0
-            zero = np.nan
-            for neighbor in neighbors[query]:
-                if neighbor < 0:
-                    break
-                x = centroids[neighbor, 0] - centroids[query, 0]
-                y = centroids[neighbor, 1] - centroids[query, 1]
-                rise = centroids[neighbor, 2] - centroids[query, 2]
-                distance = np.sqrt(x * x + y * y)
-                is_found = False
-                for other in range(min(maps.shape[1], DEPTH)):
-                    comparisons += 1
-                    if maps[neighbor, other] != place:
-                        continue
-                    u = places[neighbor, other, 0] - places[query, column, 0]
-                    v = places[neighbor, other, 1] - places[query, column, 1]
-                    higher = places[neighbor, other, 2] - places[query, column, 2] - rise
-                    farther = np.sqrt(u * u + v * v) - distance
-                    if not (abs(farther) <= DISTANCE_TOLERANCE and abs(higher) <= HEIGHT_TOLERANCE):
-                        continue
-                    is_found = True
-                    turn = np.arctan2(x * v - y * u, x * u + y * v)
-                    if np.isnan(zero):
-                        # Sectors begin at the first turn, so that no yaw is preferred.
-                        zero = turn
-                    # A position that is off by the tolerance turns the offset by this angle.
-                    off = DISTANCE_TOLERANCE / distance
-                    first = np.floor((turn - zero - off) * (TURNS / (2 * np.pi)))
-                    last = np.floor((turn - zero + off) * (TURNS / (2 * np.pi)))
-                    for sector in range(int(first), int(last) + 1):
-                        turns[sector % TURNS] = 1
-                if is_found:
-                    agreeing += turns
-                    turns[:] = 0
-            counts[query, column] = agreeing.max()
+            here_x, here_y = places[query, column, 0], places[query, column, 1]
+            here_z = places[query, column, 2]
+            # This loop is free of branches, so that the compiler makes vector instructions of it.
+            for i in range(size):
+                squared = (x[i] - here_x) ** 2 + (y[i] - here_y) ** 2
+                fits[i] = (
+                    (least[i] <= squared)
+                    & (squared <= farthest[i])
+                    & (abs(z[i] - here_z) <= HEIGHT_TOLERANCE)
+                    & (others[i] == place)
+                )
+            comparisons += size
+            counts[query, column] = _agreement(
+                owners[:size], fits[:size], x, y, here_x, here_y, centroids, query, turns, agreeing
+            )
     return comparisons
+
+
+@compiled_part
+def _agreement(
+    owners: Int64,
+    fits: UInt8,
+    x: Float64,
+    y: Float64,
+    here_x: float,
+    here_y: float,
+    centroids: Float64,
+    query: int,
+    turns: UInt8,
+    agreeing: Int64,
+) -> int:
+    """Return the largest number of neighbors that agree about one yaw.
+
+    Args:
+        owners: neighbor of each of the neighbors' candidates, int64 (n,), those of one together.
+        fits: whether distance, height and map of each fit, uint8 (n,).
+        x: x of each, float64 (n or more,), meters.
+        y: y of each, float64 (n or more,), meters.
+        here_x: x of the supported candidate, meters.
+        here_y: y of the supported candidate, meters.
+        centroids: see `supports`.
+        query: index of the query.
+        turns: room for the sectors of one neighbor, uint8 (64,).
+        agreeing: room for the neighbors of each sector, int64 (64,).
+    """
+    agreeing[:] = 0
+    zero, owner = np.nan, -1
+    for i in range(len(owners)):
+        if not fits[i]:
+            continue
+        if owners[i] != owner:
+            owner = owners[i]
+            turns[:] = 0
+        east = centroids[owner, 0] - centroids[query, 0]
+        north = centroids[owner, 1] - centroids[query, 1]
+        u, v = x[i] - here_x, y[i] - here_y
+        turn = np.arctan2(east * v - north * u, east * u + north * v)
+        if np.isnan(zero):
+            # Sectors begin at the first turn, so that no yaw is preferred.
+            zero = turn
+        # A position that is off by the tolerance turns the offset by this angle.
+        off = DISTANCE_TOLERANCE / np.sqrt(east * east + north * north)
+        first = np.floor((turn - zero - off) * (TURNS / (2 * np.pi)))
+        last = np.floor((turn - zero + off) * (TURNS / (2 * np.pi)))
+        for sector in range(int(first), int(last) + 1):
+            # A neighbor counts once in a sector, however many of its candidates fit.
+            if turns[sector % TURNS] == 0:
+                turns[sector % TURNS] = 1
+                agreeing[sector % TURNS] += 1
+    return int(agreeing.max())
 
 
 def rerank(distances: Float64, counts: Int64) -> Int64:

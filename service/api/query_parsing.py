@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.types import Float64, Int8, Int64
-from service.api.schemas.recognition import Point, QueryRequest
+from service.api.schemas.localization import LocalizeQuery
+from service.api.schemas.recognition import MatchQuery, Point
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.problems import Problem, invalid_value
@@ -54,9 +55,9 @@ def read_scan(segments: Sequence[HasPoints], origin: Point | None) -> Scan:
 def read_query(
     state: State,
     principal: Principal,
-    request: QueryRequest[Any, Any],
+    request: MatchQuery[Any, Any, Any] | LocalizeQuery[Any, Any, Any],
     timing: Timing,
-    centroids: Float64 | None = None,
+    rerank: bool = False,
 ) -> Query:
     """Build the query of a request to `/match` or `/localize`.
 
@@ -65,7 +66,7 @@ def read_query(
         principal: principal of the request's key.
         request: the request.
         timing: stopwatch of the request.
-        centroids: centroids of the request's codes, float64 (n, 3).
+        rerank: re-rank the candidates.
 
     Raises:
         Problem: as `Engine.query`; 413 or 422 if the request exceeds a limit or is inconsistent.
@@ -77,11 +78,12 @@ def read_query(
         detail = f"The request names {len(request.maps)} maps; the limit is {limits.named_maps}."
         raise invalid_value("/maps", detail)
     if request.codes is not None:
+        centroids = None if request.centroids is None else np.array(request.centroids, np.float64)
         seen: Descriptors | Scan = _read_codes(state, request.codes, request.model_id, centroids)
     else:
         assert request.segments is not None  # as the schema has checked
         seen = read_scan(request.segments, request.origin)
-    return state.engine.query(seen, request.maps, request.k, principal, timing)
+    return state.engine.query(seen, request.maps, request.k, principal, timing, rerank)
 
 
 def _read_codes(

@@ -13,6 +13,7 @@ import numpy as np
 
 from placecell.core.parameters import NeighborhoodParameters
 from placecell.core.types import Float32, Int64
+from placecell.descriptors.reranking import DEPTH, NEIGHBORS
 from placecell.map_alignment import AlignmentParameters
 from service.core.problems import Problem
 
@@ -36,6 +37,8 @@ class Rates:
     """Seconds per pair of a query and a map segment, for each candidate wanted."""
     candidate: float = 1.1e-6
     """Seconds per candidate of a query whose match probability is computed."""
+    supported: float = 3.0e-9
+    """Seconds per pair of a candidate and a neighbor's candidate that may support it."""
 
 
 RATES = Rates()
@@ -144,7 +147,7 @@ def near_voxels(points: Float32, counts: Int64, looks: NeighborhoodParameters) -
     return int(fewest)
 
 
-def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
+def cost_of_search(queries: int, rows: int, k: int, models: int, is_reranked: bool = False) -> Cost:
     """Return the cost of searching candidates.
 
     Args:
@@ -152,10 +155,13 @@ def cost_of_search(queries: int, rows: int, k: int, models: int) -> Cost:
         rows: number of segments of all searched maps.
         k: candidates per query.
         models: number of models whose maps are searched.
+        is_reranked: whether the candidates are re-ranked.
     """
+    found = queries * min(k * models, rows)
+    pairs = found * min(NEIGHBORS, queries - 1) * min(DEPTH, k) if is_reranked else 0
     return Cost(
         search=queries * rows * (RATES.compared + RATES.compared_k * k),
-        candidates=queries * min(k * models, rows) * RATES.candidate,
+        candidates=found * RATES.candidate + pairs * RATES.supported,
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
+from placecell.descriptors.reranking import rerank, supports
 from service.inference.describer import Descriptors, SegmentError
 from service.inference.match_probability import QueryComparison, default_site
 from service.inference.model_registry import Model
@@ -28,6 +29,8 @@ Candidate = dict[str, Any]
 class NearestSegments:
     """Nearest map segments of q queries, k of each, nearest first; ties by map, then by id.
 
+    Once re-ranked, they are in the order of `placecell.descriptors.reranking`.
+
     Attributes:
         searched: the maps.
         places: index of each segment's map, int64 (q, k).
@@ -35,6 +38,8 @@ class NearestSegments:
         distances: distances between descriptors, float64 (q, k).
         probabilities: match probabilities, float64 (q, k); None if they were not computed, or if
             the model has neither site constants nor a classifier.
+        supports: number of the query's neighbors that support each segment, int64 (q, k); None if
+            they were not computed, and the order is by distance.
     """
 
     searched: tuple[MapSnapshot, ...]
@@ -42,6 +47,16 @@ class NearestSegments:
     rows: Int64
     distances: Float64
     probabilities: Float64 | None = None
+    supports: Int64 | None = None
+
+    @property
+    def centroids(self) -> Float64:
+        """Return the centroids of the segments, float64 (q, k, 3), meters, each in its map."""
+        centroids = np.zeros((*self.rows.shape, 3))
+        for place, snapshot in enumerate(self.searched):
+            here = self.places == place
+            centroids[here] = snapshot.layers.column("centroids", self.rows[here])
+        return centroids
 
 
 class CandidateTable:
@@ -50,15 +65,13 @@ class CandidateTable:
     def __init__(self, nearest: NearestSegments) -> None:
         shape = nearest.rows.shape
         ids = np.zeros(shape, dtype=np.int64)
-        centroids = np.zeros((*shape, 3))
         robots = np.full(shape, "", dtype=object)
         for place, snapshot in enumerate(nearest.searched):
             here = nearest.places == place
             rows, layers = nearest.rows[here], snapshot.layers
             ids[here] = layers.column("ids", rows)
-            centroids[here] = layers.column("centroids", rows)
             robots[here] = layers.robot_names(rows)
-        probabilities = nearest.probabilities
+        probabilities, counts = nearest.probabilities, nearest.supports
         self._maps = [
             (snapshot.name, snapshot.frame, snapshot.model_id) for snapshot in nearest.searched
         ]
@@ -68,7 +81,8 @@ class CandidateTable:
             robots,
             nearest.distances,
             np.full(shape, None) if probabilities is None else probabilities,
-            centroids,
+            np.full(shape, None) if counts is None else counts,
+            nearest.centroids,
         )
 
     def __getitem__(self, query: int) -> list[Candidate]:
@@ -79,11 +93,12 @@ class CandidateTable:
                 "robot": robot,
                 "distance": distance,
                 "probability": probability,
+                "support": support,
                 "centroid": centroid,
                 "frame": self._maps[place][1],
                 "model_id": self._maps[place][2],
             }
-            for place, id_, robot, distance, probability, centroid in zip(
+            for place, id_, robot, distance, probability, support, centroid in zip(
                 *(column[query].tolist() for column in self._columns), strict=True
             )
         ]
@@ -150,7 +165,10 @@ def match(
             described.codes[described.usable],
             index_parts(maps, model, searched, patterns),
         )
-        found = nearest_segments(codes, model, searched, query.k, parts)
+        found = nearest_segments(codes, model, searched, query.searched_k, parts)
+        if query.is_reranked:
+            assert described.centroids is not None
+            found = reranked(found, described.centroids[described.usable], query.k)
         nearest.append(replace(found, probabilities=_probabilities(codes, model, found)))
     return MatchResult(query, descriptors, nearest)
 
@@ -186,6 +204,25 @@ def nearest_segments(
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
     return NearestSegments(searched, places, rows, distances * model.manifest.quantizer.step)
+
+
+def reranked(nearest: NearestSegments, centroids: Float64, k: int) -> NearestSegments:
+    """Return the k best segments of each query, by the neighbors that support them.
+
+    Args:
+        nearest: the nearest segments of each query.
+        centroids: centroids of the queries, float64 (q, 3), meters, in one level frame.
+        k: largest number of candidates of a query.
+    """
+    counts = supports(centroids, nearest.centroids, nearest.places)
+    order = rerank(nearest.distances, counts)[:, :k]
+    return NearestSegments(
+        searched=nearest.searched,
+        places=np.take_along_axis(nearest.places, order, axis=1),
+        rows=np.take_along_axis(nearest.rows, order, axis=1),
+        distances=np.take_along_axis(nearest.distances, order, axis=1),
+        supports=np.take_along_axis(counts, order, axis=1),
+    )
 
 
 def _search_part(
@@ -225,7 +262,8 @@ def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
 
     Distances of two models do not compare. Each probability is calibrated, but on its own model's
     pairs. So equal probabilities, such as those at a cap, are ordered by rank among the candidates
-    of their model, then by map and id. Candidates of models without a probability come last.
+    of their model, then by map and id. Candidates of models without a probability come last. A
+    support multiplies the odds of a match, as it does in the order of one model.
     """
     if len(by_model) == 1:
         return by_model[0]
@@ -236,8 +274,10 @@ def merged(by_model: list[list[Candidate]], k: int) -> list[Candidate]:
 
 def _merge_key(rank: int, candidate: Candidate) -> tuple[bool, float, int, str, int]:
     """Return the sort key of a candidate among candidates of several models."""
-    probability = candidate["probability"]
+    probability, support = candidate["probability"], candidate["support"]
     stated = 0.0 if probability is None else probability
+    if support:
+        stated = (1 + support) * stated / (1 + support * stated)
     return probability is None, -stated, rank, candidate["map"], candidate["id"]
 
 

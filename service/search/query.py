@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from placecell.descriptors.reranking import CANDIDATES
 from service.core.auth import Principal
 from service.core.cost import Cost, check_cost, cost_of_search
 from service.core.problems import Problem
@@ -50,6 +51,8 @@ class Query:
         k: largest number of candidates of a segment.
         given: the request's own descriptors; None if it has segments.
         prepared: the request's scan, prepared for each model of the selection.
+        searched_k: number of candidates of a segment that are searched: k, or more to re-rank them.
+        is_reranked: whether the candidates of `/match` are re-ranked.
     """
 
     model_id: str
@@ -57,6 +60,8 @@ class Query:
     k: int
     given: Descriptors | None
     prepared: tuple[PreparedScan, ...]
+    searched_k: int
+    is_reranked: bool
 
     async def describe(self, timing: Timing) -> list[Descriptors]:
         """Return the descriptors by each model of the selection, computed in batches."""
@@ -125,34 +130,74 @@ def select_maps(
 
 
 def query_of_codes(
-    given: Descriptors, selection: MapSelection, k: int, limits: Limits, timing: Timing
+    given: Descriptors,
+    selection: MapSelection,
+    k: int,
+    limits: Limits,
+    timing: Timing,
+    rerank: bool = False,
 ) -> Query:
     """Build the query of a request that has descriptors.
+
+    Args:
+        given: the descriptors; without centroids they cannot be re-ranked.
+        selection: the maps.
+        k: largest number of candidates of a segment.
+        limits: limits of the service.
+        timing: stopwatch of the request.
+        rerank: re-rank the candidates.
 
     Raises:
         Problem: 413 if the search is too much work.
     """
     timing.lap("decode")
-    check_cost(_search_cost(len(given), selection, k), limits.cost_seconds)
-    return Query(given.model_id, selection, k, given, ())
+    is_reranked = rerank and given.centroids is not None
+    searched_k = _searched_k(len(given), k, is_reranked)
+    check_cost(_search_cost(len(given), selection, searched_k, is_reranked), limits.cost_seconds)
+    return Query(given.model_id, selection, k, given, (), searched_k, is_reranked)
 
 
 def query_of_scan(
-    scan: Scan, default: Model, selection: MapSelection, k: int, timing: Timing
+    scan: Scan,
+    default: Model,
+    selection: MapSelection,
+    k: int,
+    timing: Timing,
+    rerank: bool = False,
 ) -> Query:
     """Build the query of a request that has segments: prepare them for each model.
+
+    Args:
+        scan: the segments.
+        default: default model.
+        selection: the maps.
+        k: largest number of candidates of a segment.
+        timing: stopwatch of the request.
+        rerank: re-rank the candidates.
 
     Raises:
         Problem: 413 if it is too much work, 422 if no segment can be described.
     """
-    cost = _search_cost(len(scan), selection, k)
+    searched_k = _searched_k(len(scan), k, rerank)
+    cost = _search_cost(len(scan), selection, searched_k, rerank)
     prepared = []
     for model, _ in selection.searched:
         one = model.describer.prepare(scan, timing, besides=cost)
         prepared.append(one)
         cost += one.cost
-    return Query(default.id, selection, k, None, tuple(prepared))
+    return Query(default.id, selection, k, None, tuple(prepared), searched_k, rerank)
 
 
-def _search_cost(queries: int, selection: MapSelection, k: int) -> Cost:
-    return cost_of_search(queries, selection.segments, k, len(selection.searched))
+def _searched_k(queries: int, k: int, is_reranked: bool) -> int:
+    """Return the number of candidates to search; a single query has no neighbors."""
+    return max(k, CANDIDATES) if is_reranked and queries > 1 else k
+
+
+def _search_cost(queries: int, selection: MapSelection, k: int, is_reranked: bool) -> Cost:
+    return cost_of_search(
+        queries=queries,
+        rows=selection.segments,
+        k=k,
+        models=len(selection.searched),
+        is_reranked=is_reranked,
+    )

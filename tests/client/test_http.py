@@ -44,8 +44,11 @@ def test_describe_sends_points_and_returns_arrays() -> None:
 
 
 def test_match_skips_segments_without_descriptor() -> None:
+    asked: list[list[list[float]] | None] = []
+
     def answer(request: httpx.Request) -> httpx.Response:
         body = json.loads(request.content)
+        asked.append(body.pop("centroids", None))
         assert body == {"k": 2, "maps": ["a"], "model_id": "m", "codes": [[3, 4]]}
         skipped = [{"map": "b", "model_id": "n"}]
         queries = [{"candidates": [CANDIDATE]}]
@@ -63,9 +66,12 @@ def test_match_skips_segments_without_descriptor() -> None:
     )
     with client_of(answer) as client:
         matches = client.match(described, maps=["a"], k=2)
+        client.match(described, maps=["a"], k=2, rerank=False)
+    assert asked == [[[0.0, 0.0, 0.0]], None]
     assert matches.queries[0] == ()
     assert matches.queries[1][0].id == 9
     assert matches.queries[1][0].probability is None
+    assert matches.queries[1][0].support is None  # the answer of an older service
     assert set(matches.errors) == {0}
     assert matches.skipped[0].model_id == "n"
 

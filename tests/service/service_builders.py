@@ -141,6 +141,8 @@ def packed(body: dict[str, Any]) -> dict[str, Any]:
         ]
     if body.get("codes") is not None:
         content["codes"] = np.array(body["codes"], np.int8).tobytes()
+    if isinstance(body.get("centroids"), list):
+        content["centroids"] = np.array(body["centroids"], "<f8").tobytes()
     return content
 
 

@@ -266,5 +266,6 @@ def _candidate(item: dict[str, Any]) -> Candidate:
         probability=item["probability"],
         centroid=(x, y, z),
         frame=item["frame"],
-        model_id=item.get("model_id", ""),  # older services have no such field
+        model_id=item.get("model_id", ""),  # older services have no such fields
+        support=item.get("support"),
     )

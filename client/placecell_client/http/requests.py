@@ -107,18 +107,23 @@ class Calls:
         sensors: ArrayLike | None,
         maps: Sequence[str] | None,
         k: int,
+        rerank: bool,
     ) -> Call[Matches]:
         """Build `POST /match`."""
         body = _search(maps, k)
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
+            if rerank:
+                body |= self._centroids(description, rows)
             return self._post(
                 "/match", body, lambda answer: parsing.matches_of(answer, description, rows)
             )
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
             count = len(segments)
+            if not rerank:  # older services have no such field
+                body["rerank"] = False
             return self._post(
                 "/match", body | own, lambda answer: parsing.matches(answer, count, dropped)
             )
@@ -143,8 +148,7 @@ class Calls:
             body["max_false_acceptance"] = max_false_acceptance
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
-            centroids = centroids_of(description.centroids[rows], self.encoding)
-            body |= self._codes(description, rows) | {"centroids": centroids}
+            body |= self._codes(description, rows) | self._centroids(description, rows)
             return self._post(
                 "/localize",
                 body,
@@ -339,6 +343,10 @@ class Calls:
         """Return the part of a body that holds codes."""
         codes = codes_of(description.codes[rows], self.encoding)
         return {"model_id": description.model_id, "codes": codes}
+
+    def _centroids(self, description: Description, rows: list[int]) -> dict[str, Any]:
+        """Return the part of a body that holds the centroids of codes."""
+        return {"centroids": centroids_of(description.centroids[rows], self.encoding)}
 
     def _post(self, path: str, body: dict[str, Any], read: Callable[[HttpResponse], T]) -> Call[T]:
         media_type = MEDIA_TYPES[self.encoding]

@@ -64,6 +64,9 @@ class Candidate:
         frame: Name of the map's frame.
         model_id: Id of the model of the map, which gives distance and probability. Empty if the
             service is older than this field.
+        support: Number of other queries, at most 32, that have a candidate at the same offset from
+            this one as from the query, turned by one yaw. None if the candidates were not
+            re-ranked.
     """
 
     map: str
@@ -74,6 +77,7 @@ class Candidate:
     centroid: tuple[float, float, float]
     frame: str
     model_id: str = ""
+    support: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +95,9 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Matches:
-    """Candidates of each query, nearest first; with several models, most probable first.
+    """Candidates of each query, best first: by distance, or by distance and support.
+
+    With several models they are ordered by probability in place of distance.
 
     Attributes:
         model_id: Id of the model whose descriptors were compared.

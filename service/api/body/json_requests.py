@@ -14,9 +14,9 @@ from service.api.body.json_arrays import CENTROIDS, NAMES, POINTS, Arrays, cut_a
 from service.api.schemas.localization import LocalizeQuery, LocalizeRequest
 from service.api.schemas.recognition import (
     DescribeRequest,
+    MatchQuery,
     MatchRequest,
     Point,
-    QueryRequest,
     Request,
     ScanRequest,
 )
@@ -76,7 +76,7 @@ class CutDescribeRequest(ScanRequest[CutSegment]):
     """`DescribeRequest` with its arrays cut out."""
 
 
-class CutMatchRequest(QueryRequest[CutSegment, CutCodes]):
+class CutMatchRequest(MatchQuery[CutSegment, CutCodes, CutCentroids]):
     """`MatchRequest` with its arrays cut out."""
 
 

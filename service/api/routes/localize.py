@@ -68,8 +68,7 @@ def _read(
 ) -> tuple[LocalizeBody, Query]:
     timing.lap("queue")
     request = parse(LocalizeRequest, PackedLocalizeRequest, body, state.settings.limits)
-    centroids = None if request.centroids is None else np.array(request.centroids, np.float64)
-    return request, read_query(state, principal, request, timing, centroids)
+    return request, read_query(state, principal, request, timing)
 
 
 def _search(

@@ -36,13 +36,18 @@ router = APIRouter(tags=["recognition"])
 async def match(
     request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
 ) -> Response:
-    """Return one result per query, in order: its candidates, nearest first, or its error.
+    """Return one result per query, in order: its candidates, best first, or its error.
 
-    Queries are rounded to codes before the search, as the maps' descriptors are. Each map is
-    searched with the model that made it. Maps whose model is not loaded are listed as skipped; a
-    request that names one gets a 409. Candidates of several models are sorted by probability. The
-    model named by `model_id` gives a candidate's probability; probabilities of different models
-    are not calibrated against each other.
+    Queries are rounded to codes before the search, as the maps' descriptors are. Send all segments
+    of a scan in one request: the 25 nearest candidates of each are then re-ranked by the other
+    segments that support them, and the best k are returned. `rerank: false`, and codes without
+    centroids, give the k nearest, in the order of their distances. Re-ranking changes neither
+    `distance` nor `probability`.
+
+    Each map is searched with the model that made it. Maps whose model is not loaded are listed as
+    skipped; a request that names one gets a 409. Candidates of several models are sorted by
+    probability and support. The model named by `model_id` gives a candidate's probability;
+    probabilities of different models are not calibrated against each other.
     """
     answer = answer_type(request)
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
@@ -56,7 +61,7 @@ async def match(
 def _read(state: State, principal: Principal, body: Body, timing: Timing) -> Query:
     timing.lap("queue")
     request = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
-    return read_query(state, principal, request, timing)
+    return read_query(state, principal, request, timing, request.rerank)
 
 
 def _search(

@@ -71,6 +71,10 @@ class CostsOut(BaseModel):
         description="Seconds per pair of a query and a map segment, for each candidate (k)."
     )
     candidate: float = Field(description="Seconds per candidate of a query.")
+    supported: float = Field(
+        description="Seconds per pair of a candidate and a candidate of a neighbor of the query, "
+        "to re-rank: at most 320 pairs per candidate."
+    )
 
 
 class InfoResponse(BaseModel):

@@ -1,6 +1,6 @@
 """Schemas of `/localize` as JSON; `schemas.msgpack` has the msgpack form of the request."""
 
-from typing import Annotated, Generic, Literal, Self, TypeVar
+from typing import Annotated, Generic, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -8,6 +8,8 @@ from placecell.localization.acceptance import LARGEST_RISK
 from placecell.localization.localize import Reason
 from service.api.schemas.recognition import (
     EXAMPLE,
+    Centroids,
+    CentroidsT,
     Codes,
     CodesT,
     ItemErrorOut,
@@ -17,8 +19,6 @@ from service.api.schemas.recognition import (
     SegmentT,
     SkippedOut,
 )
-
-CentroidsT = TypeVar("CentroidsT")
 
 SessionId = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9._-]{1,64}$")]
 
@@ -60,9 +60,7 @@ class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Ce
         return self
 
 
-class LocalizeRequest(
-    LocalizeQuery[SegmentIn, Codes, Annotated[list[Point], Field(fail_fast=True, min_length=1)]]
-):
+class LocalizeRequest(LocalizeQuery[SegmentIn, Codes, Centroids]):
     """Segments, or descriptors with centroids, that a robot sees, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})

@@ -24,8 +24,8 @@ from placecell.core.types import Float32, Float64, Int8
 from service.api.schemas.localization import LocalizeQuery
 from service.api.schemas.recognition import (
     DescriptorsResponse,
+    MatchQuery,
     Point,
-    QueryRequest,
     Request,
     ScanRequest,
 )
@@ -148,8 +148,8 @@ class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
     """`DescribeRequest` as msgpack."""
 
 
-class PackedMatchRequest(PackedRequest, QueryRequest[PackedSegment, CodesBlob]):
-    """`MatchRequest` as msgpack; codes are int8, one query after the other."""
+class PackedMatchRequest(PackedRequest, MatchQuery[PackedSegment, CodesBlob, CentroidsBlob]):
+    """`MatchRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
 
 
 class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):

@@ -13,12 +13,14 @@ Coordinate = Annotated[
 Point = tuple[Coordinate, Coordinate, Coordinate]
 Name = Annotated[str, Field(strict=True)]
 Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
+Centroids = Annotated[list[Point], Field(fail_fast=True, min_length=1)]
 Codes = Annotated[
     list[Annotated[list[Code], Field(fail_fast=True)]], Field(fail_fast=True, min_length=1)
 ]
 
 SegmentT = TypeVar("SegmentT")
 CodesT = TypeVar("CodesT")
+CentroidsT = TypeVar("CentroidsT")
 DescriptorT = TypeVar("DescriptorT")
 
 # fail_fast: a list of a million wrong values is one error, not a million.
@@ -94,7 +96,29 @@ class DescribeRequest(ScanRequest[SegmentIn]):
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
-class MatchRequest(QueryRequest[SegmentIn, Codes]):
+class MatchQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, CentroidsT]):
+    """Queries, as segments or as descriptors, and the maps to search, in either encoding."""
+
+    centroids: CentroidsT | None = Field(
+        None,
+        description="Centroid of each code's segment, meters, in one frame of the robot with z up. "
+        "Without centroids, the candidates of codes are not re-ranked.",
+    )
+    rerank: bool = Field(
+        True,
+        strict=True,
+        description="Order the candidates of each query by the other queries that support them, "
+        "and return the best k of 25. All queries must be from one scan.",
+    )
+
+    @model_validator(mode="after")
+    def _centroids_only_with_codes(self) -> Self:
+        if self.codes is None and self.centroids is not None:
+            raise ValueError("the request has segments, so it needs no centroids")
+        return self
+
+
+class MatchRequest(MatchQuery[SegmentIn, Codes, Centroids]):
     """Queries, as segments or as descriptors, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE], "k": 5}]})
@@ -151,6 +175,12 @@ class CandidateOut(BaseModel):
         description="Probability that both are the same "
         "segment. Null if the model has no pair classifier.",
     )
+    support: int | None = Field(
+        None,
+        description="Number of other queries, at most 32, that have a candidate at the same offset "
+        "from this one as from the query, turned by one yaw. Null if the candidates were not "
+        "re-ranked.",
+    )
     centroid: Point = Field(description="Mean of the points, meters, in the frame of the map.")
     frame: str = Field(description="Name of the frame of the map.")
     model_id: str = Field(
@@ -160,7 +190,10 @@ class CandidateOut(BaseModel):
 
 
 class CandidatesOut(BaseModel):
-    """Candidates of one query: nearest first, or by probability if several models gave them."""
+    """Candidates of one query, best first: by distance and support, or by distance alone.
+
+    If several models gave them, the order is by probability and support.
+    """
 
     candidates: list[CandidateOut]
 

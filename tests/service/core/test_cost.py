@@ -85,6 +85,13 @@ def test_costs_grow_with_the_work() -> None:
     # At most as many candidates as segments, and none without a map.
     assert cost_of_search(10, 3, 5, 1).candidates == pytest.approx(30 * RATES.candidate)
     assert cost_of_search(10, 0, 5, 0).seconds == 0.0
+    # Re-ranking compares each candidate with at most 10 of 32 neighbors.
+    for queries, pairs in ((1, 0), (2, 2 * 5 * 5), (1_000, 1_000 * 5 * 32 * 5)):
+        plain, reranked = (
+            cost_of_search(queries, 1_000, 5, 1, is_reranked) for is_reranked in (False, True)
+        )
+        assert reranked.candidates - plain.candidates == pytest.approx(pairs * RATES.supported)
+        assert reranked.search == plain.search
     two, three = (cost_of_aligning([5_000] * maps, 25, AlignmentParameters()) for maps in (2, 3))
     assert three.seconds == pytest.approx(3 * two.seconds)
 

@@ -6,6 +6,7 @@ from typing import Any
 from placecell_client import encode
 
 from placecell.core import nearest
+from placecell.descriptors import reranking
 from placecell.localization import clique, consistency, correspondences, refinement, voting
 from service.api.body import json_arrays
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
@@ -21,6 +22,7 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
             consistency,
             correspondences,
             refinement,
+            reranking,
             voting,
         )
         for each in vars(module).values()
@@ -31,11 +33,13 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         assert before[consistency.count_votes]
         assert before[correspondences._lead]
         assert before[voting._vote]
+        assert before[reranking.count_supports]
         yard = encode(map_of(random_codes(50), manifest.model_id))
         for name in ("a", "b", "c"):
             assert client.put(f"/maps/{name}", content=yard).status_code == 201
         clouds = [cloud(seed) + 10 * seed for seed in range(8)]
         assert client.post("/localize", json=request_of(clouds)).status_code == 200
+        assert client.post("/match", json=request_of(clouds)).status_code == 200
         assert {each: len(each.nopython_signatures) for each in loops} == before
 
 

@@ -88,6 +88,7 @@ def test_candidate_has_map_frame_and_centroid(service: Any, manifest: Manifest) 
                     "robot": "zoe",
                     "distance": 0.0,
                     "probability": None,
+                    "support": None,
                     "centroid": [2.0, -2.0, 1.5],
                     "frame": "hall",
                     "model_id": manifest.model_id,
@@ -105,7 +106,9 @@ def test_segments_and_their_codes_give_the_same_candidates(
     codes = np.array([described[0]["codes"], described[2]["codes"]], np.int8)
     put(stocked, "own", codes, manifest)
     matched = stocked.post("/match", json=request_of(clouds) | {"k": 3}).json()["queries"]
-    expected = stocked.post("/match", json=by_codes(codes, manifest, k=3)).json()["queries"]
+    centroids = [described[0]["centroid"], described[2]["centroid"]]
+    body = by_codes(codes, manifest, k=3, centroids=centroids)
+    expected = stocked.post("/match", json=body).json()["queries"]
     assert [matched[0], matched[2]] == expected
     assert matched[1] == described[1]
     # Rounded before the search, as the map's were: the distance to itself is zero.
