@@ -45,7 +45,7 @@ class BagTopic:
     @property
     def rate_hz(self) -> float:
         """Return messages a second; 0 for fewer than two."""
-        seconds = float(self.times[-1] - self.times[0]) * 1e-9 if len(self) > 1 else 0.0
+        seconds = (int(self.times[-1]) - int(self.times[0])) * 1e-9 if len(self) > 1 else 0.0
         return (len(self) - 1) / seconds if seconds > 0 else 0.0
 
 
