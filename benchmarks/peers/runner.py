@@ -30,20 +30,25 @@ from benchmarks.peers.exchange import (
 )
 
 PEERS: dict[str, dict[str, Any]] = {
-    "scan-context": {"clouds": "submap"},
-    "map-closures": {"clouds": "long"},
-    "kiss-slam": {"clouds": "long"},
-    "kiss-matcher": {"clouds": "submap"},
-    "fpfh-fgr": {"clouds": "submap"},
+    "scan-context": {
+        "clouds": "submap",
+        "method": "GICP",
+        "gates": [5.0, 1.0],
+        "sure_below": 0.6,
+    },
+    "map-closures": {"clouds": "long", "density_map_resolution": 0.25, "level": True},
+    "kiss-slam": {"clouds": "long", "level": True},
+    "kiss-matcher": {"clouds": "submap", "voxel_size": 1.0, "least_inliers": 20},
+    "fpfh-fgr": {"clouds": "submap", "voxel_size": 1.0, "least_overlap": 0.7},
 }
 """Settings of each peer that differ from its authors' values.
 
-They were chosen with `placecell bench peers --choose` on drives that no table shows.
+They were chosen on drives that no table shows (docs/results/peers.md).
 """
 
 VARIANTS: dict[str, list[dict[str, Any]]] = {
     "scan-context": [
-        {"clouds": clouds, "radius": radius, "sure_below": 0.6} | steps
+        {"clouds": clouds, "radius": radius} | steps
         for clouds, radius in (("submap", 80.0), ("near", 40.0))
         for steps in ({}, {"method": "GICP", "gates": [5.0, 1.0]})
     ],
@@ -58,7 +63,7 @@ VARIANTS: dict[str, list[dict[str, Any]]] = {
         for level in (False, True)
     ],
     "kiss-matcher": [
-        {"clouds": clouds, "voxel_size": voxel, "least_inliers": 5}
+        {"clouds": clouds, "voxel_size": voxel}
         for clouds, voxel in (("submap", 1.0), ("submap", 0.5), ("near", 0.5), ("near", 0.3))
     ],
     "fpfh-fgr": [

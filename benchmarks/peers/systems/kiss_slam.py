@@ -29,12 +29,11 @@ class KissSlamParameters:
 
     clouds: str = "long"
     """Kind of the local maps (`splitting_distance` 100 m)."""
-    voxel_size: float = 0.5
-    """Voxel size of the local maps (`local_mapper.voxel_size`), meters."""
     overlap_threshold: float = 0.4
     """Overlap that an accepted closure must exceed, as a share of the smaller local map."""
     density_map_resolution: float = 0.5
-    """Size of a pixel of MapClosures, meters."""
+    """Size of a pixel of MapClosures and of a voxel of the local maps, meters. The package has 0.5
+    for both (`local_mapper.voxel_size`)."""
     level: bool = False
     """Assume level local maps, as ours are, instead of the plane fit to the ground."""
 
@@ -64,7 +63,7 @@ class KissSlamPeer:
 
     def with_normals(self, cloud: Cloud) -> Any:
         """Return a local map as KISS-SLAM stores it: a point and a normal per voxel."""
-        voxels = VoxelMap(self.parameters.voxel_size)
+        voxels = VoxelMap(self.parameters.density_map_resolution)
         voxels.integrate_frame(np.asarray(cloud), np.eye(4))
         return voxels.open3d_pcd_with_normals()
 

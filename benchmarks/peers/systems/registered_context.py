@@ -1,9 +1,9 @@
 """Scan Context with its registration step, as in the authors' SC-A-LOAM.
 
 Scan Context proposes the most similar local map of the map and the heading in it. ICP registers the
-query with this local map. The pose is accepted if the contexts are near enough and ICP ends with a
-small mean squared distance of the points. SC-A-LOAM starts ICP without the heading; this peer
-starts with it, because its queries have any heading.
+query with the part of the map around this local map. The pose is accepted if the contexts are near
+enough and ICP ends with a small mean squared distance of the points. SC-A-LOAM starts ICP without
+the heading; this peer starts with it, because its queries have any heading.
 """
 
 from collections.abc import Sequence
@@ -18,6 +18,10 @@ from benchmarks.peers.systems.scan_context import ScanContextParameters, ScanCon
 
 VOXEL = 0.4
 """Voxel size of the clouds of ICP, meters (`filter_size` of SC-A-LOAM)."""
+
+AROUND = 50.0
+"""Distance from the proposed local map up to which ICP's target reaches, meters: 25 keyframes at
+2 m (`historyKeyframeSearchNum`, `keyframe_meter_gap`)."""
 
 ITERATIONS = 100
 """Largest number of iterations of each step of ICP, as in SC-A-LOAM."""
@@ -50,6 +54,7 @@ class RegisteredContextPeer:
     def learn(self, frames: Sequence[MapFrame]) -> None:
         """Take in the map."""
         self.frames = frames
+        self.targets: dict[int, Cloud] = {}
         parameters = ScanContextParameters(radius=self.parameters.radius)
         self.contexts = ScanContexts([frame.cloud for frame in frames], parameters)
 
@@ -58,23 +63,36 @@ class RegisteredContextPeer:
         if not len(cloud):
             return NOTHING
         best = self.contexts.find(cloud)[0]
-        frame = self.frames[best.frame]
+        frame, target = self.frames[best.frame], self.around(best.frame)
         transform = about_z(best.yaw)
         for gate in self.parameters.gates:
             transform = register(
                 cloud,
-                frame.cloud,
+                target,
                 transform,
                 method=self.parameters.method,
                 voxel=VOXEL,
                 gate=gate,
                 iterations=ITERATIONS,
             ).transform
-        error = mean_squared_distance(cloud, frame.cloud, transform)
+        error = mean_squared_distance(cloud, target, transform)
         near = best.distance < self.parameters.sure_below
         sure = near and error <= self.parameters.largest_error
         evidence = {"distance": best.distance, "error": error}
         return Estimate(frame.pose @ transform, -error, sure, evidence)
+
+    def around(self, index: int) -> Cloud:
+        """Return the part of the map around a local map, in the frame of the local map."""
+        if index not in self.targets:
+            to_frame = np.linalg.inv(self.frames[index].pose)
+            moved = [to_frame @ frame.pose for frame in self.frames]
+            near = [
+                thin(frame.cloud) @ pose[:3, :3].T + pose[:3, 3]
+                for frame, pose in zip(self.frames, moved, strict=True)
+                if np.linalg.norm(pose[:3, 3]) <= AROUND
+            ]
+            self.targets[index] = thin(np.concatenate(near).astype(np.float32))
+        return self.targets[index]
 
 
 def mean_squared_distance(source: Cloud, target: Cloud, transform: Pose) -> float:
