@@ -54,6 +54,7 @@ class RegisteredContextPeer:
     def learn(self, frames: Sequence[MapFrame]) -> None:
         """Take in the map."""
         self.frames = frames
+        self.thinned = [thin(frame.cloud) for frame in frames]
         self.targets: dict[int, Cloud] = {}
         parameters = ScanContextParameters(radius=self.parameters.radius)
         self.contexts = ScanContexts([frame.cloud for frame in frames], parameters)
@@ -87,8 +88,8 @@ class RegisteredContextPeer:
             to_frame = np.linalg.inv(self.frames[index].pose)
             moved = [to_frame @ frame.pose for frame in self.frames]
             near = [
-                thin(frame.cloud) @ pose[:3, :3].T + pose[:3, 3]
-                for frame, pose in zip(self.frames, moved, strict=True)
+                cloud @ pose[:3, :3].T + pose[:3, 3]
+                for cloud, pose in zip(self.thinned, moved, strict=True)
                 if np.linalg.norm(pose[:3, 3]) <= AROUND
             ]
             self.targets[index] = thin(np.concatenate(near).astype(np.float32))
@@ -110,5 +111,12 @@ def mean_squared_distance(source: Cloud, target: Cloud, transform: Pose) -> floa
 
 def thin(cloud: Cloud) -> Cloud:
     """Return one point of each occupied voxel."""
-    _, first = np.unique(np.floor(cloud / VOXEL).astype(np.int64), axis=0, return_index=True)
+    if not len(cloud):
+        return cloud
+    cells = np.floor(cloud / VOXEL).astype(np.int64)
+    cells -= cells.min(axis=0)
+    size = cells.max(axis=0) + 1
+    _, first = np.unique(
+        (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2], return_index=True
+    )
     return np.asarray(cloud[first])

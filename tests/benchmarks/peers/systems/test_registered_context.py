@@ -64,3 +64,15 @@ def test_mean_squared_distance_is_that_of_the_nearest_points() -> None:
 def test_thin_keeps_one_point_per_voxel() -> None:
     kept = thin(cloud((0.05, 0, 0), (0.35, 0, 0), (0.45, 0, 0), (-0.05, 0, 0)))
     assert sorted(np.round(kept[:, 0], 2).tolist()) == pytest.approx([-0.05, 0.05, 0.45])
+
+
+def test_target_is_the_map_up_to_50_meters_around_the_candidate() -> None:
+    point = cloud((0.0, 0.0, 1.0))
+    peer = RegisteredContextPeer(CONTEXT_ONLY)
+    peer.learn([MapFrame(pose(x, 0.0, yaw=np.pi / 2), point) for x in (0.0, 49.0, 51.0)])
+    # Each frame looks along y, so what lies further along x is to the right.
+    target = peer.around(0)
+    assert target[np.argsort(-target[:, 1])] == pytest.approx(
+        np.array([[0.0, 0.0, 1.0], [0.0, -49.0, 1.0]]), abs=1e-4
+    )
+    assert peer.around(0) is target
