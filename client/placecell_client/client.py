@@ -157,8 +157,9 @@ class Client(BaseClient):
             maps: Names of the maps to search. Default: all maps of loaded models.
             k: Largest number of candidates per query.
             rerank: Order the candidates by the other segments that support them, and return the
-                best k of 25. All segments must be from one scan. A service that is older than this
-                option needs False for a description.
+                best k of 25. All segments must be from one scan. A description without centroids
+                (NaN) is not re-ranked. A service that is older than this option needs False for a
+                description.
 
         Returns:
             Candidates of each query, best first.

@@ -68,17 +68,23 @@ def test_unknown_encoding_is_refused() -> None:
         Client("http://service", encoding="cbor")  # type: ignore[arg-type]
 
 
-def test_msgpack_request_sends_codes_as_bytes() -> None:
+@pytest.mark.parametrize("is_known", [True, False])
+def test_msgpack_request_sends_codes_and_known_centroids_as_bytes(is_known: bool) -> None:
+    places = np.array([[1.0, -2.0, 0.5]]) if is_known else np.full((1, 3), np.nan)
+    expected = {"k": 10, "model_id": "m", "codes": b"\x03\xff"}
+    if is_known:
+        expected["centroids"] = places.astype("<f8").tobytes()
+
     def answer(request: httpx.Request) -> httpx.Response:
         assert request.headers["content-type"] == request.headers["accept"] == MEDIA_TYPE
-        assert msgpack.unpackb(request.content) == {"k": 10, "model_id": "m", "codes": b"\x03\xff"}
+        assert msgpack.unpackb(request.content) == expected
         content = {"model_id": "m", "queries": [{"candidates": []}], "searched": [], "skipped": []}
         return httpx.Response(
             200, content=msgpack.packb(content), headers={"Content-Type": MEDIA_TYPE}
         )
 
     description = Description(
-        "m", np.array([[3, -1]], np.int8), np.zeros((1, 2), np.float32), np.zeros((1, 3)), {}
+        "m", np.array([[3, -1]], np.int8), np.zeros((1, 2), np.float32), places, {}
     )
     with Client("http://service", transport=httpx.MockTransport(answer)) as client:
         assert client.match(description).queries == ((),)

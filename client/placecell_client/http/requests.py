@@ -114,7 +114,7 @@ class Calls:
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
-            if rerank:
+            if rerank and np.isfinite(description.centroids[rows]).all():
                 body |= self._centroids(description, rows)
             return self._post(
                 "/match", body, lambda answer: parsing.matches_of(answer, description, rows)
