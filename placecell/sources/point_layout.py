@@ -204,6 +204,8 @@ def layout_from_content(
             "big-endian or compressed data?). Convert them to little-endian float32"
         )
     values = [as_values(content, dtype) for content in sampled]
+    if not any(map(len, values)):
+        raise DriveError(f"{found}: the longest has {max(map(len, sampled))} bytes, not one value")
     fits = {
         count: divisible(sizes, count * ITEM_SIZES[dtype])
         for count in COLUMN_COUNTS

@@ -100,7 +100,7 @@ def needed_fields(fields: Sequence[str], file: Path) -> tuple[Axes, list[str]]:
     """
     axes = find_axes(fields)
     if axes is None:
-        shown = ", ".join(fields[:20]) or "none"
+        shown = printable(", ".join(fields[:20]))[:400] or "none"
         raise DriveError(
             f"{file}: the points have no x, y and z; the fields are {shown}. Rename the fields of "
             "the coordinates to x, y and z"
@@ -258,5 +258,9 @@ def cut_short(file: Path, what: str, found: int, expected: int) -> DriveError:
 
 def reason_of(error: BaseException) -> str:
     """Return a library's message in one line of printable characters, for an error."""
-    text = str(error).split("\n")[0].strip()[:160] or type(error).__name__
+    return printable(str(error).split("\n")[0].strip()[:160] or type(error).__name__)
+
+
+def printable(text: str) -> str:
+    """Return a text with a question mark for each sign that a terminal cannot show."""
     return "".join(sign if sign.isprintable() else "?" for sign in text)

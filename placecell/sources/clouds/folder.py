@@ -11,7 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.clouds.cloud import CloudClock, as_scan, find_axes, find_cloud_clock
+from placecell.sources.clouds.cloud import (
+    CloudClock,
+    as_scan,
+    find_axes,
+    find_cloud_clock,
+    printable,
+)
 from placecell.sources.clouds.finding import find_clouds, folder_of_scans
 from placecell.sources.clouds.formats import RAW, ReadOptions, format_of, read_cloud
 from placecell.sources.clouds.raw import layout_of
@@ -71,6 +77,7 @@ class FolderOfClouds(ScanSource):
 
     def remark(self, text: str) -> None:
         """Keep a remark for the user, and tell it once."""
+        text = printable(text)
         if text not in self.remarks and len(self.remarks) < MOST_REMARKS:
             self.remarks[text] = None
             self.options.tell(f"{self.path}: {text}")

@@ -26,6 +26,8 @@ ITEMS = 32
 """Offset in that record of the number of the parts of a point, before the parts."""
 ITEM_BYTES = {6: 20, 7: 8, 8: 6, 9: 29, 10: 30, 11: 6, 12: 8, 13: 29}
 """Bytes of each type of a part; extra bytes (0, 14) may have any number."""
+LAYERS, EXTRA_14 = {10: 9, 11: 1, 12: 2, 13: 1}, 14
+"""Layers of each type of a part of the point formats from 6 on; extra bytes have one a byte."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +55,10 @@ def read_las(file: Path) -> Cloud:
     """
     content = read_content(file)
     header = parse_header(content, file)
-    content = plain_text(content, header, file)
     if header.compressed:
         check_growth(file, len(content), header.points * header.point_bytes)
+    content = plain_text(content, header, file)
+    if header.compressed:
         check_chunk_table(content, header, file)
     elif header.start + header.points * header.point_bytes > len(content):
         room = max(len(content) - header.start, 0) // header.point_bytes
@@ -148,7 +151,8 @@ def plain_text(content: bytes, header: LasHeader, file: Path) -> bytes:
         user, kind, length = struct.unpack_from("<16sHH", content, position + 2)
         names.append(slice(position + 2, position + 18))
         if user.startswith(LASZIP) and kind == LASZIP_RECORD:
-            check_items(content[position + RECORD_HEADER :][:length], header, file)
+            kinds = check_items(content[position + RECORD_HEADER :][:length], header, file)
+            check_layers(content, header, kinds, file)
         position += RECORD_HEADER + length
         if position > header.start:
             raise DriveError(
@@ -163,8 +167,11 @@ def plain_text(content: bytes, header: LasHeader, file: Path) -> bytes:
     return bytes(plain)
 
 
-def check_items(record: bytes, header: LasHeader, file: Path) -> None:
+def check_items(record: bytes, header: LasHeader, file: Path) -> list[tuple[int, int]]:
     """Check the parts of a point in the record on the compression; lazrs panics if one is wrong.
+
+    Returns:
+        The type and the bytes of each part.
 
     Raises:
         DriveError: a part has another size than its type, or they are not as long as a point.
@@ -179,6 +186,35 @@ def check_items(record: bytes, header: LasHeader, file: Path) -> None:
             f"{file}: its record on the compression names parts of {total} bytes, but a point has "
             f"{header.point_bytes}; the file is damaged. Write it again"
         )
+    return [(kind, size) for kind, size, _ in items]
+
+
+def check_layers(
+    content: bytes, header: LasHeader, parts: list[tuple[int, int]], file: Path
+) -> None:
+    """Check the sizes of the layers of each chunk; lazrs allocates what they claim, or aborts.
+
+    A chunk of the point formats from 6 on has its first point as it is, its number of points, the
+    sizes of its layers, and the layers.
+
+    Raises:
+        DriveError: a layer reaches beyond the file.
+    """
+    layers = sum(size if kind == EXTRA_14 else LAYERS.get(kind, 0) for kind, size in parts)
+    position, left = header.start + 8, header.points
+    while layers and left > 0:
+        end = position + header.point_bytes + 4 + 4 * layers
+        count, sizes = 0, [0]
+        if end <= len(content):
+            count, *sizes = struct.unpack_from(
+                f"<{1 + layers}I", content, position + header.point_bytes
+            )
+        position, left = end + sum(sizes), left - count
+        if position > len(content) or not count:
+            raise DriveError(
+                f"{file}: a compressed chunk reaches beyond the file's {len(content):,} bytes; the "
+                "file is cut short or damaged. Copy or write it again"
+            )
 
 
 def check_chunk_table(content: bytes, header: LasHeader, file: Path) -> None:

@@ -18,6 +18,7 @@ from placecell.sources.clouds.cloud import (
     check_growth,
     cut_short,
     find_axes,
+    printable,
     read_content,
     reason_of,
 )
@@ -109,9 +110,10 @@ def chosen(
     names = [name for name in tables if not named or name.lower() == named[0]]
     if len(names) != 1:
         found = ", ".join(f"{name} {each.shape}" for name, each in list(arrays.items())[:10])
+        found = printable(found)[:400] or "no arrays"
         raise DriveError(
             f"{file}: {'no array has' if not names else 'several arrays have'} points (n, 3 or "
-            f"more); found {found or 'no arrays'}. Name the array of points 'points'"
+            f"more); found {found}. Name the array of points 'points'"
         )
     cloud = points_of(tables[names[0]], columns, file)
     length = len(next(iter(cloud.values.values())))

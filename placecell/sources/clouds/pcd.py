@@ -12,6 +12,7 @@ from placecell.sources.clouds.cloud import (
     Cloud,
     cut_short,
     needed_fields,
+    printable,
     read_content,
     reason_of,
 )
@@ -106,7 +107,7 @@ def parse_header(content: bytes, file: Path) -> PcdHeader:
                 f"{file}: its PCD header ends after {found}, without a line DATA; the file is cut "
                 "short or damaged. Copy or write it again"
             )
-        line = content[start:end].decode("utf-8", "replace").strip()
+        line = printable(content[start:end].decode("utf-8", "replace").strip())
         start = end + 1
         if line and not line.startswith("#"):
             key, *values = line.split()

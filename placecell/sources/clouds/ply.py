@@ -17,6 +17,7 @@ from placecell.sources.clouds.cloud import (
     Cloud,
     cut_short,
     needed_fields,
+    printable,
     read_content,
     reason_of,
 )
@@ -83,7 +84,9 @@ def read_ply(file: Path) -> Cloud:
     )
     if index is None:
         found = ", ".join(each.name for each in elements) or "none"
-        raise DriveError(f"{file}: has no element 'vertex'; its elements are: {found}")
+        raise DriveError(
+            f"{file}: has no element 'vertex'; its elements are: {printable(found)[:400]}"
+        )
     vertex = elements[index]
     names = tuple(each.name for each in vertex.properties)
     _, needed = needed_fields(names, file)

@@ -20,6 +20,7 @@ def changed(content: bytes, offset: int, code: str, value: float) -> bytes:
 
 PLAIN, PACKED, LONG = las(CLOUD), las(CLOUD, True), las(CLOUD, True, 4, 6)
 START = struct.unpack_from("<I", PACKED, 96)[0]
+LONG_START = struct.unpack_from("<I", LONG, 96)[0]
 TABLE = struct.unpack_from("<q", PACKED, START)[0]
 
 
@@ -102,6 +103,11 @@ def test_zero_points_are_an_empty_scan(tmp_path: Path, compressed: bool) -> None
         (changed(PACKED, START - 14, "H", 0), "names parts of 0 bytes, but a point has 28"),
         (changed(PACKED, 247, "H", 60_000), "1 LAS records reach beyond its first point"),
         (changed(PACKED, START - 10, "H", 21), "names parts of 29 bytes"),
+        (
+            changed(LONG, LONG_START + 8 + 30 + 4, "I", 2**32 - 1),
+            "a compressed chunk reaches beyond",
+        ),
+        (changed(LONG, LONG_START + 8 + 30, "I", 0), "a compressed chunk reaches beyond"),
         (PACKED[:-500], "cut short or damaged"),
         (PACKED[: START + 4], "cut short or damaged"),
     ],

@@ -102,6 +102,7 @@ def check(file: Path) -> str:
         refused = str(error)
     if refused:
         assert refused.startswith(f"{file}: ")
+        assert refused.isprintable()
         assert len(refused) < 1500
         return "refused"
     assert scan.points.dtype == np.float32

@@ -73,6 +73,12 @@ def test_damaged_files_are_named(tmp_path: Path) -> None:
         source.scan(2)
 
 
+def test_a_file_of_a_few_bytes_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "0.bin").write_bytes(b"abc")
+    with pytest.raises(DriveError, match=r"0\.bin: .* the longest has 3 bytes, not one value"):
+        FolderOfClouds(tmp_path / "0.bin")
+
+
 def test_a_single_file_whose_layout_is_not_sure_is_named(tmp_path: Path) -> None:
     cloud(5, 5).tofile(tmp_path / "tiny.bin")
     with pytest.raises(DriveError, match=r"tiny\.bin: .* State the layout with --columns"):

@@ -83,6 +83,11 @@ def test_more_columns_follow_without_a_header(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read(file, stated).points, [[2, 3, 99], [5, 6, 98]])
 
 
+def test_normals_with_a_curvature_are_no_quaternions(tmp_path: Path) -> None:
+    file = write(tmp_path, "1 2 3 99 0 0 1 0.01\n-1 2 3 98 0 1 0 0.02\n")
+    np.testing.assert_array_equal(read(file).points, [[1, 2, 3], [-1, 2, 3]])
+
+
 def test_missing_values_drop_the_point(tmp_path: Path) -> None:
     for cell in ("", "nan", "NaN", "null", "inf"):
         scan = read(write(tmp_path, f"x,y,z\n1,2,3\n4,{cell},6\n7,8,9\n"))
