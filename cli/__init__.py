@@ -15,6 +15,7 @@ from cli.evaluate import evaluate
 from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
 from cli.fit_confidence import fit_confidence
+from cli.inspect_source import inspect
 from cli.keys import keys
 from cli.maps import maps
 from cli.prepare import prepare
@@ -78,6 +79,7 @@ app.command(rich_help_panel=RUN)(config)
 app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)
 app.command(rich_help_panel=MAP)(town)
+app.command(rich_help_panel=MAP)(takes_drives(inspect))
 app.command(rich_help_panel=MAP)(takes_drives(prepare))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_poses))
