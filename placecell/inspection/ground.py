@@ -28,6 +28,8 @@ AHEAD = 0.7
 """Smallest cosine to the z axis of the points of a camera, which looks along it."""
 CLEARLY = 2.0
 """Ratio of areas from which another axis points up rather than z."""
+USUAL_HEIGHTS = (0.2, 3.5)
+"""Usual heights of sensors above the ground, meters."""
 UNITS = {"mm": 0.001, "cm": 0.01}
 NONE = np.zeros((0, 3), np.float32)
 LOOKED_AT = 5
@@ -75,10 +77,11 @@ def find_mount(clouds: Sequence[Float32]) -> SensorMount:
     for unit, scale in UNITS.items():
         scaled = [(cloud * scale).astype(np.float32) for cloud in some]
         try:
-            find_common_ground(scaled)
+            height = find_common_ground(scaled).height
         except NoGroundError:
             continue
-        return SensorMount(None, reason, "", unit)
+        if USUAL_HEIGHTS[0] <= height <= USUAL_HEIGHTS[1]:
+            return SensorMount(None, reason, "", unit)
     return SensorMount(None, reason, "")
 
 

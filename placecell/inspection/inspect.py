@@ -9,10 +9,9 @@ import numpy as np
 from placecell.inspection import pose_problems, scan_problems
 from placecell.inspection.clocks import Clock, read_clock
 from placecell.inspection.ground import SensorMount, find_mount
-from placecell.inspection.problem import Problem
+from placecell.inspection.problem import Problem, Severity
 from placecell.inspection.samples import RANGES, Progress, Samples, sample
-from placecell.inspection.scan_problems import CLOUDS
-from placecell.inspection.subject import Subject, open_subject
+from placecell.inspection.subject import CLOUDS, Subject, open_subject
 from placecell.trajectories.trajectory import Trajectory
 
 SCANS = 40
@@ -164,7 +163,7 @@ def inspect_source(path: Path, scans: int = SCANS, progress: Progress = silent) 
     found += pose_problems.world_not_level(mount, poses)
     found += pose_problems.odd_times(clock, len(subject.stamps))
     for note in notes:
-        severity = "warning" if "expected" in note.lower() else "info"
+        severity: Severity = "warning" if "expected" in note.lower() else "info"
         found.append(Problem.of(severity, note, "No action is needed if this is right."))
     found.sort(key=lambda problem: ORDER.index(problem.severity))
     return Inspection(subject, samples, clock, mount, tuple(dict.fromkeys(found)))

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from placecell.core.parameters import PROTOCOL_V1
-from placecell.inspection.ground import SensorMount
+from placecell.inspection.ground import USUAL_HEIGHTS, SensorMount
 from placecell.inspection.problem import Problem
 from placecell.inspection.samples import Samples
 from placecell.inspection.subject import CLOUDS, Subject
@@ -26,7 +26,6 @@ FEW_POINTS = 1_000
 NARROW_DEG = 120.0
 LEVEL_DEG = 5.0
 """Ground removal needs z up within this angle, degrees."""
-USUAL_HEIGHTS = (0.2, 3.5)
 
 KNOWN_FIELDS = re.compile(
     r"_|[xyz]|n[xyz]|normal_[xyz]|curvature|rgba?|red|green|blue|i|intensit\w+|reflect\w+|remission"
