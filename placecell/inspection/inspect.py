@@ -9,7 +9,7 @@ import numpy as np
 from placecell.inspection import pose_problems, scan_problems
 from placecell.inspection.clocks import Clock, read_clock
 from placecell.inspection.ground import SensorMount, find_mount
-from placecell.inspection.problem import Problem, Severity
+from placecell.inspection.problem import Severity, SourceProblem
 from placecell.inspection.samples import RANGES, Progress, Samples, sample
 from placecell.inspection.subject import CLOUDS, Subject, open_subject
 from placecell.trajectories.trajectory import Trajectory
@@ -35,7 +35,7 @@ class Inspection:
     samples: Samples
     clock: Clock
     mount: SensorMount
-    problems: tuple[Problem, ...]
+    problems: tuple[SourceProblem, ...]
 
     @property
     def usable(self) -> bool:
@@ -164,6 +164,6 @@ def inspect_source(path: Path, scans: int = SCANS, progress: Progress = silent) 
     found += pose_problems.odd_times(clock, len(subject.stamps))
     for note in notes:
         severity: Severity = "warning" if "expected" in note.lower() else "info"
-        found.append(Problem.of(severity, note, "No action is needed if this is right."))
+        found.append(SourceProblem.of(severity, note, "No action is needed if this is right."))
     found.sort(key=lambda problem: ORDER.index(problem.severity))
     return Inspection(subject, samples, clock, mount, tuple(dict.fromkeys(found)))

@@ -6,10 +6,11 @@ import numpy as np
 
 from placecell.inspection.clocks import JUMP, LISTED, Clock
 from placecell.inspection.ground import SensorMount, world_tilt
-from placecell.inspection.problem import Problem
+from placecell.inspection.problem import SourceProblem
 from placecell.inspection.scan_problems import LEVEL_DEG
 from placecell.inspection.subject import Subject
 from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import current_scan_options
 from placecell.trajectories.scan_poses import ScanPoses, poses_of_scans
 from placecell.trajectories.trajectory import Trajectory
 
@@ -23,12 +24,12 @@ SMALLEST_JUMP = 2.0
 """Smallest step that is a jump, meters."""
 
 
-def no_poses(subject: Subject) -> Iterator[Problem]:
+def no_poses(subject: Subject) -> Iterator[SourceProblem]:
     """Find sources without poses."""
     if subject.trajectory is None and len(subject.stamps):
         if any("pose" in problem.what for problem in subject.problems):
             return  # Damaged poses are told already.
-        yield Problem(
+        yield SourceProblem(
             "warning",
             "The source has scans and no poses",
             "Give a trajectory with --poses FILE. Without one, odometry of the scans is used "
@@ -36,7 +37,7 @@ def no_poses(subject: Subject) -> Iterator[Problem]:
         )
 
 
-def matched(subject: Subject) -> tuple[ScanPoses | None, list[Problem]]:
+def matched(subject: Subject) -> tuple[ScanPoses | None, list[SourceProblem]]:
     """Return the poses of the scans, and the problems of finding them."""
     if subject.trajectory is None or not len(subject.stamps):
         return None, []
@@ -47,14 +48,15 @@ def matched(subject: Subject) -> tuple[ScanPoses | None, list[Problem]]:
             poses = subject.trajectory.poses
             return ScanPoses(np.arange(len(poses)), poses, subject.stamps, None, ()), []
     try:
-        found = poses_of_scans(subject.trajectory, order, "The trajectory")
+        offset = current_scan_options().pose_offset
+        found = poses_of_scans(subject.trajectory, order, "The trajectory", offset)
     except DriveError as error:
-        return None, [Problem.of("error", error)]
+        return None, [SourceProblem.of("error", error)]
     problems = []
     for remark in found.remarks:
         part = len(found.scans) < len(order) and "left out" in remark
         problems.append(
-            Problem(
+            SourceProblem(
                 "warning" if part else "info",
                 remark,
                 "Record poses for the whole drive, or use odometry (--odometry kiss-icp)."
@@ -65,13 +67,13 @@ def matched(subject: Subject) -> tuple[ScanPoses | None, list[Problem]]:
     return found, problems
 
 
-def standing_poses(trajectory: Trajectory | None) -> Iterator[Problem]:
+def standing_poses(trajectory: Trajectory | None) -> Iterator[SourceProblem]:
     """Find poses that never move."""
     if trajectory is None or len(trajectory) < 2:
         return
     extent = float(np.ptp(trajectory.poses[:, :3, 3], axis=0).max())
     if extent < STANDS:
-        yield Problem(
+        yield SourceProblem(
             "warning",
             f"The {len(trajectory)} poses never move: they extend over {extent:.3f} m",
             "Use another topic (--odometry TOPIC), a trajectory (--poses FILE), or odometry of the "
@@ -79,7 +81,7 @@ def standing_poses(trajectory: Trajectory | None) -> Iterator[Problem]:
         )
 
 
-def jumping_poses(trajectory: Trajectory | None) -> Iterator[Problem]:
+def jumping_poses(trajectory: Trajectory | None) -> Iterator[SourceProblem]:
     """Find steps between poses that no vehicle drives."""
     if trajectory is None or len(trajectory) < 3:
         return
@@ -92,7 +94,7 @@ def jumping_poses(trajectory: Trajectory | None) -> Iterator[Problem]:
         jumps = (steps > SMALLEST_JUMP) & (steps > FASTEST * np.maximum(waits, 0.01))
     if jumps.any():
         first = int(jumps.argmax())
-        yield Problem(
+        yield SourceProblem(
             "warning",
             f"{int(jumps.sum())} steps between poses are jumps, faster than a vehicle. The first: "
             f"{steps[first]:.1f} m after pose {first}",
@@ -101,13 +103,13 @@ def jumping_poses(trajectory: Trajectory | None) -> Iterator[Problem]:
         )
 
 
-def world_not_level(mount: SensorMount, poses: ScanPoses | None) -> Iterator[Problem]:
+def world_not_level(mount: SensorMount, poses: ScanPoses | None) -> Iterator[SourceProblem]:
     """Find poses whose world does not have z up."""
     if poses is None or mount.ground is None or not len(poses.poses):
         return
     tilt = world_tilt(mount.ground, poses.poses)
     if tilt > LEVEL_DEG:
-        yield Problem(
+        yield SourceProblem(
             "warning",
             f"In the frame of the poses, up is {tilt:.0f} degrees away from z; the ground removal "
             f"needs {LEVEL_DEG:g} degrees or less",
@@ -116,10 +118,10 @@ def world_not_level(mount: SensorMount, poses: ScanPoses | None) -> Iterator[Pro
         )
 
 
-def odd_times(clock: Clock, scans: int) -> Iterator[Problem]:
+def odd_times(clock: Clock, scans: int) -> Iterator[SourceProblem]:
     """Find clock jumps, gaps, repeated times and odd rates."""
     if scans > 1 and clock.unknown:
-        yield Problem(
+        yield SourceProblem(
             "info" if clock.unknown == scans else "warning",
             f"{clock.unknown} of {scans} scans have no time",
             "Add times.txt with a time in seconds a line, or name the files by their time.",
@@ -127,7 +129,7 @@ def odd_times(clock: Clock, scans: int) -> Iterator[Problem]:
     for jumps, word in ((clock.backward, "backward"), (clock.forward, "forward")):
         if jumps:
             at, length = jumps[0]
-            yield Problem(
+            yield SourceProblem(
                 "warning",
                 f"The clock jumps {word} {len(jumps)} times. The first: {length:+.3f} s after "
                 f"scan {at}",
@@ -136,21 +138,21 @@ def odd_times(clock: Clock, scans: int) -> Iterator[Problem]:
                 else f"Cut the recording there if it is a pause of over {JUMP:g} s.",
             )
     if clock.repeated:
-        yield Problem(
+        yield SourceProblem(
             "warning",
             f"{clock.repeated} scans have the time of the scan before",
             "Remove repeated messages, or use the sensor's own time stamps.",
         )
     if clock.gaps:
         at, length = clock.gaps[0]
-        yield Problem(
+        yield SourceProblem(
             "warning" if clock.lost > 0.01 * scans else "info",
             f"{len(clock.gaps)} gaps, in which about {clock.lost} scans are missing. The first: "
             f"{length:.2f} s after scan {at}",
             "Record to a faster disk, or with a larger buffer, so that no messages are dropped.",
         )
     if clock.rate_hz is not None and not RATES[0] <= clock.rate_hz <= RATES[1]:
-        yield Problem(
+        yield SourceProblem(
             "warning",
             f"Scans come at {clock.rate_hz:.3g} Hz; expected {RATES[0]:g} to {RATES[1]:g} Hz",
             "Check the unit of the times (--time-unit).",

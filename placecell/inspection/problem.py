@@ -14,8 +14,8 @@ DEFAULT_CURE = "Correct the file, and inspect it again."
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
-    """Problem of a source.
+class SourceProblem:
+    """SourceProblem of a source.
 
     Attributes:
         severity: `error`: the source cannot be used; `warning`: results suffer; `info`: the user
@@ -29,7 +29,7 @@ class Problem:
     cure: str
 
     @classmethod
-    def of(cls, severity: Severity, message: object, cure: str = DEFAULT_CURE) -> "Problem":
+    def of(cls, severity: Severity, message: object, cure: str = DEFAULT_CURE) -> "SourceProblem":
         """Split the message of a reader into what was found and what to do."""
         what, *rest = CURE.split(str(message).strip(), maxsplit=1)
         return cls(severity, what.rstrip(";:"), rest[0] if rest else cure)

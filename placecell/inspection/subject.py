@@ -9,18 +9,23 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.datasets import FORMATS, Drive
-from placecell.inspection.problem import Problem
+from placecell.datasets.source_poses import given_poses
+from placecell.inspection.problem import SourceProblem
 from placecell.sources.catalog import open_source, source_class
 from placecell.sources.errors import DriveError
 from placecell.sources.scan import LidarScan
-from placecell.sources.scan_options import current_scan_options, silent, use_scan_options
+from placecell.sources.scan_options import (
+    NO_ODOMETRY,
+    current_scan_options,
+    silent,
+    use_scan_options,
+)
 from placecell.sources.source import ScanSource
 from placecell.trajectories.reading import read_trajectory
 from placecell.trajectories.trajectory import Trajectory
 
 CLOUDS = ("PointCloud2", "PointCloud", "CustomMsg")
 """Types of messages with clouds, without their package."""
-SCAN_FOLDERS = ("velodyne", "velodyne_points/data", "Ouster", "")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +58,7 @@ class Subject:
     topics: Sequence[dict[str, Any]] = ()
     chosen: str = ""
     transform: str = ""
-    problems: Sequence[Problem] = ()
+    problems: Sequence[SourceProblem] = ()
     notes: Callable[[], Sequence[str]] = tuple
     about: str = ""
 
@@ -68,9 +73,14 @@ def open_subject(path: Path) -> Subject:
     if not path.exists():
         raise DriveError(f"{path}: does not exist. Check the path of the source")
     with use_scan_options(replace(current_scan_options(), tell=silent, strict=False)):
-        for reader in FORMATS:
-            if path.is_dir() and reader.recognizes(path.absolute()):
+        options = current_scan_options()
+        own_poses = options.poses is None and options.odometry in (None, NO_ODOMETRY)
+        for reader in FORMATS if path.is_dir() else ():
+            if not reader.recognizes(path.absolute()):
+                continue
+            if own_poses and reader.has_poses(path.absolute()):
                 return of_drive(path.absolute(), reader)
+            return of_scan_folder(path.absolute(), reader)
         ours = of_our_files(path)
         if ours is not None:
             return ours
@@ -95,31 +105,18 @@ def of_drive(path: Path, reader: type[Drive]) -> Subject:
     try:
         drive = reader(path)  # type: ignore[call-arg]
     except DriveError as error:
-        problem = Problem.of("error", error)
-        for name in SCAN_FOLDERS:
-            try:
-                scans = of_source(open_source(path / name)) if (path / name).is_dir() else None
-            except DriveError:
-                continue
-            if scans is not None:
-                return replace(
-                    scans, path=path, format=reader.name, problems=(problem, *scans.problems)
-                )
-        return nothing(path, reader.name, problems=(problem,))
-
-    read_times = getattr(drive, "read_times", None)
+        return of_scan_folder(path, reader, SourceProblem.of("error", error))
 
     def read(index: int) -> LidarScan:
         points = np.asarray(drive.read_points(index), np.float32)
-        times = None if read_times is None else read_times(index)
-        return LidarScan.of(points, times, float(drive.times[index]))
+        return LidarScan.of(points, drive.read_times(index), float(drive.times[index]))
 
     trajectory = Trajectory(drive.poses, drive.times)
     columns = drive.point_layout.columns
     record = getattr(drive, "record_of", None)
     fields = columns if record is None else tuple(record(0).names or ())
     problems = [
-        Problem(
+        SourceProblem(
             "warning",
             drive.summary(range(len(drive))),
             "These scans are skipped. Copy the files again to use them.",
@@ -136,23 +133,36 @@ def of_drive(path: Path, reader: type[Drive]) -> Subject:
     )
 
 
+def of_scan_folder(path: Path, reader: type[Drive], *problems: SourceProblem) -> Subject:
+    """Describe the scans of a drive in a known layout without the drive's own poses."""
+    try:
+        scans = of_source(open_source(path / reader.scan_folder))
+    except DriveError as error:
+        return nothing(path, reader.name, problems=(*problems, SourceProblem.of("error", error)))
+    return replace(scans, path=path, format=reader.name, problems=(*problems, *scans.problems))
+
+
 def of_source(source: ScanSource) -> Subject:
     """Describe a source of scans."""
-    problems: list[Problem] = []
+    problems: list[SourceProblem] = []
     trajectory = None
     transform = ""
+    options = current_scan_options()
     try:
-        stated = getattr(current_scan_options(), "poses", None)
-        trajectory = read_trajectory(Path(stated)) if stated else source.trajectory()
+        given = given_poses(source, options)
+        if given is not None:
+            trajectory = replace(given.trajectory, poses=given.trajectory.poses @ given.mount)
+            transform = given.how
     except DriveError as error:
-        problems.append(Problem.of("error", error))
+        problems.append(SourceProblem.of("error", error))
     find_extrinsic = getattr(source, "extrinsic", None)
-    if trajectory is not None and find_extrinsic is not None:
+    own = options.poses is None and options.extrinsic is None
+    if trajectory is not None and find_extrinsic is not None and own:
         mount = find_extrinsic()
         transform = f"{mount.base or '?'} -> {mount.sensor or source.frame or '?'}: {mount.how}"
         if not mount.found:
             problems.append(
-                Problem(
+                SourceProblem(
                     "warning",
                     f"The pose of the sensor {source.frame!r} on the robot is not known: "
                     f"{mount.how}. The identity is used",
@@ -227,14 +237,14 @@ def of_our_files(path: Path) -> Subject | None:
             path,
             "Placecell map file",
             about=about,
-            problems=(Problem("info", about, used + "'placecell export'."),),
+            problems=(SourceProblem("info", about, used + "'placecell export'."),),
         )
     about = (
         f"a recording of Placecell: {len(recording.segments):,} segments of {recording.scans:,} "
         f"scans of {recording.name!r}, {recording.path_length:,.0f} m"
     )
     return nothing(
-        path, "Placecell recording", about=about, problems=(Problem("info", about, cure),)
+        path, "Placecell recording", about=about, problems=(SourceProblem("info", about, cure),)
     )
 
 
@@ -251,19 +261,19 @@ def without_scans(path: Path, error: DriveError) -> Subject:
     if trajectory is None:
         found = source_class(path)
         name = "unknown" if found is None else found.format
-        return nothing(path, name, problems=(Problem.of("error", error),))
+        return nothing(path, name, problems=(SourceProblem.of("error", error),))
     return nothing(
         path,
         "trajectory",
         frame=trajectory.frame,
         trajectory=trajectory,
         problems=(
-            Problem(
+            SourceProblem(
                 "error",
                 f"{path}: holds {len(trajectory)} poses and no scans",
                 "Give the drive or bag with the scans, and this file with --poses.",
             ),
-            *(Problem.of("info", f"{path}: {remark}", "") for remark in trajectory.remarks),
+            *(SourceProblem.of("info", f"{path}: {remark}", "") for remark in trajectory.remarks),
         ),
     )
 
@@ -278,15 +288,17 @@ def of_bag_without_clouds(path: Path, error: DriveError) -> Subject:
     from placecell.sources.bags.containers.bag import Bag
 
     bag = Bag(path)
-    problems = [Problem.of("error", error)]
-    problems += [Problem.of("warning", remark) for remark in bag.remarks]
+    problems = [SourceProblem.of("error", error)]
+    problems += [SourceProblem.of("warning", remark) for remark in bag.remarks]
     trajectory = None
     try:
         poses = read_poses(bag)
         trajectory = poses.body
-        problems += [Problem.of("info", remark, "No action is needed.") for remark in poses.remarks]
+        problems += [
+            SourceProblem.of("info", remark, "No action is needed.") for remark in poses.remarks
+        ]
     except DriveError as damaged:
-        problems.append(Problem.of("warning", damaged))
+        problems.append(SourceProblem.of("warning", damaged))
     kind = next((each for each in ("bag", "db3", "mcap") if bag.files[0].suffix == f".{each}"), "")
     name = {"bag": "ROS 1 bag", "db3": "ROS 2 bag", "mcap": "MCAP"}.get(kind, "bag")
     return nothing(path, name, trajectory=trajectory, topics=topics_of(bag), problems=problems)

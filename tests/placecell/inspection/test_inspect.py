@@ -3,7 +3,6 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from placecell.inspection.clocks import read_clock
 from placecell.inspection.inspect import Inspection, inspect_source
-from placecell.inspection.problem import Problem
+from placecell.inspection.problem import SourceProblem
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import ScanOptions, use_scan_options
 from tests.placecell.inspection.scan_builders import (
@@ -262,11 +261,7 @@ def test_poses_of_another_clock_are_an_error(tmp_path: Path) -> None:
     lines = [f"{index * 0.1} {index} 0 0 0 0 0 1" for index in range(30)]
     (tmp_path / "poses.tum").write_text("\n".join(lines))
     bag = write_ros1(tmp_path / "run.bag", cloud_messages(yards()))
-    options = ScanOptions()
-    if not hasattr(options, "poses"):
-        pytest.skip("the option --poses is not there yet")
-    kind: Any = ScanOptions  # `poses` comes with the options of drives
-    with use_scan_options(kind(poses=tmp_path / "poses.tum")):
+    with use_scan_options(ScanOptions(poses=tmp_path / "poses.tum")):
         found = inspect_source(bag)
     assert "do not overlap" in told(found, "error")
 
@@ -312,6 +307,8 @@ def test_odd_rate_names_the_unit_of_times(tmp_path: Path, rate: float) -> None:
 
 
 def test_problem_splits_a_message_into_fault_and_cure() -> None:
-    problem = Problem.of("error", "a.pcd: has no points. Write the file again")
+    problem = SourceProblem.of("error", "a.pcd: has no points. Write the file again")
     assert (problem.what, problem.cure) == ("a.pcd: has no points.", "Write the file again")
-    assert Problem.of("error", "a.pcd: is odd").cure == "Correct the file, and inspect it again."
+    assert (
+        SourceProblem.of("error", "a.pcd: is odd").cure == "Correct the file, and inspect it again."
+    )
