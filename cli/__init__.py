@@ -14,6 +14,7 @@ from cli.errors import Commands
 from cli.evaluate import evaluate
 from cli.evaluate_poses import evaluate_poses
 from cli.experiments import experiments
+from cli.export import export
 from cli.fit_confidence import fit_confidence
 from cli.inspect_source import inspect
 from cli.keys import keys
@@ -80,6 +81,7 @@ app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)
 app.command(rich_help_panel=MAP)(town)
 app.command(rich_help_panel=MAP)(takes_drives(inspect))
+app.command(rich_help_panel=MAP)(export)
 app.command(rich_help_panel=MAP)(takes_drives(prepare))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_poses))

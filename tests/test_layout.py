@@ -45,7 +45,7 @@ LAYERS = (
     ("placecell.odometry",),
     ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
-    ("placecell.map_alignment", "placecell.inspection"),
+    ("placecell.map_alignment", "placecell.inspection", "placecell.export"),
     ("placecell",),
     ("town.geometry",),
     ("town.streets",),

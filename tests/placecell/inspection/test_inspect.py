@@ -309,6 +309,5 @@ def test_odd_rate_names_the_unit_of_times(tmp_path: Path, rate: float) -> None:
 def test_problem_splits_a_message_into_fault_and_cure() -> None:
     problem = SourceProblem.of("error", "a.pcd: has no points. Write the file again")
     assert (problem.what, problem.cure) == ("a.pcd: has no points.", "Write the file again")
-    assert (
-        SourceProblem.of("error", "a.pcd: is odd").cure == "Correct the file, and inspect it again."
-    )
+    problem = SourceProblem.of("error", "a.pcd: is odd")
+    assert problem.cure == "Correct the file, and inspect it again."

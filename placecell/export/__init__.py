@@ -1,0 +1,1 @@
+"""Export: maps and recordings in the files of other programs."""

@@ -1,0 +1,137 @@
+"""Content of a map file or of a recording, as other programs take it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from placecell.core.types import Float64, Int64, UInt8
+from placecell.segmentation.recording import Recording, RecordingError
+
+GOLDEN = 0.618033988749895
+"""Step of the hues of colors: the golden ratio keeps those of neighboring numbers apart."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExportContent:
+    """Segments and poses in one coordinate frame.
+
+    Attributes:
+        frame: name of the coordinate frame, z up.
+        points: float64 (points, 3), meters; a map has one point a segment, its centroid.
+        owners: segment of each point, int64 (points,).
+        ids: id of each segment, int64 (segments,).
+        robots: names of the robots.
+        robot: robot of each segment, int64 (segments,).
+        groups: object that each segment is a view of, int64 (segments,).
+        centroids: centroid of each segment, float64 (segments, 3), meters.
+        extents: sides of each segment's box, float64 (segments, 3), meters; 0 if unknown.
+        poses: pose of the sensor at each capture, float64 (captures, 4, 4).
+        stamps: time of each capture, float64 (captures,), seconds.
+        remarks: what the file does not tell, for the user.
+    """
+
+    frame: str
+    points: Float64
+    owners: Int64
+    ids: Int64
+    robots: tuple[str, ...]
+    robot: Int64
+    groups: Int64
+    centroids: Float64
+    extents: Float64
+    poses: Float64
+    stamps: Float64
+    remarks: tuple[str, ...] = ()
+
+
+def read_content(file: Path) -> ExportContent:
+    """Read a map file or a recording.
+
+    Raises:
+        ValueError: the file is neither.
+    """
+    file = Path(file)
+    if not file.is_file():
+        raise ValueError(f"{file}: no such file. Give a map file or a recording (.safetensors)")
+    try:
+        return of_recording(Recording.load(file))
+    except RecordingError as error:
+        if file.suffix == ".safetensors":
+            raise ValueError(f"{error}. Give a map file or a recording") from error
+    from placecell_client.maps.compact_map import MapFileError
+
+    try:
+        return of_map(file)
+    except MapFileError as error:
+        raise ValueError(
+            f"{file}: neither a recording of segments nor a map file ({error}). Write a recording "
+            "with 'placecell prepare', or a map file with 'placecell maps pull'"
+        ) from error
+
+
+def of_recording(recording: Recording) -> ExportContent:
+    """Return the content of a recording: all points of all segments."""
+    segments = recording.segments
+    low, high = segments.bounds()
+    captures, first = np.unique(recording.captures, return_index=True)
+    poses = np.tile(np.eye(4), (len(captures), 1, 1))
+    poses[:, :3, 3] = segments.sensors[first]
+    return ExportContent(
+        frame=recording.name,
+        points=segments.points.astype(np.float64),
+        owners=segments.owners,
+        ids=np.arange(len(segments)),
+        robots=(recording.name,),
+        robot=np.zeros(len(segments), np.int64),
+        groups=recording.groups,
+        centroids=segments.centroids(),
+        extents=(high - low).astype(np.float64),
+        poses=poses,
+        stamps=captures.astype(np.float64),
+        remarks=(
+            "a recording has sensor positions without orientations or times: orientations are the "
+            "identity, and times are the numbers of the scans",
+        ),
+    )
+
+
+def of_map(file: Path) -> ExportContent:
+    """Return the content of a map file: one point a segment.
+
+    Raises:
+        MapFileError: the file is no map file.
+    """
+    from placecell_client.maps.map_file import decode
+
+    found = decode(file.read_bytes())
+    count = len(found)
+    poses = np.tile(np.eye(4), (len(found.frame_times), 1, 1))
+    if len(poses):
+        poses[:, :3, :3] = Rotation.from_quat(found.frame_orientations).as_matrix()
+    poses[:, :3, 3] = found.frame_positions
+    order = np.argsort(found.frame_times, kind="stable")
+    extents = np.zeros((count, 3)) if found.extents is None else found.extents / 10.0
+    return ExportContent(
+        frame=found.frame,
+        points=found.centroids,
+        owners=np.arange(count),
+        ids=found.ids.astype(np.int64),
+        robots=found.robots,
+        robot=found.robot.astype(np.int64),
+        groups=(found.ids if found.views is None else found.views).astype(np.int64),
+        centroids=found.centroids,
+        extents=extents,
+        poses=poses[order],
+        stamps=found.frame_times[order],
+        remarks=("a map file has no points of segments: each segment is one point, its centroid",),
+    )
+
+
+def colors(numbers: Int64) -> UInt8:
+    """Return a color of each number, uint8 (n, 3): equal numbers have equal colors."""
+    hue = (numbers * GOLDEN) % 1.0
+    shifted = (hue[:, None] * 6.0 + np.array([5.0, 3.0, 1.0])) % 6.0
+    light = 1.0 - 0.75 * np.clip(np.minimum(shifted, 4.0 - shifted), 0.0, 1.0)
+    return np.asarray(np.round(255 * light), np.uint8)

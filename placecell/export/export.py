@@ -1,0 +1,68 @@
+"""Export of a map file or a recording to a file of another program."""
+
+from pathlib import Path
+
+import numpy as np
+
+from placecell.export.clouds import write_las, write_pcd, write_ply
+from placecell.export.content import ExportContent, colors, read_content
+from placecell.export.geo import Anchor, write_geojson
+from placecell.export.mcap_file import write_mcap
+from placecell.export.poses import write_g2o, write_tum
+from placecell.export.targets import ColorBy, Target
+
+CLOUDS = {"ply": write_ply, "las": write_las, "pcd": write_pcd, "mcap": write_mcap}
+POSES = {"tum": write_tum, "g2o": write_g2o}
+
+
+def export(
+    source: Path,
+    target: Target,
+    file: Path,
+    color: ColorBy = "id",
+    anchor: Anchor | None = None,
+    overwrite: bool = False,
+) -> ExportContent:
+    """Write a map file or a recording as a file of another program.
+
+    The file appears under its name only when it is complete.
+
+    Args:
+        source: map file or recording.
+        target: format to write.
+        file: file to write.
+        color: number of a segment that decides its color.
+        anchor: place of the map's origin; GeoJSON needs it.
+        overwrite: replace the file if it exists.
+
+    Raises:
+        ValueError: the source is neither, or GeoJSON lacks an anchor.
+        FileExistsError: the file exists, and `overwrite` is not set.
+    """
+    if target == "geojson" and anchor is None:
+        raise ValueError(
+            "GeoJSON needs the place of the map's origin on the Earth. Give it with --anchor "
+            "LAT,LON or --anchor LAT,LON,YAW_DEG, where YAW_DEG is the angle from east to the "
+            "map's x axis, counter-clockwise."
+        )
+    if file.exists() and not overwrite:
+        raise FileExistsError(f"{file} exists already. Give another file, or --overwrite")
+    if file.exists() and file.samefile(source):
+        raise ValueError(f"{file} is the source itself. Give another file with --output.")
+    content = read_content(source)
+    numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
+    shades = colors(np.asarray(numbers))
+    file.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = file.with_name(file.name + ".unfinished")
+    try:
+        if target == "geojson":
+            assert anchor is not None
+            write_geojson(content, shades, unfinished, anchor)
+        elif target in POSES:
+            POSES[target](content, unfinished)
+        else:
+            CLOUDS[target](content, shades, unfinished)
+        unfinished.replace(file)
+    finally:
+        unfinished.unlink(missing_ok=True)
+    return content
