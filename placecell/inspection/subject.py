@@ -30,7 +30,7 @@ CLOUDS = ("PointCloud2", "PointCloud", "CustomMsg")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Subject:
-    """What was found at a path.
+    """Content of a path, opened as far as it can be.
 
     Attributes:
         path: file or folder.
