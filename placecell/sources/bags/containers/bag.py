@@ -26,6 +26,8 @@ SUFFIXES: dict[str, type[Container]] = {
     ".mcap": mcap_file.McapFile,
 }
 COMPRESSED = (".zstd", ".zst")
+LONGEST_GAP = 60.0
+"""Longest gap between the parts of one recording that needs no remark, seconds."""
 METADATA = "metadata.yaml"
 LISTED = re.compile(r"^\s*-\s+[\"']?([^\"'\n]+?\.(?:db3|mcap)(?:\.zstd)?)[\"']?\s*$", re.MULTILINE)
 """A file's name in `metadata.yaml` of a ROS 2 bag."""
@@ -123,6 +125,7 @@ class Bag:
         self.remarks += [f"{error}. The file is left out" for error in failed]
         for container in self.containers:
             self.remarks += container.remarks
+        self.remarks += gaps(self.containers)
         self.topics = joined_topics([container.topics for container in self.containers])
 
     def missing(self) -> Iterator[str]:
@@ -204,6 +207,23 @@ class Bag:
                     yield self.read(topic, index)[:length]
                 except DriveError:
                     yield None
+
+
+def gaps(containers: Sequence[Container]) -> Iterator[str]:
+    """Yield a remark on each long gap between the files: they may be several recordings."""
+    ranges = sorted(
+        (min(int(topic.times[0]) for topic in there), max(int(topic.times[-1]) for topic in there))
+        + (container.path.name,)
+        for container in containers
+        if (there := [topic for topic in container.topics if len(topic)])
+    )
+    for (_, end, before), (begin, _, after) in pairwise(ranges):
+        seconds = (begin - end) * 1e-9
+        if seconds > LONGEST_GAP:
+            yield (
+                f"{before} and {after} are read as one recording, but {seconds:,.0f} s lie between "
+                "them. Open one of the files, if they are several recordings"
+            )
 
 
 def joined_topics(files: Sequence[Sequence[BagTopic]]) -> list[BagTopic]:

@@ -177,6 +177,14 @@ def test_damaged_part_of_a_recording_is_left_out_and_told(tmp_path: Path) -> Non
     assert any("a_1.mcap" in remark and "is left out" in remark for remark in bag.remarks)
 
 
+def test_long_gap_between_files_is_told(tmp_path: Path) -> None:
+    write_mcap(tmp_path / "a.mcap", messages("cdr"))
+    later = [(topic, time + 3600 * 10**9, message) for topic, time, message in messages("cdr")]
+    write_mcap(tmp_path / "b.mcap", later)
+    (remark,) = Bag(tmp_path).remarks
+    assert remark.startswith("a.mcap and b.mcap are read as one recording, but 3,600 s lie betw")
+
+
 def test_compressed_file_that_is_damaged_is_told(tmp_path: Path) -> None:
     (tmp_path / "a.mcap.zstd").write_bytes(b"nothing of the kind")
     with pytest.raises(DriveError, match=r"a.mcap.zstd: cannot be decompressed"):
