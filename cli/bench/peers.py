@@ -29,7 +29,7 @@ def peers(
         float | None,
         typer.Option(
             min=10.0,
-            help="Radius of the local maps, meters. (default: the radius of the segmentation)",
+            help="Radius of Placecell's local maps, meters. (default: that of the segmentation)",
         ),
     ] = None,
     queries: Annotated[
@@ -116,7 +116,7 @@ def print_rows(report: dict[str, Any]) -> None:
     """Print the figures."""
     typer.echo(
         f"{report['rows'][0]['queries']} queries of {report['query_drive']} in a map of "
-        f"{report['map_frames']} captures of {report['map_drive']}; local maps of "
+        f"{report['map_frames']} captures of {report['map_drive']}; Placecell's local maps: "
         f"{report['accumulated_scans']} scans, radius {report['local_map_radius']:.0f} m"
     )
     table = new_table("", "right", "wrong", "not localized", "m", "deg", "p50 ms", "p99 ms")
