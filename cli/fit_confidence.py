@@ -2,30 +2,64 @@
 
 import json
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cli.common_options import Model
-from cli.sources import clear_errors, parse_town, show
+from cli.sources import DEFAULT_SENSOR, clear_errors, parse_town, show
 from cli.tables import JsonFile, new_table, print_tables, write_json
 
 if TYPE_CHECKING:
     from evaluation.poses.cases import FitPair
 
-TOWNS = {51: 0.5, 52: 0.5, 53: 0.5, 54: 0.5, 61: 1.0, 62: 1.0, 63: 1.0}
-"""Seed of each default town, and the share of its streets that have identical houses."""
+DRIVES = (
+    "town:101:os1-64",
+    "town:102:vlp-16",
+    "town:103:hdl-32e",
+    "town:104:os0-128",
+    "town:105:solid-state",
+    "town:106:os1-32",
+    "town:107:os0-32",
+    "town:108:os1-128",
+    "town:109:os0-64",
+    "town:110:hdl-64e",
+    "town:111:vlp-16:campus",
+    "town:112:os0-64:garden",
+    "town:113:os1-64:campus",
+    "town:114:vlp-16:car-park",
+    "town:115:os0-128:indoor",
+    "town:116:vlp-16:garden",
+    "town:501:vlp-16:look-alikes",
+    "town:502:os1-32:look-alikes",
+    "town:503:hdl-32e:look-alikes",
+    "town:504:os1-64:look-alikes",
+)
+"""Default pairs: all sensors, all places, and towns of identical houses with seeds that nothing
+else uses."""
+
+SCANS, LOOK_ALIKE_SCANS, CITY_SCANS = 150, 400, 600
+"""Default numbers of scans of each robot: in a place, in a town of identical houses, and of --town.
+In a large town, a robot finds similar streets when the map lacks its own."""
+
+TOWNS = {61: 1.0, 62: 1.0, 63: 1.0}
+"""Share of the streets with identical houses in a town of --town; 0.5 in others."""
 
 
-def two_drives(folder: Path, seed: int, scans: int, look_alikes: float) -> tuple[Path, Path]:
+def two_drives(
+    folder: Path, seed: int, scans: int, look_alikes: float, sensor: str = DEFAULT_SENSOR
+) -> tuple[Path, Path]:
     """Simulate two robots that drive the same streets of a large town in opposite directions."""
-    from town import City, several_robots
+    import town
+    from town.drives.robots import fitted
 
-    city = City.build(seed, 1.6 * scans, look_alikes)
-    # In a curve the inner lane is shorter than the middle of the street.
-    route = city.route(city.planner.every_street()).cut(0.0, max(1.1 * scans, scans + 10.0))
-    one, other = several_robots(folder, city, route, 2, scans=scans, oncoming=10.0, progress=show)
+    city = town.City.build(seed, 1.6 * scans, look_alikes)
+    route = fitted(city.route(city.planner.every_street()), scans)
+    one, other = town.several_robots(
+        folder, city, route, 2, scans=scans, lidar=town.sensor(sensor), progress=show
+    )
     return one, other
 
 
@@ -49,34 +83,38 @@ def prepared_pairs(folders: list[Path]) -> "list[FitPair]":
     return pairs
 
 
-def simulated_pairs(folder: Path, drives: list[str], scans: int) -> "list[FitPair]":
+def simulated_pairs(folder: Path, drives: Sequence[str], scans: int | None) -> "list[FitPair]":
     """Simulate and segment the pairs of town:SEED:SENSOR:PLACE.
 
     Raises:
         ValueError: a name has another form, or its sensor or place is unknown.
     """
+    return [_simulated(folder / str(index), name, scans) for index, name in enumerate(drives)]
+
+
+def _simulated(folder: Path, name: str, scans: int | None) -> "FitPair":
     import town
-    from evaluation.poses.cases import FitPair
+    from evaluation.poses.cases import LOOK_ALIKES, FitPair
     from evaluation.poses.queries import Pair
 
-    pairs = []
-    for index, name in enumerate(drives):
-        seed, sensor, place = parse_town(name)
-        one, other = town.two_robots(
-            folder / str(index),
-            seed=seed,
-            scans=scans,
-            place=place,
-            lidar=town.sensor(sensor),
-            progress=show,
-        )
-        pair = Pair.of(one, other, 2, progress=show)
-        pairs.append(FitPair(pair, seed, sensor, place))
-    return pairs
+    alike = name.endswith(f":{LOOK_ALIKES}")
+    seed, sensor, place = parse_town(name.removesuffix(f":{LOOK_ALIKES}"))
+    if alike:
+        drives = two_drives(folder, seed, scans or LOOK_ALIKE_SCANS, 1.0, sensor)
+        return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, LOOK_ALIKES, 1.0)
+    drives = town.two_robots(
+        folder,
+        seed=seed,
+        scans=scans or SCANS,
+        place=place,
+        lidar=town.sensor(sensor),
+        progress=show,
+    )
+    return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, place)
 
 
 def look_alike_pairs(
-    folder: Path, seeds: list[int], look_alikes: float | None, scans: int
+    folder: Path, seeds: list[int], look_alikes: float | None, scans: int | None
 ) -> "list[FitPair]":
     """Simulate and segment the pairs of towns with rows of identical houses."""
     from evaluation.poses.cases import FitPair
@@ -85,7 +123,7 @@ def look_alike_pairs(
     pairs = []
     for seed in seeds:
         share = TOWNS.get(seed, 0.5) if look_alikes is None else look_alikes
-        drives = two_drives(folder / str(seed), seed, scans, share)
+        drives = two_drives(folder / str(seed), seed, scans or CITY_SCANS, share)
         pair = Pair.of(*drives, progress=show)
         pairs.append(FitPair(pair, seed, look_alikes=share))
     return pairs
@@ -94,10 +132,7 @@ def look_alike_pairs(
 def fit_confidence(
     town: Annotated[
         list[int] | None,
-        typer.Option(
-            help="Random seed of a town; repeatable. (default: 51 to 54, 61 to 63, if neither "
-            "--pairs nor --drive is given)"
-        ),
+        typer.Option(help="Random seed of a large town, seen by an HDL-64E; repeatable."),
     ] = None,
     look_alikes: Annotated[
         float | None,
@@ -121,12 +156,19 @@ def fit_confidence(
         list[str] | None,
         typer.Option(
             metavar="town:SEED:SENSOR:PLACE",
-            help="Pair to simulate, such as town:101:vlp-16:campus; repeatable.",
+            help="Pair to simulate, such as town:101:vlp-16:campus; repeatable. The place "
+            "look-alikes is a town of identical houses. (default: 20 pairs of all sensors and "
+            "places, if neither --pairs nor --town is given)",
         ),
     ] = None,
     scans: Annotated[
-        int, typer.Option(min=20, help="Scans per robot of --town and --drive.")
-    ] = 600,
+        int | None,
+        typer.Option(
+            min=20,
+            help="Scans per robot of --town and --drive. (default: 600 with --town; 150 with "
+            "--drive, and 400 in a town of identical houses)",
+        ),
+    ] = None,
     queries: Annotated[
         int,
         typer.Option(
@@ -160,11 +202,12 @@ def fit_confidence(
 
     folder_of_model = model_folder(model or DEFAULT_MODEL)
     file = output or folder_of_model / NAME
-    seeds = town or ([] if pairs or drive else list(TOWNS))
+    seeds = town or []
+    names = drive or ([] if pairs or seeds else list(DRIVES))
     with clear_errors(), tempfile.TemporaryDirectory(prefix="placecell-towns-") as temporary:
         folder = Path(temporary)
         found = prepared_pairs(pairs or [])
-        found += simulated_pairs(folder / "drives", drive or [], scans) if drive else []
+        found += simulated_pairs(folder / "drives", names, scans)
         if len(set(seeds)) + len({each.town for each in found}) < 2:
             raise ValueError("Give two or more towns: each one is left out of the fit once.")
         found += look_alike_pairs(folder, seeds, look_alikes, scans)

@@ -100,7 +100,7 @@ def _spent(model: Model, query: HardQuery, random: np.random.Generator) -> dict[
     timed(
         "judge",
         lambda: (
-            judge(matched, candidates, found.usable, parameters, model.confidence)
+            judge(matched, candidates, there, found.usable, parameters, model.confidence)
             if matched
             else None
         ),

@@ -37,8 +37,12 @@ FEW = (6, 8, 12, 20)
 APART = 3_000.0
 """Distance between the places of a joined map, meters."""
 
-NEAR = 80.0
-"""Radius around the robot that is removed from a map without a right answer, meters."""
+NEAR = 60.0
+"""Horizontal radius around the robot that is removed from a map without a right answer, meters. A
+robot's segments are within 40 m."""
+
+LOOK_ALIKES = "look-alikes"
+"""Kind of place: streets with rows of identical houses, all over a town."""
 
 K = 25
 """Candidates per segment."""
@@ -55,7 +59,7 @@ class FitPair:
         pair: the robots.
         town: seed of the place; pairs of one seed show the same place.
         sensor: name of the sensor.
-        place: kind of the place.
+        place: kind of the place: one of the town's, or `LOOK_ALIKES`.
         look_alikes: share of streets with identical houses; None for the default.
     """
 
@@ -85,7 +89,8 @@ class FitPair:
         files = [drive.with_suffix(".safetensors") for drive in drives]
         prepared = [file if file.is_file() else None for file in files]
         pair = Pair.of(drives[0], drives[1], 2, (prepared[0], prepared[1]), progress)
-        return cls(pair, int(seed), sensor, rest.removeprefix(f"{sensor}-"))
+        place = rest.removeprefix(f"{sensor}-")
+        return cls(pair, int(seed), sensor, place, 1.0 if place == LOOK_ALIKES else None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -200,7 +205,7 @@ PARAMETERS = LocalizationParameters()
 def _put_without(engine: Engine, compact: CompactMap, query: PoseQuery) -> None:
     """Store the map `without`: the map without the segments near the robot."""
     place = query.truth.apply(query.sensor)
-    far = np.linalg.norm(compact.centroids - place, axis=1) > NEAR
+    far = np.linalg.norm((compact.centroids - place)[:, :2], axis=1) > NEAR
     if engine.maps.find("without") is not None:
         engine.delete_map("without")
     engine.put_map("without", take(compact, far))

@@ -25,9 +25,10 @@ from placecell.localization.confidence import DEFAULT_RISK, FEATURES, SegmentNee
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
-FITTED = ("score", "margin", "spread", "surprise", "majority")
-"""Features of the model. `share` and `residual` depend on the sensor: unmatched segments and
-centroid noise are more frequent on real sensors than in the town."""
+FITTED = ("score", "margin", "spread", "surprise", "explained")
+"""Features of the model. `share`, `majority` and `residual` depend on the sensor: unmatched
+segments and centroid noise are more frequent on real sensors than in the town. `explained` tells a
+street from a similar one."""
 
 PENALTY = 1.0
 """Factor of the squared weights in the loss."""
@@ -94,7 +95,8 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
     sure = held_out >= 0.99
     highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
     stated = np.minimum(highest * held_out, cases.limits)
-    acceptance = Acceptance.by_sensor(stated, cases.false & ~cases.rejected, cases.sensors)
+    false = cases.false & ~cases.rejected
+    acceptance = Acceptance.by_group(stated, false, cases.sensors, cases.places)
     fitted = logistic(cases.features, cases.right, highest)
     threshold = acceptance.threshold(max(DEFAULT_RISK, acceptance.smallest_risk))
     told = (stated > threshold) & ~cases.rejected

@@ -7,8 +7,9 @@ poses have a probability above a threshold. The smallest threshold is used for w
     (k + 1) / (n + 1) <= alpha
 
 Then the expected risk of a further query is at most alpha, if it is like the calibration queries.
-A user has one sensor, so the same holds for the queries of each sensor alone, as far as their
-number allows: with fewer than 1 / alpha of them, none of their false poses exceeds the threshold.
+A user has one sensor in one place, so the same holds for the queries of each sensor alone and of
+each kind of place alone, as far as their number allows: with fewer than 1 / alpha of them, none of
+their false poses exceeds the threshold.
 Source: Angelopoulos, Bates, Fisch, Lei, Schuster: *Conformal risk control*. ICLR 2024.
 """
 
@@ -35,11 +36,13 @@ class Acceptance:
         queries: number of calibration queries.
         false: probabilities of the false poses, largest first; at most the `KEPT` largest.
         sensors: the queries of each sensor, by its name.
+        places: the queries of each kind of place, by its name.
     """
 
     queries: int
     false: tuple[float, ...]
     sensors: tuple[tuple[str, "Acceptance"], ...] = ()
+    places: tuple[tuple[str, "Acceptance"], ...] = ()
 
     @classmethod
     def of(cls, probabilities: Float64, false: Bool) -> Self:
@@ -49,15 +52,25 @@ class Acceptance:
         return cls(len(probabilities), tuple((np.ceil(wrong * 1e9) / 1e9).tolist()))
 
     @classmethod
-    def by_sensor(cls, probabilities: Float64, false: Bool, sensors: NDArray[Any]) -> Self:
-        """Build as `of`, with the queries of each sensor, (n,) names, also by themselves."""
-        pooled = cls.of(probabilities, false)
+    def by_group(
+        cls,
+        probabilities: Float64,
+        false: Bool,
+        sensors: NDArray[Any],
+        places: NDArray[Any],
+    ) -> Self:
+        """Build as `of`, with the queries of each sensor and of each place also by themselves.
+
+        Args:
+            probabilities: float64 (n,).
+            false: bool (n,), which poses are false.
+            sensors: (n,), name of the sensor.
+            places: (n,), kind of the place.
+        """
         return replace(
-            pooled,
-            sensors=tuple(
-                (name, Acceptance.of(probabilities[sensors == name], false[sensors == name]))
-                for name in np.unique(sensors).tolist()
-            ),
+            cls.of(probabilities, false),
+            sensors=_alone(probabilities, false, sensors),
+            places=_alone(probabilities, false, places),
         )
 
     @property
@@ -86,14 +99,16 @@ class Acceptance:
             pooled = self.false[allowed]
         else:  # all false poses are allowed, or more than the file keeps
             pooled = self.false[-1] if len(self.false) == KEPT else 0.0
-        alone = (each.threshold(max(risk, each.smallest_risk)) for _, each in self.sensors)
+        groups = (*self.sensors, *self.places)
+        alone = (each.threshold(max(risk, each.smallest_risk)) for _, each in groups)
         return max([pooled, *alone])
 
     def as_json(self) -> dict[str, Any]:
         """Return the content for `confidence.json`."""
         content: dict[str, Any] = {"queries": self.queries, "false": list(self.false)}
-        if self.sensors:
-            content["sensors"] = {name: each.as_json() for name, each in self.sensors}
+        for key, groups in (("sensors", self.sensors), ("places", self.places)):
+            if groups:
+                content[key] = {name: each.as_json() for name, each in groups}
         return content
 
     @classmethod
@@ -102,8 +117,21 @@ class Acceptance:
         return cls(
             int(content["queries"]),
             tuple(float(each) for each in content["false"]),
-            tuple((name, cls.of_json(each)) for name, each in content.get("sensors", {}).items()),
+            *(
+                tuple((name, cls.of_json(each)) for name, each in content.get(key, {}).items())
+                for key in ("sensors", "places")
+            ),
         )
+
+
+def _alone(
+    probabilities: Float64, false: Bool, groups: NDArray[Any]
+) -> tuple[tuple[str, Acceptance], ...]:
+    """Return the queries of each group by themselves."""
+    return tuple(
+        (name, Acceptance.of(probabilities[groups == name], false[groups == name]))
+        for name in np.unique(groups).tolist()
+    )
 
 
 def check_risk(risk: float) -> None:

@@ -32,9 +32,19 @@ SHIPPED = PACKAGED if PACKAGED.is_file() else MODELS_FOLDER / DEFAULT_MODEL / NA
 DEFAULT_RISK = 0.001
 """Default of `max_false_acceptance`."""
 
-FEATURES = ("score", "margin", "inliers", "share", "residual", "spread", "surprise", "majority")
+FEATURES = (
+    "score",
+    "margin",
+    "inliers",
+    "share",
+    "residual",
+    "spread",
+    "surprise",
+    "majority",
+    "explained",
+)
 """Names of all features. A file names those that its model uses: earlier versions used the first
-six."""
+six, or five of the first eight."""
 
 
 MAJORITY = 0.5
@@ -43,9 +53,14 @@ more. It depends on the sensor, and on what has changed since the map was made."
 
 
 def features_of(
-    best: Hypothesis, score: float, rival: float, usable: int, candidates: Candidates
+    best: Hypothesis,
+    score: float,
+    rival: float,
+    usable: int,
+    candidates: Candidates,
+    explained: float,
 ) -> Float64:
-    """Return all features of a hypothesis, float64 (8,), in the order of `FEATURES`.
+    """Return all features of a hypothesis, float64 (features,), in the order of `FEATURES`.
 
     Args:
         best: best hypothesis.
@@ -53,6 +68,7 @@ def features_of(
         rival: score of the best hypothesis at another place, divided by `score`; 0 without one.
         usable: number of queries that have candidates.
         candidates: candidates of all queries.
+        explained: share of the robot's segments that the map explains (`explained_share`).
     """
     plan = best.source[:, :2] - best.source[:, :2].mean(axis=0)
     # The smaller horizontal extent: segments in a row determine less than segments all around.
@@ -67,8 +83,16 @@ def features_of(
             np.log1p(spread),
             np.arcsinh(surprise(best.pose, candidates)),
             min(len(best) / usable, MAJORITY),
+            explained,
         ]
     )
+
+
+def with_rival(features: Float64, rival: float) -> Float64:
+    """Return the features with another rival's score, divided by that of the hypothesis."""
+    changed = features.copy()
+    changed[FEATURES.index("margin")] = 1 - rival
+    return changed
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ import numpy as np
 from placecell.core.cancellation import current
 from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
-from placecell.localization.confidence import Confidence, features_of
+from placecell.localization.confidence import Confidence, with_rival
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import MapSegments, match_guided
 from placecell.localization.hypothesis import Hypothesis, same_place
@@ -180,6 +180,7 @@ def judge_jointly(
         judge(
             places.hypotheses,
             query.candidates,
+            query.there,
             places.usable,
             parameters,
             query.confidence,
@@ -273,13 +274,8 @@ def _against(
     reason, detail, probability, features = own.reason, own.detail, own.probability, own.features
     second = 0.0 if features is None else 1.0 - float(features[1])
     if strongest is not None and strongest.ratio > second:
-        features = features_of(
-            best=own.best,
-            score=max(float(np.exp(features[0])) if features is not None else 0.0, 1e-9),
-            rival=min(strongest.ratio, 1.0),
-            usable=usable,
-            candidates=query.candidates,
-        )
+        assert features is not None  # as there is a best hypothesis
+        features = with_rival(features, min(strongest.ratio, 1.0))
         probability = min(probability, query.confidence.probability(features))
     doubt = min((chance_of_map(each.ahead, parameters) for each in alike), default=1.0)
     close = [each for each in alike if each.is_plausible or each.ratio >= parameters.ambiguous]

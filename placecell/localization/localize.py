@@ -14,6 +14,7 @@ from placecell.localization.correspondences import correspond
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
 from placecell.localization.hypothesis import Hypothesis, find_hypotheses
+from placecell.localization.overlap import explained_share
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.voting import most_voted
@@ -90,7 +91,7 @@ def localize(
         return unknown(places.usable, parameters, confidence)
     there = there or CandidateSegments(candidates)
     hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
-    return judge(hypotheses, candidates, places.usable, parameters, confidence, evidence)
+    return judge(hypotheses, candidates, there, places.usable, parameters, confidence, evidence)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,6 +160,7 @@ def threshold_of(
 def judge(
     hypotheses: Sequence[Hypothesis],
     candidates: Candidates,
+    there: MapSegments,
     usable: int,
     parameters: LocalizationParameters,
     confidence: Confidence,
@@ -169,6 +171,7 @@ def judge(
     Args:
         hypotheses: one or more hypotheses at different places.
         candidates: candidates of all queries.
+        there: segments of the map.
         usable: number of queries that have candidates.
         parameters: constants of localization.
         confidence: model of the probability.
@@ -179,7 +182,8 @@ def judge(
     best, total = hypotheses[order[0]], float(totals[order[0]])
     second = hypotheses[order[1]] if len(order) > 1 else None
     rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
-    features = features_of(best, total, rival, usable, candidates)
+    explained = explained_share(best.pose, candidates, there)
+    features = features_of(best, total, rival, usable, candidates, explained)
     probability = confidence.probability(features)
     threshold, risk = threshold_of(parameters, confidence)
     reason, limit = rejection_of(best, rival, parameters)

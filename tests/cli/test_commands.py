@@ -488,16 +488,18 @@ def test_evaluate_poses_of_a_sparse_sensor_is_an_error(tmp_path: Path) -> None:
 
 
 def test_fit_confidence_writes_constants(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    coarse = partial(town.several_robots, lidar=replace(town.HDL_64E, columns=300))
-    monkeypatch.setattr("town.several_robots", coarse)
+    monkeypatch.setattr("town.sensor", lambda name: replace(town.HDL_64E, columns=300))
     file = tmp_path / "confidence.json"
-    words = ("--town", 1, "--town", 2, "--scans", 20, "--model", "eigenvalue")
+    alike = "town:2:hdl-64e:look-alikes"
+    words = ("--town", 1, "--drive", alike, "--scans", 20, "--model", "eigenvalue")
     result = run("fit-confidence", *words, "-o", file)
     assert "Brier" in result.output
     fitted = Confidence.load(file)
     assert 0 < fitted.highest < 1
     content = json.loads(file.read_text())
-    assert content["fitted_on"]["towns"] == [1, 2]
+    assert content["fitted_on"]["towns"] == [2, 1]
+    assert content["fitted_on"]["places"] == ["look-alikes", "streets"]
+    assert content["fitted_on"]["look_alikes"] == [1.0, 0.5]
     assert content["held_out"]["reliability"]
     assert "two or more" in run("fit-confidence", "--town", 1, "-o", file, status=1).output
 

@@ -81,13 +81,25 @@ def test_each_sensor_alone_keeps_the_risk() -> None:
     values = np.array([0.9, 0.8, 0.3] + [1.0] * 37)
     false = np.arange(40) < 3
     sensors = np.array(["b", "b", "a"] + ["b"] * 18 + ["a"] * 19)
-    pooled, each = Acceptance.of(values, false), Acceptance.by_sensor(values, false, sensors)
+    pooled = Acceptance.of(values, false)
+    each = Acceptance.by_group(values, false, sensors, np.full(40, "streets"))
     assert pooled.threshold(0.05) == 0.8
     assert each.threshold(0.05) == 0.9
     assert dict(each.sensors)["a"] == Acceptance(20, (0.3,))
     # Two false poses of sensor b, and one more of sensor a, are 3 in 21 and 2 in 21.
     assert each.threshold(0.15) == 0.0
     assert Acceptance.of_json(each.as_json()) == each
+
+
+def test_each_kind_of_place_alone_keeps_the_risk() -> None:
+    values = np.array([0.9, 0.8, 0.3] + [1.0] * 37)
+    false = np.arange(40) < 3
+    places = np.array(["look-alikes"] * 10 + ["campus"] * 30)
+    each = Acceptance.by_group(values, false, np.full(40, "a"), places)
+    assert each.threshold(0.05) == 0.9
+    # Pooled, seven false poses in 40 are allowed at 0.2; of ten look-alikes, one is.
+    assert each.threshold(0.2) == 0.8
+    assert Acceptance.of_json(json.loads(json.dumps(each.as_json()))) == each
 
 
 def test_more_false_poses_than_a_file_keeps_never_lower_the_threshold() -> None:

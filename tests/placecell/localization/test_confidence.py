@@ -16,6 +16,7 @@ from placecell.localization.confidence import (
     Confidence,
     features_of,
     shipped,
+    with_rival,
 )
 from placecell.localization.hypothesis import Hypothesis
 from placecell.localization.pose import Pose
@@ -56,7 +57,7 @@ def test_features_by_hand() -> None:
     candidates = Candidates(
         source, numbers[:, None], source[:, None] + (100.0, 0, 0), np.full((4, 1), 0.5)
     )
-    row = features_of(best, 10.0, 0.25, 16, candidates).tolist()
+    row = features_of(best, 10.0, 0.25, 16, candidates, 0.8).tolist()
     # No candidate is near: no p-value, and 72 yaws at 64 m2 (one cell, or two) for 7 thresholds.
     alarms = 72 * area_of(candidates) * 7
     assert dict(zip(FEATURES, row, strict=True)) == pytest.approx(
@@ -69,8 +70,18 @@ def test_features_by_hand() -> None:
             "spread": np.log1p(np.sqrt(2)),  # 2 meters squared across, 4.5 along
             "surprise": -np.arcsinh(np.log(alarms)),
             "majority": 0.25,
+            "explained": 0.8,
         }
     )
+
+
+def test_another_rival_changes_the_margin_only() -> None:
+    features = np.arange(float(len(FEATURES)))
+    changed = with_rival(features, 0.25)
+    assert changed[FEATURES.index("margin")] == 0.75
+    others = [number for number, name in enumerate(FEATURES) if name != "margin"]
+    assert changed[others].tolist() == features[others].tolist()
+    assert features[FEATURES.index("margin")] == 1.0
 
 
 def test_majority_grows_up_to_one_half_of_the_segments() -> None:
@@ -82,7 +93,7 @@ def test_majority_grows_up_to_one_half_of_the_segments() -> None:
     candidates = Candidates(points, numbers[:, None], points[:, None], np.full((4, 1), 0.5))
     shares = {}
     for usable in (4, 6, 8, 16):
-        row = features_of(best, 8.0, 0.0, usable, candidates)
+        row = features_of(best, 8.0, 0.0, usable, candidates, 1.0)
         shares[usable] = row[FEATURES.index("majority")]
     assert shares == {4: 0.5, 6: 0.5, 8: 0.5, 16: 0.25}
 
@@ -100,7 +111,9 @@ def test_file_of_the_first_version_is_read(tmp_path: Path) -> None:
     old = Confidence.load(file, "mine-1")
     assert old.features == FEATURES[:6]
     assert old.acceptance is None
-    row = np.array([3, 0.7, 2.4, 0.6, 0.4, 2, 99, 99])  # the means; the new ones do not count
+    row = np.array(
+        [3, 0.7, 2.4, 0.6, 0.4, 2, 99, 99, 99, 99]
+    )  # the means; the new ones do not count
     assert old.probability(row) == pytest.approx(0.999 / (1 + np.exp(-3.5)))
 
 
