@@ -176,7 +176,7 @@ def fit_confidence(
             help="Largest number of captures of each robot that are localized, spread evenly. Each "
             "one is localized about ten times.",
         ),
-    ] = 40,
+    ] = 16,
     model: Model = None,
     output: Annotated[
         Path | None,

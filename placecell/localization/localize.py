@@ -191,11 +191,11 @@ def judge(
     detail = ""
     if reason == "ambiguous":
         assert second is not None  # it has the rival's score
-        here, there = places_of(best, second)
+        one, other = places_of(best, second)
         detail = (
             f"Another place has {rival:.0%} of the best place's score. The segments fit at "
-            f"{_position_text(here)} and at {_position_text(there)}, "
-            f"{np.linalg.norm(here - there):.1f} m apart."
+            f"{_position_text(one)} and at {_position_text(other)}, "
+            f"{np.linalg.norm(one - other):.1f} m apart."
         )
     elif reason == "inconsistent":
         detail = f"The {len(best)} inlier segments do not determine the rotation."
