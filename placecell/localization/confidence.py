@@ -51,6 +51,10 @@ MAJORITY = 0.5
 """Share of inliers from which a larger one says nothing about the pose: no other place can have
 more. It depends on the sensor, and on what has changed since the map was made."""
 
+FEW = 8
+"""Number of segments with which the explained share counts half: few segments of similar streets
+are all explained now and then."""
+
 
 def features_of(
     best: Hypothesis,
@@ -83,7 +87,7 @@ def features_of(
             np.log1p(spread),
             np.arcsinh(surprise(best.pose, candidates)),
             min(len(best) / usable, MAJORITY),
-            explained,
+            explained * usable / (usable + FEW),
         ]
     )
 

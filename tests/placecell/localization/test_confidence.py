@@ -70,7 +70,7 @@ def test_features_by_hand() -> None:
             "spread": np.log1p(np.sqrt(2)),  # 2 meters squared across, 4.5 along
             "surprise": -np.arcsinh(np.log(alarms)),
             "majority": 0.25,
-            "explained": 0.8,
+            "explained": 0.8 * 16 / (16 + 8),
         }
     )
 
