@@ -283,7 +283,7 @@ def run_trial(
 def _localize(engine: Engine, codes: dict[str, Int8], centroids: Float64) -> LocalizationResult:
     """Localize in all maps, with the codes of each model."""
     selection = select_maps(engine.maps, engine.models, None, None, ANYONE)
-    query = Query(engine.model.id, selection, K, None, ())
+    query = Query(engine.model.id, selection, K, None, (), searched_k=K, is_reranked=False)
     described = [
         Descriptors(model.id, codes[model.id], None, centroids, {})
         for model, _ in selection.searched
