@@ -10,6 +10,7 @@ from placecell.core.types import Float32, Float64
 from placecell.datasets.drive import Drive, check_motion
 from placecell.datasets.source_poses import SourcePoses, find_poses, prefixed
 from placecell.odometry.deskew import SensorMotion
+from placecell.odometry.leveling import ground_in_world, leveling_of
 from placecell.sources.errors import DriveError
 from placecell.sources.point_layout import implausible
 from placecell.sources.scan import LidarScan
@@ -21,6 +22,9 @@ from placecell.sources.scan_options import (
 from placecell.sources.source import ScanSource
 from placecell.trajectories.interpolation import SAME
 
+LARGEST_SLOPE = 10.0
+"""Tilt of the ground over a whole drive from which z of the world is not up, degrees; the steepest
+streets have 20 degrees, but not over a whole drive."""
 UNKNOWN_STEP = 0.1
 """Time between two scans if nothing tells it, seconds."""
 
@@ -62,6 +66,7 @@ class SourceDrive(Drive):
         self.origin = self.source_poses.poses[0, :3, 3].copy()
         self.poses = self.source_poses.poses.copy()
         self.poses[:, :3, 3] -= self.origin
+        self.level()
         self.times = self.find_times()
         for remark in check_motion(
             self.poses, self.times, Path(self.source_poses.name), source.path
@@ -83,6 +88,17 @@ class SourceDrive(Drive):
     def content(self) -> str:
         fields = ", ".join(self.source.fields)
         return f"{self.source.format} with {fields}" if fields else self.source.format
+
+    def level(self) -> None:
+        """Turn the world so that its z is up, if the ground shows that it is not."""
+        ground = ground_in_world(self.source, self.scans.tolist(), self.poses)
+        if ground is None or ground.tilt_deg < LARGEST_SLOPE:
+            return
+        self.options.tell(
+            f"{self.folder}: the ground is tilted by {ground.tilt_deg:.0f} degrees in the world of "
+            "the poses; the world is leveled by it"
+        )
+        self.poses = leveling_of(ground) @ self.poses
 
     def find_times(self) -> Float64:
         """Return the time of each scan, seconds; 0.1 s apart if nothing tells it."""

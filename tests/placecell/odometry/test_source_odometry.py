@@ -18,6 +18,7 @@ from placecell.odometry.drift import estimate_drift, windows
 from placecell.odometry.scan_odometry import OdometrySettings, times_of
 from placecell.odometry.source_odometry import describe_drift, odometry_of
 from placecell.sources import DriveError
+from placecell.trajectories.trajectory import Trajectory
 from tests.placecell.datasets.source_fakes import MemorySource
 from tests.placecell.segment_builders import box, pose
 
@@ -116,6 +117,21 @@ def test_drive_without_poses_gets_those_of_odometry() -> None:
     assert len(drive) == SCANS
     assert drive.poses[:, :3, 3] == pytest.approx(poses[:, :3, 3], abs=0.1)
     assert drive.motion is not None
+
+
+@pytest.mark.slow
+def test_given_poses_of_a_tilted_world_are_leveled() -> None:
+    """Poses of an odometry of others: its world is the frame of the tilted sensor."""
+    source, poses = driven(25.0)
+    tilt = np.eye(4)
+    tilt[:3, :3] = Rotation.from_euler("y", 25, degrees=True).as_matrix()
+    source.own = Trajectory(np.linalg.inv(tilt) @ poses @ tilt, source.stamps, "lidar", "odom")
+    said: list[str] = []
+    with use_scan_options(ScanOptions(tell=said.append)):
+        drive = SourceDrive(source)
+    assert any("the ground is tilted by 25 degrees" in line for line in said)
+    assert drive.poses[:, 2, 3] == pytest.approx(0, abs=0.2)
+    assert drive.poses[0, :3, :3] == pytest.approx(tilt[:3, :3], abs=0.03)
 
 
 @pytest.mark.slow
