@@ -49,7 +49,7 @@ def seen(at: Float64, tilt: Float64) -> Float32:
     """Return the world's points within 35 m of a pose, in the frame of a tilted sensor."""
     points = world() @ np.eye(3, dtype=np.float32) - np.array([*at[:2, 3], HEIGHT], np.float32)
     points = points[np.linalg.norm(points, axis=1) < 35]
-    return (points @ at[:3, :3].astype(np.float32) @ tilt.astype(np.float32)).astype(np.float32)
+    return np.asarray(points @ (at[:3, :3] @ tilt).astype(np.float32), np.float32)
 
 
 def driven(
