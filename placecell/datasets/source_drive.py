@@ -11,6 +11,7 @@ from placecell.datasets.drive import Drive, check_motion
 from placecell.datasets.source_poses import SourcePoses, find_poses, prefixed
 from placecell.odometry.deskew import SensorMotion
 from placecell.odometry.leveling import ground_in_world, leveling_of
+from placecell.sources.bags import BagSource
 from placecell.sources.errors import DriveError
 from placecell.sources.point_layout import implausible
 from placecell.sources.scan import LidarScan
@@ -58,7 +59,14 @@ class SourceDrive(Drive):
             raise DriveError(
                 f"{source.path}: holds no scans. Check the file, or its topic (--topic)"
             )
-        if options.topic and not hasattr(source, "topics"):
+        if isinstance(source, BagSource):
+            topic = source.cloud_topic
+            frame = f", frame {source.frame!r}" if source.frame else ""
+            options.tell(
+                f"{source.path}: scans are the {len(topic)} clouds of the topic {topic.name!r} "
+                f"({topic.type}{frame})"
+            )
+        elif options.topic:
             options.tell(f"{source.path}: {source.format} has no topics; --topic is not used")
         self.source_poses: SourcePoses = find_poses(source, options)
         self.scans = self.source_poses.scans

@@ -81,9 +81,8 @@ def find_poses(source: ScanSource, options: ScanOptions) -> SourcePoses:
     found = poses_of_scans(given.trajectory, source.stamps, given.name, options.pose_offset)
     for remark in found.remarks:
         options.tell(remark)
-    options.tell(
-        f"{source.path}: {len(found.scans)} of {len(source)} scans have a pose, from {given.name}"
-    )
+    origin = "" if given.name == str(source.path) else f", from {given.name}"
+    options.tell(f"{source.path}: {len(found.scans)} of {len(source)} scans have a pose{origin}")
     return on_sensor(found, given.mount, given.name)
 
 
@@ -107,6 +106,8 @@ def given_poses(source: ScanSource, options: ScanOptions) -> FoundPoses | None:
     stated = options.odometry_topic
     name = f"{source.path}, topic {stated}" if stated else f"{source.path}"
     if isinstance(source, BagSource):
+        for remark in source.poses.remarks:
+            options.tell(prefixed(str(source.path), remark))
         # A stated mount is that on the robot; else the bag's transforms tell it.
         if options.extrinsic is None and source.poses.sensor is not None:
             how = f"mount of the sensor by {source.poses.extrinsic.how}"

@@ -75,7 +75,7 @@ def test_own_poses_are_used_and_told() -> None:
     said: list[str] = []
     found = drive(MemorySource(SCANS, STAMPS, own()), said)
     assert found.poses[1] == pytest.approx(pose(1.0))
-    assert any("4 of 4 scans have a pose, from memory.bag" in line for line in said)
+    assert any("memory.bag: 4 of 4 scans have a pose" in line for line in said)
     assert any("poses are those of the sensor's frame 'lidar'" in line for line in said)
 
 
