@@ -90,8 +90,12 @@ class Drive(ABC):
         return len(self.scan_files)
 
     def scan_name(self, index: int) -> str:
-        """Return the name of a scan in messages."""
+        """Return the name of a scan in messages about the drive."""
         return self.scan_files[index].name
+
+    def scan_path(self, index: int) -> str:
+        """Return the file of a scan in messages, or its number in the drive's file."""
+        return str(self.scan_files[index])
 
     @property
     def title(self) -> str:
@@ -233,10 +237,7 @@ class Drive(ABC):
             DriveError: the options are strict.
         """
         if self.options.strict:
-            raise DriveError(
-                f"{self.scan_files[index].parent / self.scan_name(index)}: {why}. Without "
-                "--strict it is skipped"
-            )
+            raise DriveError(f"{self.scan_path(index)}: {why}. Without --strict it is skipped")
         self.dropouts.skipped[index] = why
 
     def check_usable(self, scans: range) -> None:

@@ -186,6 +186,9 @@ class SourceDrive(Drive):
     def scan_name(self, index: int) -> str:
         return f"scan {int(self.scans[index])}"
 
+    def scan_path(self, index: int) -> str:
+        return f"{self.folder}, {self.scan_name(index)}"
+
 
 def check_points(scan: LidarScan, name: str) -> None:
     """Refuse a scan without usable points.
