@@ -15,6 +15,7 @@ from cli.bench.maps import maps
 from cli.bench.peers import peers
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
+from cli.bench.read import read
 from cli.bench.sensors import sensors
 from cli.bench.serve import serve
 from cli.bench.soak import soak
@@ -43,3 +44,4 @@ bench.command()(powerloss)
 bench.command()(fleet)
 bench.command()(attack)
 bench.command("json")(json_requests)
+bench.command()(read)
