@@ -216,11 +216,15 @@ def of_our_files(path: Path) -> Subject | None:
     if not path.is_file():
         return None
     with path.open("rb") as stream:
-        begin = stream.read(256)
+        begin = stream.read(4096)
     if b'"__metadata__"' not in begin and path.suffix not in (".safetensors", ".map", ".delta"):
         return None
     from placecell.segmentation.recording import Recording, RecordingError
 
+    if b"placecell-delta" in begin:
+        about = "a delta file of Placecell: the difference between two versions of a map"
+        told = SourceProblem("error", about, "Give the map file, or the drive it was made from.")
+        return nothing(path, "Placecell delta file", about=about, problems=(told,))
     cure = "Give the drive or bag that it was made from to inspect scans."
     try:
         recording = Recording.load(path)

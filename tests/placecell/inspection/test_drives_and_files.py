@@ -16,6 +16,8 @@ from placecell.segmentation.pipeline import record
 from tests.client.map_builders import random_map
 from tests.placecell.inspection.scan_builders import way, write_clouds, yards
 
+FIXTURES = Path(__file__).parents[2] / "fixtures"
+
 
 def write_kitti(folder: Path, scans: int = 6) -> Path:
     """Write a drive through the yard in the KITTI layout."""
@@ -68,6 +70,19 @@ def test_recording_and_map_are_named(tmp_path: Path) -> None:
     file = tmp_path / "yard.map"
     file.write_bytes(encode(random_map(20)))
     assert inspect_source(file).as_dict()["format"] == "Placecell map file"
+
+
+def test_delta_file_is_named_and_not_usable() -> None:
+    found = inspect_source(FIXTURES / "version-1.delta")
+    assert found.as_dict()["format"] == "Placecell delta file"
+    assert not found.usable
+
+
+def test_listed_files_of_a_ros2_bag_may_have_the_key_path(tmp_path: Path) -> None:
+    from placecell.sources.bags.containers.bag import LISTED
+
+    text = "relative_file_paths:\n  - run_0.db3\nfiles:\n  - path: run_1.db3\n"
+    assert LISTED.findall(text) == ["run_0.db3", "run_1.db3"]
 
 
 def test_command_writes_json_and_picture_and_tells_cures(tmp_path: Path) -> None:

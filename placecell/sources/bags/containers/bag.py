@@ -29,7 +29,9 @@ COMPRESSED = (".zstd", ".zst")
 LONGEST_GAP = 60.0
 """Longest gap between the parts of one recording that needs no remark, seconds."""
 METADATA = "metadata.yaml"
-LISTED = re.compile(r"^\s*-\s+[\"']?([^\"'\n]+?\.(?:db3|mcap)(?:\.zstd)?)[\"']?\s*$", re.MULTILINE)
+LISTED = re.compile(
+    r"^\s*-\s+(?:path:\s*)?[\"']?([^\"'\n]+?\.(?:db3|mcap)(?:\.zstd)?)[\"']?\s*$", re.MULTILINE
+)
 """A file's name in `metadata.yaml` of a ROS 2 bag."""
 
 
