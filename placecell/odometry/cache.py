@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 
 from placecell.core.types import Float64
 from placecell.sources.errors import DriveError
@@ -68,18 +67,13 @@ def save(file: Path, odometry: CachedOdometry) -> bool:
     rows = odometry.poses[:, :3].reshape(-1, 12)
     lines = [" ".join(repr(float(value)) for value in row) for row in rows]
     header = json.dumps({"drift_percent": odometry.drift_percent, "scans": len(rows)})
-    unfinished = None
+    unfinished = file.with_name(f"{file.name}.{os.getpid()}.unfinished")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        with NamedTemporaryFile(
-            "w", dir=file.parent, suffix=".unfinished", delete=False, encoding="utf-8"
-        ) as written:
-            unfinished = Path(written.name)
-            written.write(f"# {header}\n" + "\n".join(lines) + "\n")
+        unfinished.write_text(f"# {header}\n" + "\n".join(lines) + "\n", encoding="utf-8")
         unfinished.replace(file)
     except OSError:
-        if unfinished is not None:
-            with suppress(OSError):
-                unfinished.unlink(missing_ok=True)
+        with suppress(OSError):
+            unfinished.unlink(missing_ok=True)
         return False
     return True
