@@ -38,6 +38,7 @@ NO_JSON: dict[tuple[str, ...], str] = {
     ("train",): "writes a model's folder",
     ("experiments",): "writes a report's folder",
     ("ablations",): "writes a report's folder with ablations.json",
+    ("export",): "writes a file for another program",
 }
 """Commands without --json, each with the reason."""
 

@@ -114,7 +114,7 @@ class Calls:
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
-            if rerank and np.isfinite(description.centroids[rows]).all():
+            if rerank and _has_centroids(description, rows):
                 body |= self._centroids(description, rows)
             return self._post(
                 "/match", body, lambda answer: parsing.matches_of(answer, description, rows)
@@ -357,6 +357,12 @@ class Calls:
 def _search(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
     """Return the part of a body that selects the maps."""
     return {"k": k} if maps is None else {"k": k, "maps": list(maps)}
+
+
+def _has_centroids(description: Description, rows: list[int]) -> bool:
+    """Return whether these rows of a description have centroids, which re-ranking needs."""
+    centroids = description.centroids
+    return centroids.shape[1:] == (3,) and bool(np.isfinite(centroids[rows]).all())
 
 
 def _usable(description: Description) -> list[int]:

@@ -1,5 +1,7 @@
 """Each shipped model gives the same over HTTP as in the library."""
 
+from dataclasses import replace
+
 import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
@@ -43,7 +45,8 @@ def test_descriptor_and_probability_over_http_equal_those_of_the_library(
         single = client.post("/describe", json=request_of(CLOUDS[:1], SENSOR)).json()
         same = single["descriptors"][0]["codes"] == codes[0].tolist()
         assert same == (manifest.neighborhood is None)
-        stored = map_of(codes, manifest.model_id, first_id=0)
+        version = manifest.preprocessing["version"]
+        stored = replace(map_of(codes, manifest.model_id, first_id=0), preprocessing=version)
         client.put("/maps/m", content=encode(stored))
         matched = client.post("/match", json=request_of(CLOUDS, SENSOR) | {"k": 6}).json()
     classifier = load_pair_classifier(MODELS_FOLDER / name, manifest)
