@@ -1,6 +1,5 @@
 """A drive: a sequence of LiDAR scans, each with the sensor's pose."""
 
-import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from contextlib import suppress
@@ -15,6 +14,7 @@ from placecell.core.text_files import read_lines
 from placecell.core.types import Float32, Float64
 from placecell.odometry.deskew import SensorMotion, deskew
 from placecell.sources.errors import DriveError
+from placecell.sources.file_hash import file_hash
 from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
 from placecell.sources.point_times import split_name
@@ -269,18 +269,8 @@ class Drive(ABC):
         return "; ".join(words)
 
     def scan_hash(self, index: int) -> str:
-        """Return a scan's identity: the SHA-256 of its file, shortened to 16 hex digits.
-
-        The identity of a scan without content (a sensor dropout) is its drive and name: two drives
-        with such scans have not seen the same place.
-        """
-        file = self.scan_files[index]
-        try:
-            content = file.read_bytes()
-        except OSError:
-            content = b""
-        content = content or f"no points: {self.folder.name}/{file.name}".encode()
-        return hashlib.sha256(content).hexdigest()[:16]
+        """Return a scan's identity (see `file_hash`)."""
+        return file_hash(self.scan_files[index], self.folder.name)
 
     def path_length(self) -> float:
         """Return the length of the path, meters."""

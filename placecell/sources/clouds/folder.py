@@ -1,6 +1,5 @@
 """Folders of point cloud files, and single files."""
 
-import hashlib
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -23,6 +22,7 @@ from placecell.sources.clouds.formats import RAW, ReadOptions, format_of, read_c
 from placecell.sources.clouds.raw import layout_of
 from placecell.sources.clouds.times import stamps_beside, stamps_of_names
 from placecell.sources.errors import DriveError
+from placecell.sources.file_hash import file_hash
 from placecell.sources.point_layout import KITTI
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import METERS, current_scan_options
@@ -156,15 +156,5 @@ class FolderOfClouds(ScanSource):
         return scan
 
     def scan_hash(self, index: int) -> str:
-        """Return a scan's identity: the SHA-256 of its file, shortened to 16 hex digits.
-
-        The identity of an empty file is its folder and name: two drives with such files have not
-        seen the same place.
-        """
-        file = self.files[index]
-        try:
-            content = file.read_bytes()
-        except OSError:
-            content = b""
-        content = content or f"no points: {self.title}/{file.name}".encode()
-        return hashlib.sha256(content).hexdigest()[:16]
+        """Return a scan's identity (see `file_hash`)."""
+        return file_hash(self.files[index], self.title)
