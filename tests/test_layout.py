@@ -14,6 +14,7 @@ FOLDERS = (
     "placecell",
     "client/placecell_client",
     "service",
+    "robot",
     "town",
     "training",
     "evaluation",
@@ -23,6 +24,7 @@ FOLDERS = (
 )
 SMALL = (
     "service",
+    "robot",
     "client/placecell_client",
     "training",
     "evaluation",
@@ -69,6 +71,9 @@ LAYERS = (
     ("service.api.routes",),
     ("service.app",),
     ("service",),
+    ("robot.core",),
+    ("robot.outputs",),
+    ("robot",),
     ("evaluation",),
     ("training.data",),
     ("evaluation.recognition", "evaluation.poses"),

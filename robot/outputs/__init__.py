@@ -1,0 +1,1 @@
+"""Outputs of the agent: events, trajectories, MCAP files, and the interface of all of them."""
