@@ -47,6 +47,7 @@ LAYERS = (
     ("placecell.odometry",),
     ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
+    ("placecell.segmentation.incremental",),
     ("placecell.map_alignment", "placecell.inspection", "placecell.export"),
     ("placecell",),
     ("town.geometry",),
