@@ -3,6 +3,7 @@
 import gc
 import ipaddress
 import os
+import re
 import resource
 import signal
 import socket
@@ -121,6 +122,8 @@ def serve(
                     f"(model {state.model_id}, {len(state.engine.maps)} maps in "
                     f"{settings.data_dir})"
                 )
+                if settings.page and settings.unix_socket is None:
+                    typer.echo(f"Page: {_local(_shown(listening))}/")
                 server = Server(create_app(settings, state), state)
                 # Loaded objects stay in memory. A garbage collection that visits all of them would
                 # stop every request for 0.1 s.
@@ -200,6 +203,11 @@ def _shown(listening: socket.socket) -> str:
         return f"unix:{name}"
     address, number = name[:2]
     return f"http://{f'[{address}]' if ':' in address else address}:{number}"
+
+
+def _local(address: str) -> str:
+    """Replace an address that stands for all addresses of the machine by one for a browser."""
+    return re.sub(r"//(0\.0\.0\.0|\[::\]):", "//localhost:", address)
 
 
 def _raise_file_limit(connections: int) -> None:

@@ -7,11 +7,12 @@ from importlib import metadata
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
-from service.api import docs_pages, error_handlers, openapi
+from service.api import error_handlers, openapi
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
 from service.api.middleware.request_log import RequestLog
+from service.api.pages import docs_pages, page
 from service.api.routes import (
     align,
     describe,
@@ -113,6 +114,7 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     openapi.install(app)
     if settings.docs:
         docs_pages.install(app)
+    page.install(app, settings.page)
     for module in ROUTES:
         app.include_router(module.router)
     return app

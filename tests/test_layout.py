@@ -68,6 +68,7 @@ LAYERS = (
     ("service.api.body",),
     ("service.api.middleware",),
     ("service.api.admission",),
+    ("service.api.pages",),
     ("service.api",),
     ("service.api.routes",),
     ("service.app",),

@@ -333,6 +333,7 @@ class Settings(BaseSettings):
     docs: bool = Field(
         default=True, description="Serve the API documentation at /docs, /redoc and /openapi.json."
     )
+    page: bool = Field(default=True, description="Serve the operator's page at / and /page.")
     workers: int = Field(
         default=2,
         ge=1,

@@ -191,7 +191,9 @@ def test_invalid_input_over_a_real_socket_is_refused(
 def test_second_service_on_a_data_directory_exits_with_an_error(
     models_dir: Path, data_dir: Path
 ) -> None:
-    with running(models_dir, data_dir) as (_, address):
+    with running(models_dir, data_dir) as (process, address):
+        assert process.stdout is not None
+        assert process.stdout.readline() == f"Page: {address}/\n"
         message = refused(models_dir=models_dir, data_dir=data_dir)
         assert str(data_dir) in message
         assert "in use by another service" in message

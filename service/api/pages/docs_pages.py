@@ -7,18 +7,13 @@ the API keys that a user types. The scripts come with the package `fastapi-offli
 from importlib.resources import files
 from pathlib import Path
 
-from fastapi import FastAPI, Response
-from fastapi.responses import FileResponse, HTMLResponse
+from fastapi import FastAPI, Request, Response
 
+from service.api.pages.static_files import StaticFile, file_of
 from service.core.problems import Problem
 
-FILES = {
-    "swagger-ui-bundle.js": "text/javascript",
-    "swagger-ui.css": "text/css",
-    "redoc.standalone.js": "text/javascript",
-    "favicon.png": "image/png",
-}
-"""Files of the package and their media types."""
+FILES = ("swagger-ui-bundle.js", "swagger-ui.css", "redoc.standalone.js", "favicon.png")
+"""Files of the package that the pages load."""
 
 # Addresses are relative to the page, so that they hold behind a proxy's path prefix, too.
 SWAGGER = """<!DOCTYPE html>
@@ -63,35 +58,34 @@ REDOC = """<!DOCTYPE html>
 </html>
 """
 
-HEADERS = {
-    # Both pages make styles as they run, and draw pictures from data; Redoc searches in a worker.
-    "Content-Security-Policy": "default-src 'none'; script-src 'self'; connect-src 'self'; "
-    "style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self' data:; "
-    "worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-    "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
-}
+# Both pages make styles as they run, and draw pictures from data; Redoc searches in a worker.
+POLICY = (
+    "default-src 'none'; script-src 'self'; connect-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data:; font-src 'self' data:; worker-src 'self' blob:; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
+)
 
-CACHED = {"Cache-Control": "public, max-age=3600"}
+CACHED = "public, max-age=3600"
 
 
 def install(app: FastAPI) -> None:
     """Serve the pages without a key: the description shows no maps or keys."""
     folder = Path(str(files("fastapi_offline"))) / "static"
+    swagger, redoc = (StaticFile.of(page.encode(), ".html") for page in (SWAGGER, REDOC))
+    start = StaticFile.of(START.encode(), ".js")
 
     @app.get("/docs", include_in_schema=False)
-    async def _() -> Response:
-        return HTMLResponse(SWAGGER, headers=HEADERS)
+    async def _(request: Request) -> Response:
+        return swagger.respond(request, POLICY)
 
     @app.get("/redoc", include_in_schema=False)
-    async def _() -> Response:
-        return HTMLResponse(REDOC, headers=HEADERS)
+    async def _(request: Request) -> Response:
+        return redoc.respond(request, POLICY)
 
     @app.get("/docs/{name}", include_in_schema=False)
-    async def _(name: str) -> Response:
+    async def _(name: str, request: Request) -> Response:
         if name == "start.js":
-            return Response(START, media_type="text/javascript", headers=HEADERS | CACHED)
+            return start.respond(request, POLICY, CACHED)
         if name not in FILES:
             raise Problem(404, "not-found", f"Unknown file {name!r:.80}. GET /docs shows the page.")
-        return FileResponse(folder / name, media_type=FILES[name], headers=HEADERS | CACHED)
+        return file_of(folder, name).respond(request, POLICY, CACHED)

@@ -1,0 +1,1 @@
+"""Pages of the service: the operator's page and the API documentation."""
