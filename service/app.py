@@ -29,6 +29,9 @@ from service.api.state import State, open_state
 from service.core.settings import Settings
 
 EXPOSED_HEADERS = (
+    "Accept-Ranges",
+    "Content-Disposition",
+    "Content-Range",
     "ETag",
     "Location",
     "Placecell-Model",

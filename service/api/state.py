@@ -1,7 +1,7 @@
 """State of the running service: the engine, and the parts that only the HTTP API needs."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import ParamSpec, TypeVar
 
@@ -161,9 +161,6 @@ def open_state(settings: Settings) -> Iterator[State]:
     metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
     limits = settings.limits
     with Engine.open(settings, metrics, lambda: keys.patterns) as engine:
-        yield State(
-            engine=engine,
-            keys=keys,
-            lanes=Lanes.of(settings, metrics),
-            answers=Answers(settings.data_dir, limits.answer_bytes, limits.transfer_seconds),
-        )
+        answers = Answers(settings.data_dir, limits.answer_bytes, limits.transfer_seconds)
+        with closing(answers):
+            yield State(engine, keys, Lanes.of(settings, metrics), answers)

@@ -1,7 +1,8 @@
 """Streaming: sends answers in pieces at the client's pace, and large answers from disk.
 
 A large answer is written once to an unnamed temporary file. All concurrent requests for the answer
-share the file. The file disappears with the last of these requests, or with the process.
+share the file. The file disappears with the last of these requests, or with the process. A file
+that was read in parts stays a few seconds longer, for the next part.
 """
 
 import asyncio
@@ -19,6 +20,7 @@ import anyio.to_thread
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from service.api.admission.byte_range import ByteRange, range_of
 from service.api.admission.receiving import ByteBudget
 from service.core.problems import Problem
 
@@ -34,6 +36,12 @@ MEMORY_BYTES = 32 << 20
 """Largest size of all answers in memory, bytes. Further answers go to disk.
 
 One client may have half of it.
+"""
+
+LINGER_SECONDS = 10.0
+"""Time that a file stays after the last request for a part of it, seconds.
+
+A client that reads a file in parts asks for the next part at once.
 """
 
 READERS = 4
@@ -62,6 +70,12 @@ class Answers:
         self._shared: dict[str, _File] = {}
         self._locks: dict[str, _Making] = {}
         self._readers = anyio.CapacityLimiter(READERS)
+        self._lingering: dict[_File, asyncio.TimerHandle] = {}
+
+    def close(self) -> None:
+        """Close the files that wait for a further request."""
+        for file in [*self._lingering]:
+            self._end_lingering(file)
 
     @property
     def under_way(self) -> int:
@@ -97,6 +111,7 @@ class Answers:
         client: str,
         media_type: str,
         headers: Mapping[str, str] | None = None,
+        asked: str | None = None,
     ) -> Response:
         """Answer with named content, which is made once for all concurrent requests.
 
@@ -107,9 +122,11 @@ class Answers:
             client: client of the request.
             media_type: media type of the content.
             headers: headers of the answer.
+            asked: header Range, if the request asks for a part of the content.
 
         Raises:
-            Problem: 429 if too many bytes are in progress; also the problems that `make` raises.
+            Problem: 429 if too many bytes are in progress, 416 if the content does not have the
+                part; also the problems that `make` raises.
         """
         making = self._locks.setdefault(name, _Making())
         making.users += 1
@@ -122,19 +139,31 @@ class Answers:
                         content = await run(make)
                     if len(content) <= SMALL_BYTES:
                         making.small = content
-                        return Response(content, media_type=media_type, headers=headers)
+                        part = range_of(asked, len(content)) if asked else None
+                        if part is not None:
+                            content = content[part.first : part.first + part.size]
+                        return _as_part(Response(content, 200, headers, media_type), part)
                     file = await self._written(content, name)
         finally:
             making.users -= 1
             if not making.users:
                 del self._locks[name]
-        return Streamed(_OnDisk(self, file, client), self._seconds, media_type, headers)
+        source = _OnDisk(self, file, client)
+        try:
+            part = range_of(asked, file.size) if asked else None
+        except Problem:
+            source.release()
+            raise
+        if part is not None:
+            file.is_read_in_parts = True
+            source.restrict(part)
+        return _as_part(Streamed(source, self._seconds, media_type, headers), part)
 
-    async def read(self, file: "_File", offset: int) -> bytes:
+    async def read(self, file: "_File", offset: int, size: int) -> bytes:
         """Read a piece of a file."""
         descriptor = file.handle.fileno()
         return await anyio.to_thread.run_sync(
-            os.pread, descriptor, PIECE_BYTES, offset, limiter=self._readers
+            os.pread, descriptor, size, offset, limiter=self._readers
         )
 
     def use(self, file: "_File", client: str) -> None:
@@ -146,6 +175,8 @@ class Answers:
         if not file.users[client]:
             self._own.take(client, file.size)
         file.users[client] += 1
+        if timer := self._lingering.pop(file, None):
+            timer.cancel()
 
     def unuse(self, file: "_File", client: str) -> None:
         """Count one answer less; close the file if no answer uses it any longer."""
@@ -156,15 +187,27 @@ class Answers:
         self.drop_unused(file)
 
     def drop_unused(self, file: "_File") -> None:
-        """Close a file that no answer uses."""
-        if not file.users and not file.handle.closed:
+        """Close a file that no answer uses, at once or, if it is read in parts, a little later."""
+        if file.users or file.handle.closed or file in self._lingering:
+            return
+        loop = _running_loop() if file.is_read_in_parts else None
+        if loop is not None:
+            file.is_read_in_parts = False
+            self._lingering[file] = loop.call_later(LINGER_SECONDS, self._end_lingering, file)
+        else:
             if file.name is not None and self._shared.get(file.name) is file:
                 del self._shared[file.name]
             self._disk.give_back("", file.size)
             file.handle.close()
 
+    def _end_lingering(self, file: "_File") -> None:
+        self._lingering.pop(file).cancel()
+        self.drop_unused(file)
+
     async def _written(self, content: bytes, name: str | None = None) -> "_File":
         size = len(content)
+        while self._lingering and not self._disk.has_room("", size):
+            self._end_lingering(next(iter(self._lingering)))
         self._disk.take("", size)
         try:
             handle = await anyio.to_thread.run_sync(self._write, content, limiter=self._readers)
@@ -211,6 +254,15 @@ class _File:
     size: int
     name: str | None
     users: Counter[str]
+    is_read_in_parts: bool = False
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    """Return the event loop of this thread; None at the end of the process."""
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
 
 
 class _Making:
@@ -261,12 +313,26 @@ class _OnDisk(_Source):
         except Problem:
             answers.drop_unused(file)
             raise
+        self._first = 0
+
+    def restrict(self, part: ByteRange) -> None:
+        """Send only a part of the file."""
+        self._first, self.size = part.first, part.size
 
     async def piece(self, offset: int) -> bytes:
-        return await self._answers.read(self._file, offset)
+        size = min(PIECE_BYTES, self.size - offset)
+        return await self._answers.read(self._file, self._first + offset, size)
 
     def release(self) -> None:
         self._answers.unuse(self._file, self._client)
+
+
+def _as_part(response: Response, part: ByteRange | None) -> Response:
+    """Mark a response as a part of the content; None for the whole content."""
+    if part is not None:
+        response.status_code = 206
+        response.headers["Content-Range"] = part.content_range
+    return response
 
 
 class Streamed(Response):

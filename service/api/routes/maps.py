@@ -9,6 +9,7 @@ from placecell_client import encode
 from placecell_client.maps.map_file import MEDIA_TYPE
 
 from service.api.admission.admission import client_of
+from service.api.admission.byte_range import asked_range
 from service.api.body.body import JSON, OCTETS, prefers, render
 from service.api.body.problem_json import documented
 from service.api.dependencies import ConditionsOf, MapWrite, MapWriteOf, PrincipalOf, StateOf
@@ -33,6 +34,16 @@ _FILE_RESPONSE: dict[int | str, dict[str, Any]] = {
         "model": MapDetailOut,
         "description": "The map file; facts about the map as JSON.",
         "content": {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}},
+    },
+    206: {
+        "description": "The part of the map file that `Range` asks for.",
+        "content": {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}},
+        "headers": {
+            "Content-Range": {
+                "schema": {"type": "string"},
+                "description": "First and last byte of the part, and the size of the file.",
+            }
+        },
     },
     304: {"description": "The client already has this version."},
 }
@@ -78,7 +89,7 @@ async def put_map(write: MapWriteOf) -> Response:
     "/maps/{map}",
     summary="Download a map",
     response_class=Response,
-    responses=_FILE_RESPONSE | documented(400, 401, 403, 404, 410, 422, 429, 500, 503, 504),
+    responses=_FILE_RESPONSE | documented(400, 401, 403, 404, 410, 416, 422, 429, 500, 503, 504),
 )
 async def get_map(
     name: Name,
@@ -96,6 +107,10 @@ async def get_map(
     With `Accept: application/json`, return facts about the newest version: those of `GET /maps`,
     and how far its own segments calibrate its match probabilities.
 
+    `Range: bytes=FIRST-LAST` asks for a part of the file (206). So a broken download continues
+    (with `If-Range: "ETAG"`), and a client reads single columns of a large map. If several ranges
+    are asked for, the answer is the whole file.
+
     If a source map of the segments is outside the scope of the key, a pseudonym replaces its name.
     Writing the file to this map restores the name.
     """
@@ -111,6 +126,8 @@ async def get_map(
     sequence = snapshot.head.sequence if version is None else version
     async with state.lanes.reads.enter(request):
         tag = await state.run(version_tag, state.engine.maps.store, snapshot, sequence)
+        if conditions.is_known(tag):
+            return Response(status_code=304, headers={"ETag": f'"{tag}"'})
         file_name, make = _file(state, principal, snapshot, sequence, tag)
         return await state.answers.respond_shared(
             file_name,
@@ -118,7 +135,8 @@ async def get_map(
             state.run,
             client,
             MEDIA_TYPE,
-            {"ETag": f'"{tag}"'},
+            {"ETag": f'"{tag}"', "Accept-Ranges": "bytes"},
+            asked_range(request, tag),
         )
 
 
