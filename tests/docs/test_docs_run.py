@@ -43,6 +43,7 @@ DOCUMENTS = sorted(
         *(ROOT / "docs").rglob("*.md"),
         ROOT / "client" / "README.md",
         ROOT / "deploy" / "README.md",
+        ROOT / "examples" / "cpp" / "README.md",
     }
 )
 LOCAL = "http://127.0.0.1:8000"

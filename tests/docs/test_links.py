@@ -13,6 +13,7 @@ DOCUMENTS = sorted(
         *(ROOT / "docs").rglob("*.md"),
         *(ROOT / "client").glob("*.md"),
         *(ROOT / "deploy").glob("*.md"),
+        *(ROOT / "examples").rglob("*.md"),
         *(ROOT / "models").rglob("*.md"),
     }
 )
