@@ -472,8 +472,8 @@ def test_broken_json_is_refused(echo: Path, text: str) -> None:
 
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake to build the example with")
 def test_cmake_builds_the_example(tmp_path: Path) -> None:
-    configure: list[str | Path] = ["cmake", "-S", EXAMPLE, "-B", tmp_path]
-    for command in (configure, ["cmake", "--build", tmp_path]):
+    for arguments in (("-S", EXAMPLE, "-B", tmp_path), ("--build", tmp_path)):
+        command: list[str | Path] = ["cmake", *arguments]
         done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
         assert done.returncode == 0, done.stderr
     assert run(tmp_path / "placecell_example").returncode == 2
