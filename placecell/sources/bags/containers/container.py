@@ -147,6 +147,11 @@ def table_of(rows: Iterable[tuple[int, int, int]]) -> Int64:
     ).reshape(-1, 3)
 
 
+def cannot_read(path: Path, error: OSError) -> DriveError:
+    """Return the error for a file that the system does not let us read."""
+    return DriveError(f"{path}: cannot be read ({error.strerror}). Check its path and permissions")
+
+
 def read_at(file: BinaryIO, at: int, size: int, file_size: int) -> bytes:
     """Read bytes of a file.
 

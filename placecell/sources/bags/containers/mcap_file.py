@@ -5,19 +5,19 @@ of time; this class finds single messages by the index, and makes one for a file
 """
 
 import struct
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
 
-from placecell.sources.bags.containers.compression import BLOCK, begin_of, decompress
+from placecell.core.types import Int64
+from placecell.sources.bags.containers.chunked_file import ChunkedFile
+from placecell.sources.bags.containers.compression import decompress
 from placecell.sources.bags.containers.container import (
     UNCHUNKED,
-    Container,
     RecordError,
-    TopicIndex,
     read_at,
     table_of,
     unpack,
@@ -70,37 +70,25 @@ def records_of(content: bytes | memoryview) -> Iterator[tuple[int, int, memoryvi
         at = end
 
 
-class McapFile(Container):
-    """An MCAP file.
+class McapFile(ChunkedFile):
+    """An MCAP file."""
 
-    Raises:
-        DriveError: the file is no MCAP file.
-    """
+    repair = "mcap recover"
+    longest_head = HEAD + MESSAGE_HEAD
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        self.remarks = []
-        self.cache: tuple[int, bytes] = (UNCHUNKED, b"")
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
-        self.found: dict[int, list[tuple[int, int, int]]] = {}
-        self.index = TopicIndex()
-        try:
-            self.file_size = path.stat().st_size
-            with path.open("rb") as file:
-                begin = file.read(len(MAGIC))
-                if begin != MAGIC:
-                    raise DriveError(
-                        f"{path}: begins with {begin!r}; expected {MAGIC!r}. The file is damaged "
-                        "or no MCAP file"
-                    )
-                try:
-                    self.read_index(file)
-                except RecordError as error:
-                    self.make_index(file, str(error))
-        except OSError as error:
-            raise DriveError(f"{path}: cannot be read ({error.strerror})") from error
-        self.topics = self.index.topics()
+        super().__init__(path)
+
+    def first_record(self, file: BinaryIO) -> int:
+        begin = file.read(len(MAGIC))
+        if begin != MAGIC:
+            raise DriveError(
+                f"{self.path}: begins with {begin!r}; expected {MAGIC!r}. The file is damaged or "
+                "no MCAP file"
+            )
+        return len(MAGIC)
 
     def record_at(self, file: BinaryIO, at: int) -> tuple[int, int, int]:
         """Return kind of a record in the file, and offset and size of its content.
@@ -125,11 +113,7 @@ class McapFile(Container):
         return read_at(file, start, size, self.file_size)
 
     def read_index(self, file: BinaryIO) -> None:
-        """Read the summary at the end of the file, and the indexes of the chunks.
-
-        Raises:
-            RecordError: there is none, or it is damaged.
-        """
+        """Read the summary at the end of the file, and the indexes of the chunks."""
         from mcap.records import ChunkIndex, Footer
 
         end = self.file_size - len(MAGIC)
@@ -150,7 +134,7 @@ class McapFile(Container):
         if not chunks:
             raise RecordError("it has no index")
         for number in self.channels:
-            self.add(number, ())
+            self.add(number, table_of(()))
         for chunk in chunks:
             self.read_chunk_index(file, chunk)
         self.add_found()
@@ -189,60 +173,30 @@ class McapFile(Container):
                 np.column_stack((entries[:, 0], np.full(len(entries), at), entries[:, 1])),
             )
 
-    def add(self, number: int, places: Any) -> None:
-        """Add messages of a channel: time, chunk and offset of each.
-
-        Raises:
-            RecordError: the channel is not known.
-        """
+    def add(self, number: int, places: Int64) -> None:
         channel = self.channels.get(number)
         if channel is None:
             raise RecordError(f"messages of the unknown channel {number}")
         schema = self.schemas.get(channel.schema_id)
-        table = places if isinstance(places, np.ndarray) else table_of(places)
         kind = schema.name if schema else ""
         encoding = channel.message_encoding
         if not encoding and schema:
             encoding = ENCODINGS.get(schema.encoding, "")
-        self.index.add(channel.topic, kind, encoding, table)
+        self.index.add(channel.topic, kind, encoding, places)
 
-    def make_index(self, file: BinaryIO, reason: str) -> None:
-        """Read the whole file to find its messages, up to the first damage."""
-        self.index = TopicIndex()
-        self.found.clear()
-        at, damage = len(MAGIC), ""
-        while at < self.file_size:
-            try:
-                kind, start, size = self.record_at(file, at)
-                if kind in (FOOTER, DATA_END):
-                    break
-                if kind in (SCHEMA, CHANNEL):
-                    self.add_description(kind, read_at(file, start, size, self.file_size))
-                elif kind == CHUNK:
-                    self.index_chunk(file, at)
-                elif kind == MESSAGE:
-                    head = read_at(file, start, min(size, MESSAGE_HEAD), self.file_size)
-                    number, _, time, _ = unpack("HIQQ", head)
-                    self.found.setdefault(number, []).append((time, UNCHUNKED, at))
-            except (RecordError, DriveError) as error:
-                damage = f"; {self.file_size - at} bytes from byte {at} on are left out ({error})"
-                break
-            at = start + size
-        total = self.add_found()
-        self.remarks.append(
-            f"{self.path}: the file has no usable index ({reason}); {total} messages were found by "
-            f"reading all of it{damage}. Repair it with 'mcap recover'"
-        )
-
-    def add_found(self) -> int:
-        """Add the messages that were found in chunks; return their number."""
-        total = 0
-        for number, rows in self.found.items():
-            if number in self.channels:
-                self.add(number, rows)
-                total += len(rows)
-        self.found.clear()
-        return total
+    def index_record(self, file: BinaryIO, at: int) -> int:
+        kind, start, size = self.record_at(file, at)
+        if kind in (FOOTER, DATA_END):
+            return self.file_size
+        if kind in (SCHEMA, CHANNEL):
+            self.add_description(kind, read_at(file, start, size, self.file_size))
+        elif kind == CHUNK:
+            self.index_chunk(file, at)
+        elif kind == MESSAGE:
+            head = read_at(file, start, min(size, MESSAGE_HEAD), self.file_size)
+            number, _, time, _ = unpack("HIQQ", head)
+            self.found.setdefault(number, []).append((time, UNCHUNKED, at))
+        return start + size
 
     def index_chunk(self, file: BinaryIO, at: int) -> None:
         """Find the messages of a chunk by decompressing it."""
@@ -253,12 +207,6 @@ class McapFile(Container):
                 self.found.setdefault(number, []).append((time, at, offset))
 
     def chunk_content(self, file: BinaryIO, at: int) -> bytes:
-        """Return the content of a chunk.
-
-        Raises:
-            RecordError: there is none.
-            DriveError: it cannot be decompressed.
-        """
         from mcap.records import Chunk
 
         chunk: Chunk = decoded(Chunk.read, self.content_at(file, at, CHUNK))
@@ -270,55 +218,28 @@ class McapFile(Container):
             )
         return decompress(chunk.data, chunk.compression, chunk.uncompressed_size, where)
 
-    def heads(
-        self, chunk: int, offsets: Sequence[int], length: int
-    ) -> Iterator[bytes | memoryview | None]:
-        """Yield the first bytes of messages; the rest of the chunk is not decompressed."""
-        begin = b""
-        if chunk != UNCHUNKED and self.cache[0] != chunk:
-            begin = self.chunk_begin(chunk, max(offsets) + HEAD + MESSAGE_HEAD + length)
-        for offset in offsets:
-            data = begin[offset : offset + HEAD + MESSAGE_HEAD + length]
-            if offset >= 0 and len(data) > HEAD + MESSAGE_HEAD and data[0] == MESSAGE:
-                (size,) = unpack("Q", data, 1)
-                yield data[HEAD + MESSAGE_HEAD : HEAD + size]
-            else:
-                yield from super().heads(chunk, [offset], length)
-
-    def chunk_begin(self, at: int, length: int) -> bytes:
-        """Return the first bytes of a chunk's content; fewer if it is damaged."""
+    def chunk_data(self, file: BinaryIO, at: int, length: int) -> tuple[bytes, str]:
         from mcap.records import Chunk
 
-        try:
-            with self.path.open("rb") as file:
-                kind, start, size = self.record_at(file, at)
-                there = read_at(file, start, min(size, length + BLOCK), self.file_size)
-            chunk: Chunk = decoded(Chunk.read, there)
-            if kind != CHUNK or chunk.compression not in COMPRESSIONS:
-                return b""
-            return begin_of(chunk.data, chunk.compression, length, str(self.path))
-        except (OSError, RecordError, DriveError):
-            return b""
+        kind, start, size = self.record_at(file, at)
+        chunk: Chunk = decoded(Chunk.read, read_at(file, start, min(size, length), self.file_size))
+        if kind != CHUNK or chunk.compression not in COMPRESSIONS:
+            raise RecordError(f"a record of kind {kind}; expected a chunk")
+        return chunk.data, chunk.compression
 
-    def read(self, place: Sequence[int]) -> bytes | memoryview:
-        _, chunk, offset = place
-        try:
-            with self.path.open("rb") as file:
-                if chunk == UNCHUNKED:
-                    return memoryview(self.content_at(file, offset, MESSAGE))[MESSAGE_HEAD:]
-                at, content = self.cache
-                if at != chunk:
-                    content = self.chunk_content(file, chunk)
-                    self.cache = (chunk, content)
-            kind, size = unpack("BQ", content, max(offset, 0))
-            end = offset + HEAD + size
-            if kind != MESSAGE or offset < 0 or end > len(content):
-                raise RecordError(f"a record of kind {kind} with {size} bytes; expected a message")
-        except OSError as error:
-            raise DriveError(f"{self.path}: cannot be read ({error.strerror})") from error
-        except RecordError as error:
-            raise DriveError(
-                f"{self.path}: the message at offset {offset} is damaged ({error}). Copy the file "
-                "again, or repair it with 'mcap recover'"
-            ) from error
-        return memoryview(content)[offset + HEAD + MESSAGE_HEAD : end]
+    def message_head(self, begin: bytes, at: int, length: int) -> bytes | None:
+        data = begin[at : at + self.longest_head + length]
+        if at < 0 or len(data) <= self.longest_head or data[0] != MESSAGE:
+            return None
+        (size,) = unpack("Q", data, 1)
+        return data[self.longest_head : HEAD + size]
+
+    def message(self, file: BinaryIO, chunk: int, offset: int) -> bytes | memoryview:
+        if chunk == UNCHUNKED:
+            return memoryview(self.content_at(file, offset, MESSAGE))[MESSAGE_HEAD:]
+        content = self.cached(file, chunk)
+        kind, size = unpack("BQ", content, max(offset, 0))
+        end = offset + HEAD + size
+        if kind != MESSAGE or offset < 0 or end > len(content):
+            raise RecordError(f"a record of kind {kind} with {size} bytes; expected a message")
+        return memoryview(content)[offset + self.longest_head : end]

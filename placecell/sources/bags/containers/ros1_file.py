@@ -1,23 +1,21 @@
 """ROS 1 bag, format 2.0, with or without index.
 
-A bag that was not closed, or that is cut, has no index at its end: then all chunks are read once to
-make one, up to the first damage. `rosbags` refuses such files and reads messages in their order
-only, so this reader has both cases in one.
+`docs/decisions/0017-readers-of-bags.md` says why this is not left to `rosbags`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
 
-from placecell.sources.bags.containers.compression import BLOCK, KINDS, begin_of, decompress
+from placecell.core.types import Int64
+from placecell.sources.bags.containers.chunked_file import ChunkedFile
+from placecell.sources.bags.containers.compression import KINDS, decompress
 from placecell.sources.bags.containers.container import (
     UNCHUNKED,
-    Container,
     RecordError,
-    TopicIndex,
     read_at,
     table_of,
     unpack,
@@ -27,8 +25,6 @@ from placecell.sources.errors import DriveError
 MAGIC = b"#ROSBAG V"
 VERSION = b"#ROSBAG V2.0\n"
 MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7
-LONGEST_HEAD = 512
-"""Bytes of a message's record before its data; if there are more, the whole chunk is read."""
 ENTRY = np.dtype([("sec", "<u4"), ("nsec", "<u4"), ("offset", "<u4")])
 
 
@@ -104,43 +100,20 @@ def record_in(content: bytes | memoryview, at: int) -> Record:
     return Record(fields, start + 4, length)
 
 
-def message_head(content: bytes, at: int, length: int) -> bytes | None:
-    """Return the first bytes of the message at an offset of a chunk's content, if it is whole."""
-    try:
-        (size,) = unpack("I", content, at)
-        start = at + 4 + size
-        if unpack("B", header_fields(content[at + 4 : start]).get(b"op", b"")) != (MESSAGE,):
-            return None
-        (stored,) = unpack("I", content, start)
-    except RecordError:
-        return None
-    head = content[start + 4 : start + 4 + min(length, stored)]
-    return head if len(head) == min(length, stored) else None
+class Ros1File(ChunkedFile):
+    """A ROS 1 bag."""
 
-
-class Ros1File(Container):
-    """A ROS 1 bag.
-
-    Raises:
-        DriveError: the file is no such bag.
-    """
+    repair = "rosbag reindex"
+    longest_head = 512
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        self.remarks = []
         self.chunks: dict[int, StoredChunk] = {}
-        self.cache: tuple[int, bytes] = (UNCHUNKED, b"")
         self.connections: dict[int, tuple[str, str]] = {}
-        try:
-            self.file_size = path.stat().st_size
-            with path.open("rb") as file:
-                header = self.bag_header(file)
-                try:
-                    self.read_index(file, header)
-                except RecordError as error:
-                    self.make_index(file, header.end, str(error))
-        except OSError as error:
-            raise DriveError(f"{path}: cannot be read ({error.strerror})") from error
+        super().__init__(path)
+
+    def first_record(self, file: BinaryIO) -> int:
+        self.header = self.bag_header(file)
+        return self.header.end
 
     def bag_header(self, file: BinaryIO) -> Record:
         """Read the first record.
@@ -187,13 +160,8 @@ class Ros1File(Container):
             raise RecordError("the data of a record is cut short")
         return record
 
-    def read_index(self, file: BinaryIO, header: Record) -> None:
-        """Read the index at the end of the file.
-
-        Raises:
-            RecordError: there is none, or it is damaged.
-        """
-        at = header.number(b"index_pos", "Q")
+    def read_index(self, file: BinaryIO) -> None:
+        at = self.header.number(b"index_pos", "Q")
         if at == 0:
             raise RecordError("the recording was not closed")
         if at > self.file_size:
@@ -209,12 +177,11 @@ class Ros1File(Container):
             else:
                 raise RecordError(f"a record of kind {record.op} in the index")
             at = record.end
-        counts = header.number(b"conn_count"), header.number(b"chunk_count")
+        counts = self.header.number(b"conn_count"), self.header.number(b"chunk_count")
         if (len(self.connections), len(places)) != counts:
             raise RecordError("the index is cut short")
-        index = TopicIndex()
-        for topic, kind in self.connections.values():
-            index.add(topic, kind, "ros1", table_of(()))
+        for number in self.connections:
+            self.add(number, table_of(()))
         for place in places:
             record = self.record_at(file, place)
             self.add_chunk(place, record)
@@ -231,52 +198,28 @@ class Ros1File(Container):
                 times = entries["sec"].astype(np.int64) * 10**9 + entries["nsec"]
                 chunk = np.full(len(entries), place)
                 table = np.column_stack((times, chunk, entries["offset"].astype(np.int64)))
-                index.add(*self.connection(record), "ros1", table)
+                self.add(record.number(b"conn"), table)
                 at = record.end
-        self.topics = index.topics()
 
-    def make_index(self, file: BinaryIO, at: int, reason: str) -> None:
-        """Read all chunks to find their messages, up to the first damage."""
-        self.connections.clear()
-        self.chunks.clear()
-        found: dict[int, list[tuple[int, int, int]]] = {}
-        damage = ""
-        while at < self.file_size:
-            try:
-                record = self.record_at(file, at)
-                if record.op == CHUNK:
-                    self.index_chunk(file, at, record, found)
-                elif record.op == CONNECTION:
-                    data = read_at(file, record.start, record.size, self.file_size)
-                    self.add_connection(record, data)
-                elif record.op == MESSAGE:  # of a chunk that was not closed
-                    place = (record.time_ns(), UNCHUNKED, at)
-                    found.setdefault(record.number(b"conn"), []).append(place)
-                elif record.op not in (BAG_HEADER, INDEX, CHUNK_INFO):
-                    raise RecordError(f"a record of the unknown kind {record.op}")
-            except (RecordError, DriveError) as error:
-                damage = f"; {self.file_size - at} bytes from byte {at} on are left out ({error})"
-                break
-            at = record.end
-        index = TopicIndex()
-        total = 0
-        for connection, rows in found.items():
-            if connection in self.connections:
-                index.add(*self.connections[connection], "ros1", table_of(rows))
-                total += len(rows)
-        self.topics = index.topics()
-        self.remarks.append(
-            f"{self.path}: the bag has no usable index ({reason}); {total} messages were found by "
-            f"reading all of it{damage}. Repair it with 'rosbag reindex'"
-        )
+    def index_record(self, file: BinaryIO, at: int) -> int:
+        record = self.record_at(file, at)
+        if record.op == CHUNK:
+            self.index_chunk(file, at, record)
+        elif record.op == CONNECTION:
+            data = read_at(file, record.start, record.size, self.file_size)
+            self.add_connection(record, data)
+        elif record.op == MESSAGE:  # of a chunk that was not closed
+            self.found_message(record, UNCHUNKED, at)
+        elif record.op not in (BAG_HEADER, INDEX, CHUNK_INFO):
+            raise RecordError(f"a record of the unknown kind {record.op}")
+        return record.end
 
-    def index_chunk(
-        self,
-        file: BinaryIO,
-        at: int,
-        record: Record,
-        found: dict[int, list[tuple[int, int, int]]],
-    ) -> None:
+    def found_message(self, record: Record, chunk: int, offset: int) -> None:
+        """Add a message that was found without the index."""
+        place = (record.time_ns(), chunk, offset)
+        self.found.setdefault(record.number(b"conn"), []).append(place)
+
+    def index_chunk(self, file: BinaryIO, at: int, record: Record) -> None:
         """Find the messages of a chunk.
 
         Raises:
@@ -294,8 +237,7 @@ class Ros1File(Container):
             if each.op == CONNECTION:
                 self.add_connection(each, content[each.start : each.end])
             elif each.op == MESSAGE:
-                place = (each.time_ns(), at, offset)
-                found.setdefault(each.number(b"conn"), []).append(place)
+                self.found_message(each, at, offset)
         if there < chunk.size:
             raise RecordError("a chunk is cut short")
 
@@ -307,16 +249,10 @@ class Ros1File(Container):
         name = topic.decode(errors="replace")
         self.connections[record.number(b"conn")] = (name, kind)
 
-    def connection(self, record: Record) -> tuple[str, str]:
-        """Return topic and type of a record's connection.
-
-        Raises:
-            RecordError: it is not known.
-        """
-        number = record.number(b"conn")
+    def add(self, number: int, places: Int64) -> None:
         if number not in self.connections:
             raise RecordError(f"a record of the unknown connection {number}")
-        return self.connections[number]
+        self.index.add(*self.connections[number], "ros1", places)
 
     def add_chunk(self, at: int, record: Record) -> StoredChunk:
         """Add a chunk.
@@ -338,58 +274,37 @@ class Ros1File(Container):
         where = f"{self.path}, byte {chunk.start}"
         return decompress(data, chunk.compression, chunk.content_size, where)
 
-    def read(self, place: Sequence[int]) -> bytes | memoryview:
-        _, chunk, offset = place
-        try:
-            with self.path.open("rb") as file:
-                stored = self.chunks.get(chunk)
-                if stored is None or stored.compression == "none":
-                    return self.message_at(file, offset + (stored.start if stored else 0))
-                at, content = self.cache
-                if at != chunk:
-                    data = read_at(file, stored.start, stored.size, self.file_size)
-                    content = self.content_of(stored, data)
-                    self.cache = (chunk, content)
-        except OSError as error:
-            raise DriveError(f"{self.path}: cannot be read ({error.strerror})") from error
-        except RecordError as error:
-            raise self.damaged(offset, error) from error
-        try:
-            record = record_in(content, offset)
-            while record.op == CONNECTION:
-                record = record_in(content, record.end)
-            if record.op != MESSAGE:
-                raise RecordError(f"a record of kind {record.op}; expected a message")
-        except RecordError as error:
-            raise self.damaged(offset, error) from error
-        return memoryview(content)[record.start : record.end]
+    def chunk_content(self, file: BinaryIO, at: int) -> bytes:
+        stored = self.chunks[at]
+        return self.content_of(stored, read_at(file, stored.start, stored.size, self.file_size))
 
-    def heads(
-        self, chunk: int, offsets: Sequence[int], length: int
-    ) -> Iterator[bytes | memoryview | None]:
-        """Yield the first bytes of messages; the rest of the chunk is not decompressed."""
-        begin = b""
-        if chunk != self.cache[0]:
-            begin = self.chunk_begin(chunk, max(offsets) + LONGEST_HEAD + length)
-        for offset in offsets:
-            head = message_head(begin, offset, length)
-            if head is not None:
-                yield head
-            else:
-                yield from super().heads(chunk, [offset], length)
-
-    def chunk_begin(self, at: int, length: int) -> bytes:
-        """Return the first bytes of a chunk's content; fewer if it is damaged."""
+    def chunk_data(self, file: BinaryIO, at: int, length: int) -> tuple[bytes, str]:
         stored = self.chunks.get(at)
         if stored is None or stored.compression == "none":
-            return b""
-        try:
-            with self.path.open("rb") as file:
-                size = min(stored.size, length + BLOCK)
-                data = read_at(file, stored.start, size, self.file_size)
-            return begin_of(data, stored.compression, length, str(self.path))
-        except (OSError, RecordError, DriveError):
-            return b""
+            return b"", "none"  # `message` reads such a message alone.
+        size = min(stored.size, length)
+        return read_at(file, stored.start, size, self.file_size), stored.compression
+
+    def message(self, file: BinaryIO, chunk: int, offset: int) -> bytes | memoryview:
+        stored = self.chunks.get(chunk)
+        if stored is None or stored.compression == "none":
+            return self.message_at(file, offset + (stored.start if stored else 0))
+        content = self.cached(file, chunk)
+        record = record_in(content, offset)
+        while record.op == CONNECTION:
+            record = record_in(content, record.end)
+        if record.op != MESSAGE:
+            raise RecordError(f"a record of kind {record.op}; expected a message")
+        return memoryview(content)[record.start : record.end]
+
+    def message_head(self, begin: bytes, at: int, length: int) -> bytes | None:
+        (size,) = unpack("I", begin, at)
+        start = at + 4 + size
+        if unpack("B", header_fields(begin[at + 4 : start]).get(b"op", b"")) != (MESSAGE,):
+            return None
+        (stored,) = unpack("I", begin, start)
+        head = begin[start + 4 : start + 4 + min(length, stored)]
+        return head if len(head) == min(length, stored) else None
 
     def message_at(self, file: BinaryIO, at: int) -> bytes:
         """Return the message at an offset of the file.
@@ -403,13 +318,6 @@ class Ros1File(Container):
         if record.op != MESSAGE:
             raise RecordError(f"a record of kind {record.op}; expected a message")
         return read_at(file, record.start, record.size, self.file_size)
-
-    def damaged(self, offset: int, error: RecordError) -> DriveError:
-        """Return the error for a message that cannot be read."""
-        return DriveError(
-            f"{self.path}: the message at offset {offset} is damaged ({error}). Copy the file "
-            "again, or repair it with 'rosbag reindex'"
-        )
 
 
 def records_of(content: bytes) -> Iterator[tuple[int, Record]]:

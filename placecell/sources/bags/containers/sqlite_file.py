@@ -2,16 +2,19 @@
 
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 from placecell.core.types import Int64
-from placecell.sources.bags.containers.container import Container, TopicIndex, table_of
+from placecell.sources.bags.containers.container import (
+    Container,
+    TopicIndex,
+    cannot_read,
+    table_of,
+)
 from placecell.sources.errors import DriveError
 
 MAGIC = b"SQLite format 3\0"
-BATCH = 100
-"""Messages that one query reads."""
 
 
 class SqliteFile(Container):
@@ -27,7 +30,7 @@ class SqliteFile(Container):
         try:
             self.file_size = path.stat().st_size
         except OSError as error:
-            raise DriveError(f"{path}: cannot be read ({error.strerror})") from error
+            raise cannot_read(path, error) from error
         log = path.with_name(path.name + "-wal")
         self.has_log = log.is_file() and log.stat().st_size > 0
         index = TopicIndex()
@@ -83,17 +86,16 @@ class SqliteFile(Container):
     def contents(
         self, places: Int64, length: int | None = None
     ) -> Iterator[bytes | memoryview | None]:
-        numbers = places[:, 2].tolist()
         part = "data" if length is None else f"substr(data, 1, {length})"
-        for first in range(0, len(numbers), BATCH):
-            some = numbers[first : first + BATCH]
-            listed = ",".join("?" * len(some))
-            query = f"SELECT id, {part} FROM messages WHERE id IN ({listed})"
-            try:
-                found = {row[0]: row[1] for row in self.rows(query, some)}
-            except DriveError:  # One by one, those that are whole are found.
-                yield from super().contents(places[first : first + BATCH], length)
-                continue
-            for number in some:
-                data = found.get(number)
+        query = f"SELECT {part} FROM messages WHERE id = ?"
+        try:
+            connection = self.connect()
+        except sqlite3.Error:
+            yield from [None] * len(places)
+            return
+        with closing(connection):
+            for number in places[:, 2].tolist():
+                data = None
+                with suppress(sqlite3.Error, UnicodeDecodeError):
+                    (data,) = connection.execute(query, (number,)).fetchone() or (None,)
                 yield data if isinstance(data, bytes) else None
