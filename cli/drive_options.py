@@ -14,11 +14,11 @@ from placecell.sources.scan_options import (
     DType,
     Order,
     ScanOptions,
-    TimeUnit,
     Unit,
     parse_columns,
     use_scan_options,
 )
+from placecell.trajectories.times import TimeUnit
 
 PANEL = "Recorded drives"
 

@@ -44,6 +44,7 @@ def export(
 
         placecell export data/city.safetensors --to las
     """
+    from cli.map_content import read_content
     from placecell.export.export import export as write
     from placecell.export.geo import parse_anchor
 
@@ -51,7 +52,7 @@ def export(
         place = None if anchor is None else parse_anchor(anchor)
         file = output or source.with_suffix(f".{to}")
         with progress_console().status(f"Writing {file}"):
-            content = write(source, to, file, color, place, overwrite)
+            content = write(source, to, file, color, place, overwrite, read_content)
         for remark in content.remarks:
             typer.echo(f"placecell: {source}: {remark}", err=True)
     typer.echo(

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from placecell.core.files import written_whole
+
 ETAG_SUFFIX = ".etag"
 
 
@@ -12,11 +14,10 @@ def etag_file(file: Path) -> Path:
 
 def replace_file(target: Path, data: bytes) -> None:
     """Replace a file atomically and remove its FILE.etag."""
-    unfinished = target.with_name(target.name + ".unfinished")
-    unfinished.write_bytes(data)
-    # Remove the version first: it must never describe another file.
-    etag_file(target).unlink(missing_ok=True)
-    unfinished.replace(target)
+    with written_whole(target) as unfinished:
+        unfinished.write_bytes(data)
+        # Remove the version first: it must never describe another file.
+        etag_file(target).unlink(missing_ok=True)
 
 
 def is_delta(data: bytes) -> bool:

@@ -8,9 +8,10 @@ from placecell.core.text_files import read_lines
 from placecell.core.types import Float64
 from placecell.datasets.drive import Drive, check_motion, find_scans, read_table
 from placecell.sources.errors import DriveError
-from placecell.sources.scan_options import SECONDS, current_scan_options
+from placecell.sources.scan_options import current_scan_options
 from placecell.trajectories.extrinsic import describe_extrinsic, parse_extrinsic
 from placecell.trajectories.poses import as_transforms, check_rotations
+from placecell.trajectories.times import SECONDS
 
 
 class KittiOdometry(Drive):

@@ -1,11 +1,13 @@
-"""Export of a map file or a recording to a file of another program."""
+"""Export of segments to a file of another program."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
+from placecell.core.files import written_whole
 from placecell.export.clouds import write_las, write_pcd, write_ply
-from placecell.export.content import ExportContent, colors, read_content
+from placecell.export.content import ExportContent, colors, read_recording
 from placecell.export.geo import Anchor, write_geojson
 from placecell.export.mcap_file import write_mcap
 from placecell.export.poses import write_g2o, write_tum
@@ -22,21 +24,23 @@ def export(
     color: ColorBy = "id",
     anchor: Anchor | None = None,
     overwrite: bool = False,
+    read: Callable[[Path], ExportContent] = read_recording,
 ) -> ExportContent:
-    """Write a map file or a recording as a file of another program.
+    """Write segments as a file of another program.
 
     The file appears under its name only when it is complete.
 
     Args:
-        source: map file or recording.
+        source: file with the segments.
         target: format to write.
         file: file to write.
         color: number of a segment that decides its color.
         anchor: place of the map's origin; GeoJSON needs it.
         overwrite: replace the file if it exists.
+        read: function that reads the source.
 
     Raises:
-        ValueError: the source is neither, or GeoJSON lacks an anchor.
+        ValueError: the source cannot be read, or GeoJSON lacks an anchor.
         FileExistsError: the file exists, and `overwrite` is not set.
     """
     if target == "geojson" and anchor is None:
@@ -49,12 +53,10 @@ def export(
         raise FileExistsError(f"{file} exists already. Give another file, or --overwrite")
     if file.exists() and file.samefile(source):
         raise ValueError(f"{file} is the source itself. Give another file with --output.")
-    content = read_content(source)
+    content = read(source)
     numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
     shades = colors(np.asarray(numbers))
-    file.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = file.with_name(file.name + ".unfinished")
-    try:
+    with written_whole(file) as unfinished:
         if target == "geojson":
             assert anchor is not None
             write_geojson(content, shades, unfinished, anchor)
@@ -62,7 +64,4 @@ def export(
             POSES[target](content, unfinished)
         else:
             CLOUDS[target](content, shades, unfinished)
-        unfinished.replace(file)
-    finally:
-        unfinished.unlink(missing_ok=True)
     return content

@@ -290,9 +290,11 @@ def _against(
         and rival.ahead <= -parameters.decisive
         and (rival.ratio > 1 / parameters.ambiguous)
     ):
-        if reason is None or reason == "ambiguous":
-            reason = "inconsistent"
-            detail = f"Map {other!r:.80} fits better. {_support_text(own.best, rival.hypothesis)}"
+        alone = f" {detail}" if reason == "inconsistent" else ""
+        reason = "inconsistent"
+        detail = (
+            f"Map {other!r:.80} fits better. {_support_text(own.best, rival.hypothesis)}{alone}"
+        )
         probability = min(probability, 1 - chance_of_map(-rival.ahead, parameters))
     elif (
         rival is not None

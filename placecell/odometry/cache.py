@@ -5,10 +5,10 @@ import json
 import os
 import re
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from placecell.core.files import written_whole
 from placecell.core.types import Float64
 from placecell.sources.errors import DriveError
 from placecell.trajectories.reading import read_trajectory
@@ -67,13 +67,9 @@ def save(file: Path, odometry: CachedOdometry) -> bool:
     rows = odometry.poses[:, :3].reshape(-1, 12)
     lines = [" ".join(repr(float(value)) for value in row) for row in rows]
     header = json.dumps({"drift_percent": odometry.drift_percent, "scans": len(rows)})
-    unfinished = file.with_name(f"{file.name}.{os.getpid()}.unfinished")
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_text(f"# {header}\n" + "\n".join(lines) + "\n", encoding="utf-8")
-        unfinished.replace(file)
+        with written_whole(file) as unfinished:
+            unfinished.write_text(f"# {header}\n" + "\n".join(lines) + "\n", encoding="utf-8")
     except OSError:
-        with suppress(OSError):
-            unfinished.unlink(missing_ok=True)
         return False
     return True

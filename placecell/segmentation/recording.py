@@ -15,6 +15,7 @@ import safetensors
 from numpy.typing import NDArray
 from safetensors.numpy import save_file
 
+from placecell.core.files import written_whole
 from placecell.core.parameters import NeighborhoodParameters, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int64
@@ -139,8 +140,6 @@ class Recording:
             # Optional keys: the file of a drive without dropouts does not have them.
             header["skipped_scans"] = list(self.skipped_scans)
             header["dropped_points"] = self.dropped_points
-        file.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = file.with_name(file.name + ".unfinished")
         columns = {
             "points": self.segments.points,
             "ends": self.segments.ends,
@@ -149,16 +148,16 @@ class Recording:
             "groups": self.groups,
             "distinct": self.distinct,
         }
-        unfinished.touch()
-        mode = unfinished.stat().st_mode  # that of any new file; safetensors writes 0600
-        save_file(
-            # safetensors writes the memory of a view without regard to its strides.
-            {name: np.ascontiguousarray(column) for name, column in columns.items()},
-            unfinished,
-            metadata={"header": json.dumps(header, sort_keys=True)},
-        )
-        unfinished.chmod(mode)
-        unfinished.replace(file)
+        with written_whole(file) as unfinished:
+            unfinished.touch()
+            mode = unfinished.stat().st_mode  # that of any new file; safetensors writes 0600
+            save_file(
+                # safetensors writes the memory of a view without regard to its strides.
+                {name: np.ascontiguousarray(column) for name, column in columns.items()},
+                unfinished,
+                metadata={"header": json.dumps(header, sort_keys=True)},
+            )
+            unfinished.chmod(mode)
 
     @classmethod
     def load(cls, file: Path) -> "Recording":

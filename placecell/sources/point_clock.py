@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from placecell.core.types import Float64
-from placecell.sources.point_times import EPOCH
-from placecell.sources.scan_options import SECONDS, TimeUnit
+from placecell.trajectories.times import SECONDS, TimeUnit, unit_since_epoch
 
 SHORTEST, LONGEST_GUESS = 0.001, 1.0
 """Shortest and longest plausible sweep if its unit is not known, seconds: exactly one unit fits.
@@ -152,11 +151,3 @@ def find_clock(
     ]
     same = bool(apart) and float(np.median(apart)) <= SAME_CLOCK
     return PointClock(units[0], "epoch" if same else "first")
-
-
-def unit_since_epoch(values: Sequence[float]) -> TimeUnit | None:
-    """Return the unit in which all values lie in the years 1998 to 2103; None if there is none."""
-    for unit, scale in SECONDS.items():
-        if all(EPOCH[0] <= value * scale <= EPOCH[1] for value in values):
-            return unit
-    return None

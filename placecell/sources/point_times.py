@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell.sources.scan_options import TimeUnit
+from placecell.trajectories.times import TimeUnit
 
-EPOCH = (9.0e8, 4.2e9)
-"""Range of times since 1970, seconds: years 1998 to 2103."""
 NAMES = {
     "t", "time", "times", "timestamp", "timestamps", "stamp", "ts", "dt", "deltat", "deltatime",
     "offsettime", "timeoffset", "pointtime", "pointtimeoffset", "relativetime", "gpstime",

@@ -9,17 +9,17 @@ from typing import Literal
 
 from placecell.core.progress import Progress
 from placecell.core.progress import silent as no_progress
+from placecell.trajectories.times import TimeUnit
 
 DType = Literal["float32", "float64"]
 Order = Literal["rows", "columns"]
-Unit = Literal["m", "cm", "mm"]
-TimeUnit = Literal["s", "ms", "us", "ns"]
+Unit = Literal["m", "cm", "mm", "ft", "us-ft"]
 
 KISS_ICP, NO_ODOMETRY = "kiss-icp", "none"
 """Values of `ScanOptions.odometry` that are no topic."""
 
-METERS: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001}
-SECONDS: dict[TimeUnit, float] = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+METERS: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "us-ft": 1200 / 3937}
+"""Meters in each unit; `ft` is the international foot, `us-ft` that of US surveys."""
 
 
 def silent(message: str) -> None:

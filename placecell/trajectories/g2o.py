@@ -8,7 +8,7 @@ import numpy as np
 from placecell.core.errors import DriveError
 from placecell.core.types import Float64
 from placecell.trajectories.poses import check_quaternions, of_euler, of_quaternions
-from placecell.trajectories.times import EPOCH, UNIT_NAMES, UNITS, find_unit
+from placecell.trajectories.times import SECONDS, UNIT_NAMES, unit_since_epoch
 from placecell.trajectories.trajectory import Trajectory
 
 VERTICES = {"VERTEX_SE3:QUAT": 7, "VERTEX_SE2": 3}
@@ -81,11 +81,8 @@ def letter_of(identity: int) -> str:
 def with_ids(poses: Float64, ids: Sequence[int]) -> Trajectory:
     """Return poses whose ids are times, if their magnitude shows it, else a number in order."""
     numbers = np.array([float(identity) for identity in ids])
-    unit = find_unit(numbers)
-    seconds = numbers * UNITS[unit]
-    is_time = letter_of(ids[0]) == "" and EPOCH[0] <= np.median(seconds) <= EPOCH[1]
-    if is_time and len(np.unique(seconds)) == len(seconds):
-        return Trajectory(
-            poses, seconds, remarks=(f"the ids are times in {UNIT_NAMES[unit]} since 1970",)
-        )
+    unit = unit_since_epoch([float(np.median(numbers))])
+    if unit is not None and letter_of(ids[0]) == "" and len(set(ids)) == len(ids):
+        remark = f"the ids are times in {UNIT_NAMES[unit]} since 1970"
+        return Trajectory(poses, numbers * SECONDS[unit], remarks=(remark,))
     return Trajectory(poses, remarks=("the ids give the order of the poses, and no times",))

@@ -16,13 +16,14 @@ from placecell.trajectories.poses import (
     of_quaternions,
 )
 from placecell.trajectories.table import TextTable
-from placecell.trajectories.times import UNIT_NAMES, UNITS, find_unit, in_order, parse_clock
+from placecell.trajectories.times import SECONDS, UNIT_NAMES, find_unit, in_order, parse_clock
 from placecell.trajectories.trajectory import Trajectory
 
 LENGTHS = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 ANGLES = {"rad": 1.0, "radian": 1.0, "radians": 1.0}
 ANGLES |= dict.fromkeys(("deg", "degree", "degrees", "°"), np.pi / 180)
-TIMES = UNITS | {"sec": 1.0, "secs": 1.0, "seconds": 1.0, "msec": 1e-3, "usec": 1e-6, "nsec": 1e-9}
+TIMES: dict[str, float] = {str(unit): size for unit, size in SECONDS.items()}
+TIMES |= {"sec": 1.0, "secs": 1.0, "seconds": 1.0, "msec": 1e-3, "usec": 1e-6, "nsec": 1e-9}
 TIMES |= {"milliseconds": 1e-3, "microseconds": 1e-6, "nanoseconds": 1e-9, "nanosec": 1e-9}
 
 WORD = r"(?:.*_)?(?:position|pos|translation|trans|location|loc)"
@@ -279,7 +280,7 @@ def scaled(times: Float64, unit: str, remarks: list[str]) -> Float64:
     found = find_unit(times)
     if found != "s":
         remarks.append(f"the times are {UNIT_NAMES[found]}, told by their magnitude")
-    return times * UNITS[found]
+    return times * SECONDS[found]
 
 
 def clock_times(table: TextTable, place: int) -> Float64:

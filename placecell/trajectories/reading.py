@@ -16,7 +16,7 @@ from placecell.trajectories.poses import (
     of_quaternions,
 )
 from placecell.trajectories.table import TextTable, read_text_table
-from placecell.trajectories.times import in_order
+from placecell.trajectories.times import in_order, unit_since_epoch
 from placecell.trajectories.trajectory import Trajectory
 
 WHAT = (
@@ -87,16 +87,13 @@ def of_width(table: TextTable) -> Trajectory:
     if not table.separator and width == 8:
         return of_stamped(table, values, XYZW, [])
     # EuRoC's files have nanoseconds, and qw first; other tables without a header follow TUM.
-    is_euroc = width == 17 or values[0, 0] > EUROC_TIME
+    is_euroc = width == 17 or unit_since_epoch([values[0, 0]]) == "ns"
     names = "qw, qx, qy, qz, as EuRoC's" if is_euroc else "qx, qy, qz, qw, as TUM's"
     remark = (
         f"the columns have no names; they are read as time, x, y, z, {names}. Add a header line"
     )
     return of_stamped(table, values, WXYZ if is_euroc else XYZW, [remark])
 
-
-EUROC_TIME = 1e17
-"""Times above this are nanoseconds since 1970."""
 
 WIDTHS = (4, 7, 8, 12, 13, 16, 17)
 """Numbers of columns of formats without a header."""

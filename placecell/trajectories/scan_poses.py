@@ -8,14 +8,14 @@ import numpy as np
 from placecell.core.errors import DriveError
 from placecell.core.types import Bool, Float64, Int64
 from placecell.trajectories.interpolation import SAME, interpolate, lies_between, nearest
-from placecell.trajectories.times import UNIT_NAMES
+from placecell.trajectories.times import UNIT_NAMES, TimeUnit
 from placecell.trajectories.trajectory import Trajectory
 
 LARGEST_GAP = 0.5
 """Largest time between two poses that a scan's pose is interpolated from, seconds."""
 ENOUGH = 0.5
 """Share of the scans that need a pose for a unit of time to be right."""
-FACTORS = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+FACTORS: dict[TimeUnit, float] = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 SAME_INTERVALS = 5e-3
 """Largest difference of the intervals of poses and scans that are taken for each other, seconds."""
 FEWEST_INTERVALS = 10
@@ -96,7 +96,7 @@ def posed(pose_stamps: Float64, stamps: Float64) -> Bool:
     return lies_between(stamps, pose_stamps, LARGEST_GAP) | (away <= SAME)
 
 
-def other_share(trajectory: Trajectory, stamps: Float64, unit: str) -> float:
+def other_share(trajectory: Trajectory, stamps: Float64, unit: TimeUnit) -> float:
     """Return the share of scans that have a pose if the poses' times have this unit."""
     assert trajectory.stamps is not None
     return float(posed(trajectory.stamps * FACTORS[unit], stamps).mean())

@@ -3,22 +3,40 @@
 import math
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from typing import Literal
 
 import numpy as np
 
 from placecell.core.types import Float64
 
-UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-UNIT_NAMES = {"s": "seconds", "ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}
+TimeUnit = Literal["s", "ms", "us", "ns"]
 
-EPOCH = (1e8, 4.2e9)
-"""Times of day, as seconds since 1970: from 1973 to 2103."""
+SECONDS: dict[TimeUnit, float] = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+UNIT_NAMES: dict[TimeUnit, str] = {
+    "s": "seconds",
+    "ms": "milliseconds",
+    "us": "microseconds",
+    "ns": "nanoseconds",
+}
+
+EPOCH = (9e8, 4.2e9)
+"""Times since 1970, seconds: from 1998 to 2103. Those of two units never overlap."""
 STEPS = (5e-4, 20.0)
 """Plausible time from one pose to the next, seconds (median)."""
 USUAL_STEP = 0.05
+LONGEST_STEP = 600.0
+"""Longest plausible time from one pose to the next since 1970, seconds (median)."""
 
 
-def find_unit(times: Float64) -> str:
+def unit_since_epoch(values: Sequence[float]) -> TimeUnit | None:
+    """Return the unit in which all values are times since 1970; None if there is none."""
+    for unit, size in SECONDS.items():
+        if all(EPOCH[0] <= value * size <= EPOCH[1] for value in values):
+            return unit
+    return None
+
+
+def find_unit(times: Float64) -> TimeUnit:
     """Return the unit of times, told by their magnitude and by the time between them.
 
     Times since 1970 have a magnitude for each unit. Times since some other moment are seconds,
@@ -28,13 +46,13 @@ def find_unit(times: Float64) -> str:
     steps = np.diff(np.sort(times))
     steps = steps[steps > 0]
     step = float(np.median(steps)) if len(steps) else 0.0
-    for unit, size in UNITS.items():
-        if EPOCH[0] <= median * size <= EPOCH[1] and step * size <= 600:
-            return unit
-    able = [unit for unit, size in UNITS.items() if STEPS[0] <= step * size <= STEPS[1]]
+    since_epoch = unit_since_epoch([median])
+    if since_epoch and step * SECONDS[since_epoch] <= LONGEST_STEP:
+        return since_epoch
+    able = [unit for unit, size in SECONDS.items() if STEPS[0] <= step * size <= STEPS[1]]
     if not able or "s" in able:
         return "s"
-    return min(able, key=lambda unit: abs(math.log10(step * UNITS[unit] / USUAL_STEP)))
+    return min(able, key=lambda unit: abs(math.log10(step * SECONDS[unit] / USUAL_STEP)))
 
 
 def parse_clock(text: str) -> float | None:

@@ -19,8 +19,6 @@ FOREIGN = {
     "httpx",
 }
 NEIGHBORS = {"service", "training", "town", "cli", "client", "placecell_client", "bench"}
-READERS_OF_MAPS = ("placecell.export", "placecell.inspection")
-"""Packages that read map files, by the client's reader, inside functions."""
 MODULES = sorted(
     ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts)
     for file in PACKAGE.rglob("*.py")
@@ -56,5 +54,4 @@ def test_no_foreign_import_inside_functions(module: str) -> None:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0
             imported.add(str(node.module).partition(".")[0])
-    allowed = {"placecell_client"} if module.startswith(READERS_OF_MAPS) else set[str]()
-    assert not imported & (FOREIGN | NEIGHBORS) - allowed
+    assert not imported & (FOREIGN | NEIGHBORS)

@@ -17,7 +17,7 @@ from placecell.sources.errors import DriveError
 from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_times import NAMES, split_name
 from placecell.sources.scan import LidarScan
-from placecell.sources.scan_options import TimeUnit
+from placecell.trajectories.times import TimeUnit
 
 TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 """NumPy type of each datatype of sensor_msgs/PointField."""

@@ -15,7 +15,8 @@ from placecell.sources.errors import DriveError
 from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_times import is_time, time_fields
 from placecell.sources.scan import LidarScan
-from placecell.sources.scan_options import METERS, TimeUnit, Unit
+from placecell.sources.scan_options import METERS, Unit
+from placecell.trajectories.times import TimeUnit
 
 FAR = 10_000.0
 """Distance of a cloud from the origin from which it is shifted, meters: float32 resolves 1 mm at

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from placecell.core.files import natural_key
 from placecell.sources.clouds.formats import (
     FORMATS,
     SUFFIXES,
@@ -12,7 +13,6 @@ from placecell.sources.clouds.formats import (
     read_head,
 )
 from placecell.sources.clouds.text import holds_points
-from placecell.sources.clouds.times import natural_key
 from placecell.sources.errors import DriveError
 
 USUAL_FOLDERS = (

@@ -8,9 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.sources.point_times import EPOCH
-from placecell.sources.scan_options import SECONDS, TimeUnit
-from placecell.trajectories.times import UNITS, find_unit, parse_clock
+from placecell.trajectories.times import (
+    SECONDS,
+    TimeUnit,
+    find_unit,
+    parse_clock,
+    unit_since_epoch,
+)
 
 TIME_FILES = ("times", "timestamps", "timestamp", "time", "stamps")
 SUFFIXES = (".txt", ".csv")
@@ -21,17 +25,6 @@ DATE = re.compile(
     r"(?<!\d)(\d{4})[-_.]?(\d\d)[-_.]?(\d\d)[-_.T ]?(\d\d)[-_.:]?(\d\d)[-_.:]?(\d\d)"
     r"(?:[-_.,](\d{1,9}))?(?!\d)"
 )
-
-
-def natural_key(file: Path) -> tuple[object, ...]:
-    """Return a key that sorts names by their numbers: 10 after 9."""
-    parts = re.split(r"(\d+)", file.stem)
-    words = tuple(part.lower() for part in parts[::2])
-    numbers = tuple(int(part) for part in parts[1::2])
-    return (
-        words[0],
-        *(each for pair in zip(numbers, words[1:], strict=True) for each in pair),
-    )
 
 
 def stamps_of_names(stems: Sequence[str]) -> Float64 | None:
@@ -51,7 +44,7 @@ def seconds_and_rest(stems: Sequence[str]) -> Float64 | None:
     """Return times that are written as seconds and their fraction."""
     matches = [SECONDS_AND_REST.search(stem) for stem in stems]
     found = [match for match in matches if match is not None]
-    if len(found) < len(stems) or not all(EPOCH[0] <= int(match[1]) <= EPOCH[1] for match in found):
+    if len(found) < len(stems) or unit_since_epoch([int(each[1]) for each in found]) != "s":
         return None
     digits = {len(match[3]) for match in found}
     if all(match[2] == "." for match in found):
@@ -68,12 +61,12 @@ def whole_numbers(stems: Sequence[str]) -> Float64 | None:
     if not all(numbers):
         return None
     last = [int(each[-1]) for each in numbers]
-    for scale in SECONDS.values():
-        if all(EPOCH[0] <= number * scale <= EPOCH[1] for number in last):
-            # Whole seconds and the rest are divided apart: both are exact.
-            per_second = round(1 / scale)
-            return np.array([n // per_second + n % per_second / per_second for n in last])
-    return None
+    unit = unit_since_epoch(last)
+    if unit is None:
+        return None
+    # Whole seconds and the rest are divided apart: both are exact.
+    per_second = round(1 / SECONDS[unit])
+    return np.array([n // per_second + n % per_second / per_second for n in last])
 
 
 def dates(stems: Sequence[str]) -> Float64 | None:
@@ -135,7 +128,7 @@ def stamps_in(file: Path, scans: Sequence[Path], stated: TimeUnit) -> tuple[Floa
         first = int((steps < 0).argmax()) + 1
         return None, f"{file.name} is not used: time decreases at scan {first}"
     unit = stated if stated != "s" else find_unit(times)
-    return times * UNITS[unit], f"the times of the scans are in {file.name}, in {unit}"
+    return times * SECONDS[unit], f"the times of the scans are in {file.name}, in {unit}"
 
 
 def read_times(file: Path) -> Float64 | None:

@@ -1,6 +1,7 @@
 """Exports, each read back by an independent reader."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any, get_args
 
@@ -14,15 +15,18 @@ from rosbags.typesys import Stores, get_typestore
 from typer.testing import CliRunner, Result
 
 from cli import app
+from cli.map_content import read_content
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.export import mcap_file
-from placecell.export.content import colors, read_content
-from placecell.export.export import export
+from placecell.export.content import colors
+from placecell.export.export import export as write
 from placecell.export.geo import Anchor, parse_anchor, to_wgs84
 from placecell.export.targets import Target
 from placecell.segmentation.recording import Recording
 from tests.client.map_builders import random_map
+
+export = partial(write, read=read_content)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from placecell.core.files import natural_key
 from placecell.sources.bags.containers import mcap_file, ros1_file, sqlite_file
 from placecell.sources.bags.containers.compression import ZSTD_MAGIC, decompress
 from placecell.sources.bags.containers.container import BagTopic, Container, runs
@@ -57,12 +58,6 @@ def plain_suffix(file: Path) -> str:
     return name.suffix.lower()
 
 
-def natural(file: Path) -> list[str | int]:
-    """Return the key that orders run_2 before run_10."""
-    parts = re.split(r"(\d+)", file.name)
-    return [int(part) if part.isdecimal() else part for part in parts]
-
-
 def bag_files(path: Path) -> list[Path]:
     """Return the files of a bag: itself, or those of the folder, in their order."""
     if path.is_file():
@@ -82,7 +77,7 @@ def bag_files(path: Path) -> list[Path]:
         for file in files
         if file.suffix not in COMPRESSED or file.with_suffix("").name not in names
     ]
-    return sorted(plain, key=natural)
+    return sorted(plain, key=natural_key)
 
 
 class Bag:

@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from placecell.sources.clouds.times import natural_key, stamps_beside, stamps_of_names
+from placecell.sources.clouds.times import stamps_beside, stamps_of_names
 
 START = 1583836591.5
 
@@ -43,13 +43,6 @@ def test_times_in_names_are_read(stems: list[str], expected: list[float]) -> Non
 )
 def test_counters_and_equal_times_are_no_stamps(stems: list[str]) -> None:
     assert stamps_of_names(stems) is None
-
-
-def test_names_sort_by_their_numbers() -> None:
-    names = ["b2.pcd", "a10.pcd", "a9.pcd", "a9_b.pcd", "a009.pcd", "7.pcd"]
-    ordered = sorted(map(Path, names), key=natural_key)
-    assert [file.name for file in ordered][:1] == ["7.pcd"]
-    assert [file.name for file in ordered][-2:] == ["a10.pcd", "b2.pcd"]
 
 
 @pytest.mark.parametrize(

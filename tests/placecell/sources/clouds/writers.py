@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from placecell.core.types import Float64
 from placecell.sources.clouds.cloud import as_scan, find_cloud_clock
 from placecell.sources.clouds.formats import ReadOptions, read_cloud
+from placecell.sources.errors import DriveError
 from placecell.sources.scan import LidarScan
 
 POINTS: Float64 = np.array([[1.5, -2.25, 0.5], [3.0, 4.0, -1.0], [-7.125, 0.25, 2.0]])
@@ -65,6 +67,14 @@ def pcd(
         column += count
     packed = lzf_literal(body)
     return header + struct.pack("<II", len(packed), len(body)) + packed
+
+
+def check_refused(file: Path, expected: str) -> None:
+    """Check that a damaged file is refused with its name and with what is wrong."""
+    with pytest.raises(DriveError) as error:
+        read(file)
+    assert str(error.value).startswith(f"{file}: ")
+    assert expected in str(error.value)
 
 
 def lzf_literal(content: bytes) -> bytes:
