@@ -63,8 +63,9 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
             str | None,
             typer.Option(
                 metavar="TOPIC",
-                help="Poses by a topic of the bag, or by kiss-icp from the scans; none refuses a "
-                "drive without poses. (default: the bag's own poses, else kiss-icp)",
+                help="Poses by a topic of the bag, or by kiss-icp from the scans; none uses "
+                "neither, so that a bag needs --poses. (default: the bag's own poses, else "
+                "kiss-icp)",
                 rich_help_panel=PANEL,
             ),
         ],
@@ -130,7 +131,11 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
     "unit": (
         Annotated[
             Unit,
-            typer.Option(help="Unit of the scans' coordinates.", rich_help_panel=PANEL),
+            typer.Option(
+                help="Unit of the scans' coordinates; ft is the international foot, us-ft that of "
+                "US surveys.",
+                rich_help_panel=PANEL,
+            ),
         ],
         "m",
     ),

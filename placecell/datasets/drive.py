@@ -6,9 +6,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from placecell.core.text_files import read_lines
 from placecell.core.types import Float32, Float64
@@ -19,6 +20,7 @@ from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
 from placecell.sources.point_times import split_name
 from placecell.sources.scan_options import ScanOptions, current_scan_options
+from placecell.trajectories.times import TimeUnit
 
 SHOWN = 5
 """Largest number of scans that a message names."""
@@ -120,12 +122,16 @@ class Drive(ABC):
         if self.point_layout.columns != KITTI.columns or self.point_layout.dtype != KITTI.dtype:
             how = "as stated" if self.options.states_layout else "found from their values"
             self.options.tell(f"{self.folder}: scans have {self.point_layout}, {how}")
+        self.tell_clock()
+        self.check_sizes([self.point_layout.point_bytes] * len(sizes), sizes)
+
+    def tell_clock(self) -> None:
+        """Tell whether points have times, and whether the scans are deskewed by them."""
         if self.clock is not None:
             done = "deskewed by the poses" if self.options.deskew else "not deskewed, as stated"
             self.options.tell(
                 f"{self.folder}: points have times ({self.clock}); the scans are {done}"
             )
-        self.check_sizes([self.point_layout.point_bytes] * len(sizes), sizes)
 
     def check_sizes(self, point_bytes: Sequence[int], sizes: Sequence[int]) -> None:
         """Skip the scans whose size shows that they cannot be used.
@@ -205,25 +211,41 @@ class Drive(ABC):
         Raises:
             DriveError: the file is missing, unreadable, empty or cut short.
         """
-        column = self.point_layout.time_column
-        if column is None or self.clock is None:
+        if self.time_field is None or self.clock is None:
             return None
-        raw = self.point_layout.read_table(self.scan_files[index])[:, column]
-        return self.clock.seconds(raw, round(float(self.times[index]) * 1e9))
+        return self.clock.seconds(self.raw_times(index), round(float(self.times[index]) * 1e9))
+
+    @property
+    def time_field(self) -> str | None:
+        """Name of the values that are the points' times; None if the scans have none."""
+        column = self.point_layout.time_column
+        return None if column is None else self.point_layout.columns[column]
+
+    @property
+    def time_unit(self) -> TimeUnit | None:
+        """Unit that the name of `time_field` states; None if it states none."""
+        return None if self.time_field is None else split_name(self.time_field)[1]
+
+    def raw_times(self, index: int) -> NDArray[Any]:
+        """Read the values of `time_field` of a scan file.
+
+        Raises:
+            DriveError: the file is missing, unreadable, empty or cut short.
+        """
+        table = self.point_layout.read_table(self.scan_files[index])
+        return table[:, self.point_layout.time_column]
 
     @cached_property
     def clock(self) -> PointClock | None:
         """Clock of the points' times, found from several scans; None if there is none."""
-        column = self.point_layout.time_column
-        if column is None:
+        if self.time_field is None:
             return None
         samples = []
         for index in np.unique(np.linspace(0, len(self) - 1, CLOCK_SCANS).astype(int)).tolist():
             with suppress(DriveError):  # The scan is skipped when it is read.
-                raw = self.point_layout.read_table(self.scan_files[index])[:, column]
-                samples.append((raw, round(float(self.times[index]) * 1e9)))
+                samples.append((self.raw_times(index), round(float(self.times[index]) * 1e9)))
         period = float(np.median(np.diff(self.times))) if len(self) > 1 else None
-        return find_clock(samples, period, split_name(self.point_layout.columns[column])[1])
+        return find_clock(samples, period, self.time_unit)
 
     @property
     def content(self) -> str:

@@ -1,6 +1,7 @@
 """The layout of HeLiPR (Jung et al. 2024): LiDAR/SENSOR/STAMP.bin and LiDAR_GT/*SENSOR_gt.txt."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from placecell.core.types import Float32
 from placecell.datasets.drive import Drive, check_motion, find_scans, read_table, size_of
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import current_scan_options
+from placecell.trajectories.times import TimeUnit
 
 XYZ = [("x", "<f4"), ("y", "<f4"), ("z", "<f4")]
 
@@ -41,6 +43,14 @@ RECORDS: dict[str, np.dtype[np.void]] = {
 }
 """Packed values of a point, per sensor."""
 
+TIME_FIELDS = {
+    "Ouster": "t",
+    "Velodyne": "time",
+    "Avia": "offset_time",
+    "Aeva": "time_offset_ns",
+}
+"""Time of a point from the time of its scan, per sensor: nanoseconds, of the Velodyne seconds."""
+
 EARLY_AEVA = np.dtype([each for each in RECORDS["Aeva"].descr if each[0] != "intensity"])
 LAST_EARLY_AEVA = 1_691_936_557_946_849_179
 """Scans of the Aeva up to this time, nanoseconds, have no intensity."""
@@ -53,8 +63,8 @@ class HeLiPR(Drive):
 
     The sensors are Ouster (OS2-128), Velodyne (VLP-16), Avia and Aeva. The name of a scan is its
     time. The poses are the sensor's, in UTM coordinates in `global_SENSOR_gt.txt`, else in the
-    sequence's own frame in `SENSOR_gt.txt`. A scan without a pose is left out. Scans are not
-    deskewed.
+    sequence's own frame in `SENSOR_gt.txt`. A scan without a pose is left out. Scans are
+    deskewed by the times of their points.
     """
 
     name = "HeLiPR"
@@ -100,6 +110,7 @@ class HeLiPR(Drive):
         self.options = current_scan_options()
         sizes = [size_of(file) for file in self.scan_files]
         self.check_sizes([self.record_of(index).itemsize for index in range(len(self))], sizes)
+        self.tell_clock()
 
     @classmethod
     def recognizes(cls, folder: Path) -> bool:
@@ -118,6 +129,26 @@ class HeLiPR(Drive):
 
     def read_points(self, index: int) -> Float32:
         """Read the points of a scan file, float32 (n, 3), meters; values may be not finite."""
+        points = self.read_records(index)
+        return np.stack([points[axis] for axis in "xyz"], axis=1)
+
+    @property
+    def time_field(self) -> str:
+        return TIME_FIELDS[self.folder.name]
+
+    @property
+    def time_unit(self) -> TimeUnit:
+        return "s" if self.folder.name == "Velodyne" else "ns"
+
+    def raw_times(self, index: int) -> NDArray[Any]:
+        return self.read_records(index)[self.time_field]
+
+    def read_records(self, index: int) -> NDArray[np.void]:
+        """Read all values of a scan's points.
+
+        Raises:
+            DriveError: the file is missing, unreadable, empty or cut short.
+        """
         file, record = self.scan_files[index], self.record_of(index)
         try:
             content = file.read_bytes()
@@ -128,5 +159,4 @@ class HeLiPR(Drive):
                 f"{file}: {len(content)} bytes is no whole number of points of the "
                 f"{self.folder.name} ({record.itemsize} bytes each)"
             )
-        points: NDArray[np.void] = np.frombuffer(content, record)
-        return np.stack([points[axis] for axis in "xyz"], axis=1)
+        return np.frombuffer(content, record)

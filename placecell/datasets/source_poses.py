@@ -101,7 +101,9 @@ def given_poses(source: ScanSource, options: ScanOptions) -> FoundPoses | None:
     """
     if options.poses is not None:
         return with_mount(source, read_poses(options.poses), str(options.poses), options)
-    if options.odometry == KISS_ICP:
+    if options.odometry == KISS_ICP or (
+        options.odometry == NO_ODOMETRY and isinstance(source, BagSource)
+    ):
         return None
     stated = options.odometry_topic
     name = f"{source.path}, topic {stated}" if stated else f"{source.path}"
@@ -198,7 +200,11 @@ def by_odometry(source: ScanSource, options: ScanOptions) -> SourcePoses:
         options.tell(f"{source.path}: one scan; its pose is the origin")
         return SourcePoses("one scan", np.zeros(1, np.int64), np.eye(4)[None], source.stamps, None)
     if options.odometry == NO_ODOMETRY:
-        raise DriveError(f"{source.path}: has no poses, and --odometry none. {GIVE_POSES}")
+        raise DriveError(
+            f"{source.path}: has no poses to use: --odometry none uses neither those in a bag nor "
+            "kiss-icp. Give poses with --poses FILE (KITTI, TUM, EuRoC, CSV or g2o), or omit "
+            "--odometry"
+        )
     found = odometry_of(source, options.deskew, options.progress, options.tell)
     stamps = source.stamps if np.isfinite(source.stamps).all() else None
     scans = np.arange(len(source))

@@ -40,8 +40,8 @@ class ScanOptions:
         topic: topic of a bag with the clouds; none: the only one, or the one with the most points.
         poses: file of a trajectory; none: the source's own poses, or odometry.
         pose_offset: seconds to add to the times of `poses`; none: 0, or found if it is sure.
-        odometry: topic of a bag with the poses, `kiss-icp`, or `none` to refuse a source without
-            poses; none: chosen from the source's content.
+        odometry: topic of a bag with the poses, `kiss-icp`, or `none` to use neither: then a bag
+            needs `poses`; None: chosen from the source's content.
         extrinsic: mount of the sensor in the frame of the poses, as `parse_extrinsic` takes it;
             none: as the source states it, else identity.
         deskew: move points that have times to the scan's time.

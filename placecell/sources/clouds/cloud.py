@@ -35,7 +35,7 @@ AXIS = re.compile(
     r"(?:_?coord(?:inate)?)?"
 )
 VELOVIEW = re.compile(r"points(?:_m_xyz)?:([012])")
-UNIT = re.compile(r"^(.*?)[ _]*(?:[\[(](m|cm|mm)[\])]|_(m|cm|mm))$")
+UNIT = re.compile(r"^(.*?)[ _]*(?:[\[(](m|cm|mm|ft)[\])]|_(m|cm|mm|ft))$")
 
 
 @dataclass(frozen=True, slots=True)

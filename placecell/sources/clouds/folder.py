@@ -21,16 +21,30 @@ from placecell.sources.clouds.finding import find_clouds, folder_of_scans
 from placecell.sources.clouds.formats import RAW, ReadOptions, format_of, read_cloud
 from placecell.sources.clouds.raw import layout_of
 from placecell.sources.clouds.times import stamps_beside, stamps_of_names
+from placecell.sources.clouds.viewpoints import (
+    in_world,
+    read_viewpoints,
+    stated,
+    to_sensor,
+    viewpoint_of,
+)
 from placecell.sources.errors import DriveError
 from placecell.sources.file_hash import file_hash
 from placecell.sources.point_layout import KITTI
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import METERS, current_scan_options
 from placecell.sources.source import ScanSource
+from placecell.trajectories.trajectory import Trajectory
 
 MOST_REMARKS = 20
 SAMPLED = 5
-"""Number of scans from which the clock of the points' times is found."""
+"""Number of scans that tell the clock of the points' times, and the frame of the points."""
+
+
+def spread(count: int) -> list[int]:
+    """Return some of `count` indices, evenly spread."""
+    indices: list[int] = np.unique(np.linspace(0, count - 1, SAMPLED).astype(int)).tolist()
+    return indices
 
 
 class FolderOfClouds(ScanSource):
@@ -105,7 +119,7 @@ class FolderOfClouds(ScanSource):
         steps = np.diff(self.stamps)
         period = float(np.median(steps[steps > 0])) if (steps > 0).any() else None
         clouds = []
-        for index in np.unique(np.linspace(0, len(self.files) - 1, SAMPLED).astype(int)):
+        for index in spread(len(self.files)):
             with suppress(DriveError):  # the scan raises it again
                 file = self.files[index]
                 cloud = read_cloud(file, self.read_options)
@@ -153,7 +167,47 @@ class FolderOfClouds(ScanSource):
                     f"the coordinates are far from 0: ({shown}) m is subtracted from all scans, "
                     "because float32 would lose their digits"
                 )
+        if self.in_world:
+            points = to_sensor(scan.points, self.viewpoint(index), shift)
+            return replace(scan, points=points)
         return scan
+
+    def viewpoint(self, index: int) -> Float64:
+        """Return the sensor's pose by the VIEWPOINT of a PCD file, float64 (4, 4)."""
+        return np.asarray(read_viewpoints([self.files[index]], self.scale)[0])
+
+    @cached_property
+    def in_world(self) -> bool:
+        """Whether the points of PCD files are in the world's frame, not in the sensor's."""
+        if self.cloud_format.name != "PCD":
+            return False
+        chosen = spread(len(self.files))
+        poses = read_viewpoints([self.files[index] for index in chosen], self.scale)
+        if not stated(poses).any():
+            return False
+        clouds = []
+        for index in chosen:
+            clouds.append(np.zeros((0, 3), np.float32))
+            with suppress(DriveError):  # The scan raises it again.
+                file = self.files[index]
+                cloud = read_cloud(file, self.read_options)
+                clouds[-1] = as_scan(cloud, file, scale=self.scale, shift=np.zeros(3))[0].points
+        found = in_world(poses, clouds)
+        told = (
+            "the points are in the world's frame already and are moved back to the sensor's"
+            if found
+            else "the points are in its frame"
+        )
+        first = self.files[chosen[int(stated(poses).argmax())]]
+        shown = " ".join(f"{value:g}" for value in viewpoint_of(first))
+        self.remark(f"VIEWPOINT {shown} ({first.name}) is the pose of the sensor; {told}")
+        return found
+
+    def trajectory(self) -> Trajectory | None:
+        if self.cloud_format.name != "PCD":
+            return None
+        poses = read_viewpoints(self.files, self.scale)
+        return Trajectory(poses) if stated(poses).any() else None
 
     def scan_hash(self, index: int) -> str:
         """Return a scan's identity (see `file_hash`)."""

@@ -70,10 +70,7 @@ def read_pcd(file: Path) -> Cloud:
     """
     content = read_content(file)
     header = parse_header(content, file)
-    remarks = []
-    if header.viewpoint != IDENTITY:
-        shown = " ".join(f"{value:g}" for value in header.viewpoint)
-        remarks.append(f"VIEWPOINT {shown} is not applied: points stay in the file's frame")
+    remarks = list[str]()
     body = content[header.start :]
     if header.data == "ascii":
         rows, body = ascii_rows(body)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from placecell.datasets import DriveError, HeLiPR, ScanOptions, open_drive, use_scan_options
-from placecell.datasets.helipr import LAST_EARLY_AEVA
+from placecell.datasets.helipr import LAST_EARLY_AEVA, RECORDS, TIME_FIELDS
 from tests.placecell.datasets.dataset_builders import SCAN_NS, write_helipr
 from tests.placecell.segment_builders import pose
 
@@ -95,3 +95,22 @@ def test_other_folder_beside_the_sensors_is_refused(tmp_path: Path) -> None:
     (tmp_path / "Town01" / "LiDAR" / "Pandar").mkdir()
     with pytest.raises(DriveError, match="Expected a folder Ouster, Velodyne, Avia, Aeva"):
         open_drive(tmp_path / "Town01" / "LiDAR" / "Pandar")
+
+
+@pytest.mark.parametrize("sensor", BYTES)
+def test_points_are_moved_to_the_time_of_their_scan(tmp_path: Path, sensor: str) -> None:
+    poses = [pose(float(step), 0.0, 0.0, 0.0) for step in range(3)]  # 1 m a scan: 10 m/s
+    scan = np.tile([[5.0, 1.0, -1.0]], (11, 1))
+    folder = write_helipr(tmp_path / "Town01", sensor, [scan] * 3, poses)
+    seconds = np.linspace(0, 0.1, 11)
+    for file in sorted(folder.glob("*.bin")):
+        records = np.fromfile(file, RECORDS[sensor])
+        records[TIME_FIELDS[sensor]] = seconds if sensor == "Velodyne" else seconds * 1e9
+        records.tofile(file)
+    said: list[str] = []
+    with use_scan_options(ScanOptions(tell=said.append)):
+        moved = open_drive(folder).scan(1)
+    np.testing.assert_allclose(moved - scan, np.outer(10 * seconds, [1, 0, 0]), atol=1e-4)
+    assert any("points have times" in line and "deskewed by the poses" in line for line in said)
+    with use_scan_options(ScanOptions(deskew=False)):
+        np.testing.assert_allclose(open_drive(folder).scan(1), scan)

@@ -107,7 +107,10 @@ def test_poses_that_never_move_are_not_used(tmp_path: Path) -> None:
 
 
 def test_source_without_poses_is_refused_with_what_to_give() -> None:
-    with pytest.raises(DriveError, match=r"--odometry none. Give poses with --poses FILE .KITTI"):
+    with pytest.raises(
+        DriveError,
+        match=r"neither those in a bag nor kiss-icp. Give poses with --poses FILE .KITTI",
+    ):
         drive(MemorySource(SCANS, STAMPS), odometry="none")
     with pytest.raises(DriveError, match="has no poses on /odom; memory has none"):
         drive(MemorySource(SCANS, STAMPS), odometry="/odom")

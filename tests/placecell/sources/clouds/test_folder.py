@@ -6,6 +6,7 @@ import pytest
 
 from placecell.sources import DriveError, ScanOptions, use_scan_options
 from placecell.sources.clouds import FolderOfClouds
+from placecell.sources.scan_options import Unit
 from tests.placecell.sources.clouds.writers import POINTS, las, pcd, ply
 
 XYZ = [("x", "F", 4, 1), ("y", "F", 4, 1), ("z", "F", 4, 1)]
@@ -177,3 +178,11 @@ def test_content_decides_before_the_name(tmp_path: Path) -> None:
     (tmp_path / "table.pcd").write_text("no cloud at all")
     with pytest.raises(DriveError, match=r"table\.pcd: its PCD header"):
         FolderOfClouds(tmp_path / "table.pcd")
+
+
+@pytest.mark.parametrize(("unit", "meters"), [("ft", 0.3048), ("us-ft", 1200 / 3937)])
+def test_feet_become_meters(tmp_path: Path, unit: Unit, meters: float) -> None:
+    (tmp_path / "0.pcd").write_bytes(pcd(XYZ, [[10, 20, 3]], "binary"))
+    with use_scan_options(ScanOptions(unit=unit)):
+        points = FolderOfClouds(tmp_path).scan(0).points
+    np.testing.assert_allclose(points, np.array([[10, 20, 3]]) * meters, rtol=1e-6)

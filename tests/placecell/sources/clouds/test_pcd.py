@@ -136,12 +136,6 @@ def test_a_width_that_contradicts_the_points_is_told(
         assert "WIDTH x HEIGHT" in read_cloud(file, ReadOptions()).remarks[0]
 
 
-def test_a_viewpoint_is_told_and_not_applied(tmp_path: Path) -> None:
-    file = write(tmp_path, pcd(XYZ, POINTS.tolist(), "binary", VIEWPOINT="1 2 3 0 1 0 0"))
-    np.testing.assert_array_equal(read(file).points, POINTS)
-    assert "VIEWPOINT 1 2 3 0 1 0 0" in read_cloud(file, ReadOptions()).remarks[0]
-
-
 @pytest.mark.parametrize(
     ("content", "expected"),
     [
