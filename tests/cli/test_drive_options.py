@@ -139,7 +139,19 @@ def test_poses_of_another_bag(bag: Path, kitti: Path, tmp_path: Path) -> None:
 def test_odometry_none_refuses_a_drive_without_poses(kitti: Path, tmp_path: Path) -> None:
     shutil.copytree(kitti / "velodyne", tmp_path / "scans")
     result = run("prepare", tmp_path / "scans", "--odometry", "none", status=1)
-    assert "has no poses, and --odometry none. Give poses" in " ".join(result.output.split())
+    assert "uses neither those in a bag nor kiss-icp. Give poses" in " ".join(result.output.split())
+
+
+def test_odometry_none_takes_poses_only_from_the_file(
+    bag: Path, kitti: Path, tmp_path: Path
+) -> None:
+    result = run("prepare", bag, "--odometry", "none", status=1)
+    assert "uses neither those in a bag nor kiss-icp. Give poses" in " ".join(result.output.split())
+    poses = kitti / "poses.txt"
+    recording, said = prepared(tmp_path / "out", bag, "--odometry", "none", "--poses", poses)
+    assert recording.scans == SCANS
+    assert "poses.txt" in said
+    assert "/odom" not in said
 
 
 def test_missing_kiss_icp_is_named_with_the_command_that_installs_it(
