@@ -25,6 +25,7 @@ from service.api.routes import (
     uploads,
     versions,
 )
+from service.api.routes.live import robots
 from service.api.state import State, open_state
 from service.core.settings import Settings
 
@@ -53,6 +54,7 @@ ROUTES = (
     segments,
     versions,
     align,
+    robots,
     models,
     health,
 )

@@ -26,7 +26,8 @@ from types import TracebackType
 from typing import Self, get_args
 
 from numpy.typing import ArrayLike
-from placecell_client import CompactMap, Delta, Info, decode, encode, encode_delta
+from placecell_client import CompactMap, Delta, Hints, Info, decode, encode, encode_delta
+from placecell_client.hints import SensorPose
 from placecell_client.maps.map_file import VERSION
 
 from placecell.core.cancellation import current
@@ -43,6 +44,7 @@ from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.inference.model_registry import Model, Models
 from service.inference.scan import Scan
+from service.live.robots import Robots
 from service.maps.cache import MapCache
 from service.maps.history import commits_of, version_file
 from service.maps.quotas import Quotas
@@ -57,6 +59,7 @@ from service.maps.writes.partial_uploads import PartialUploads
 from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
 from service.merging.merge import Merger, MergeResult
+from service.search.hints import ResolvedHints, resolve, sensor_of_codes
 from service.search.localization import LocalizationResult, localize
 from service.search.matching import MatchResult, match
 from service.search.query import Query, query_of_codes, query_of_scan, select_maps
@@ -88,6 +91,7 @@ class Engine:
         partial_uploads: map files that are uploaded in parts and are not complete.
         sync: incremental transfers of maps, for robots that keep a copy.
         sessions: results of robots' last requests.
+        robots: last pose and state of each robot.
     """
 
     def __init__(
@@ -123,6 +127,7 @@ class Engine:
             self.sync = MapSync(store)
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
+            self.robots = Robots(limits.robots, limits.robot_seconds)
             bounds = MaintenanceThresholds(
                 map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
             )
@@ -130,6 +135,7 @@ class Engine:
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
         metrics.maps.set_function(lambda: len(self.maps))
+        metrics.robots.set_function(lambda: len(self.robots))
         for name in get_args(CalibrationState):
             metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.all()))
@@ -262,6 +268,7 @@ class Engine:
         parameters: LocalizationParameters | None = None,
         session: str | Session | None = None,
         principal: Principal = ANYONE,
+        hints: Hints | None = None,
     ) -> LocalizationResult:
         """Return the robot's pose in each map, or the reason for none; the most probable first.
 
@@ -273,14 +280,15 @@ class Engine:
             session: id that this robot uses for all its requests in one odometry frame; requests of
                 the last seconds support each other.
             principal: principal, whose scope may not cover all maps.
+            hints: where the robot is, as far as it knows; they narrow the result.
 
         Raises:
-            Problem: as `query`.
+            Problem: as `query`; 422 if a hint is wrong.
         """
         timing = Timing()
         query = self.query(seen, maps, k, principal, timing)
         descriptors = query.describe_alone()
-        return self.poses(query, descriptors, timing, parameters, session, principal)
+        return self.poses(query, descriptors, timing, parameters, session, principal, hints)
 
     def query(
         self,
@@ -319,6 +327,7 @@ class Engine:
         parameters: LocalizationParameters | None = None,
         session: str | Session | None = None,
         principal: Principal = ANYONE,
+        hints: Hints | None = None,
     ) -> LocalizationResult:
         """Search the robot's pose: the third step of a localization."""
         if isinstance(session, str):
@@ -331,6 +340,31 @@ class Engine:
             parameters=parameters or LocalizationParameters(),
             timing=timing,
             session=session,
+            resolve_hints=None
+            if hints is None
+            else partial(self._resolved, hints, query, descriptors, principal),
+        )
+
+    def _resolved(
+        self,
+        hints: Hints,
+        query: Query,
+        descriptors: Sequence[Descriptors],
+        principal: Principal,
+        sensor: SensorPose,
+    ) -> ResolvedHints:
+        """Put hints into the frames of the searched maps."""
+        if hints.sensor is None and query.sensor is None and hints.needs_sensor:
+            assert descriptors[0].centroids is not None  # `/localize` needs them
+            sensor = sensor_of_codes(descriptors[0].centroids)
+        return resolve(
+            hints=hints,
+            searched=query.selection.maps,
+            sensor=sensor,
+            known=lambda name: self.maps.find(name) is not None,
+            tags_of=lambda _: (),
+            anchor_of=lambda _: None,
+            principal=principal,
         )
 
     def reload_models(self) -> list[Model]:

@@ -57,6 +57,7 @@ LAYERS = (
     ("town.places",),
     ("town.drives",),
     ("service.core",),
+    ("service.live",),
     ("service.inference",),
     ("service.maps",),
     ("service.maps.sqlite", "service.maps.writes"),

@@ -2,6 +2,17 @@
 
 from placecell_client.async_client import AsyncClient
 from placecell_client.client import Client
+from placecell_client.hints import (
+    GeoHint,
+    Hints,
+    LastPoseHint,
+    NearHint,
+    OutsidePlace,
+    SensorPose,
+    UnusedHint,
+    UsedHints,
+    YawHint,
+)
 from placecell_client.http.errors import ServiceError
 from placecell_client.http.point_clouds import PrecisionWarning
 from placecell_client.http.retry import Retries
@@ -33,6 +44,7 @@ from placecell_client.results.localization import (
     Rival,
 )
 from placecell_client.results.merge import MapLoop, Merge, MergedPart, MergePair
+from placecell_client.results.robots import RobotState
 
 __all__ = [
     "AsyncClient",
@@ -42,10 +54,13 @@ __all__ = [
     "CompactMap",
     "Delta",
     "Description",
+    "GeoHint",
+    "Hints",
     "Hypothesis",
     "Info",
     "Inliers",
     "ItemError",
+    "LastPoseHint",
     "Localization",
     "Localizations",
     "MapAlignment",
@@ -61,6 +76,8 @@ __all__ = [
     "Merge",
     "MergePair",
     "MergedPart",
+    "NearHint",
+    "OutsidePlace",
     "Overlap",
     "PartialUpload",
     "Pose",
@@ -68,9 +85,14 @@ __all__ = [
     "PrecisionWarning",
     "Retries",
     "Rival",
+    "RobotState",
+    "SensorPose",
     "ServiceError",
     "Skipped",
+    "UnusedHint",
+    "UsedHints",
     "Written",
+    "YawHint",
     "decode",
     "decode_delta",
     "encode",

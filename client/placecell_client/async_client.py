@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from placecell_client import transfers
+from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
@@ -36,6 +37,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.robots import RobotState
 
 T = TypeVar("T")
 AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
@@ -120,11 +122,22 @@ class AsyncClient(BaseClient):
         motion: Motion = "yaw",
         session: str | None = None,
         max_false_acceptance: float | None = None,
+        hints: Hints | None = None,
+        robot: str | None = None,
     ) -> Localizations:
         """See `Client.localize`."""
         return await self._send(
             self._calls.localize(
-                description, segments, sensors, maps, k, motion, session, max_false_acceptance
+                description,
+                segments,
+                sensors,
+                maps,
+                k,
+                motion,
+                session,
+                max_false_acceptance,
+                hints,
+                robot,
             )
         )
 
@@ -253,6 +266,46 @@ class AsyncClient(BaseClient):
     async def delete_map(self, name: str, if_match: str | None = None) -> None:
         """See `Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
+
+    async def report_pose(
+        self,
+        robot: str,
+        map_name: str | None = None,
+        position: ArrayLike | None = None,
+        orientation: ArrayLike | None = None,
+        covariance: ArrayLike | None = None,
+        *,
+        probability: float | None = None,
+        state: str = "localized",
+        reason: str = "",
+        time: float | None = None,
+    ) -> RobotState:
+        """See `Client.report_pose`."""
+        return await self._send(
+            self._calls.report_pose(
+                robot,
+                map_name,
+                position,
+                orientation,
+                covariance,
+                probability,
+                state,
+                reason,
+                time,
+            )
+        )
+
+    async def robots(self) -> tuple[RobotState, ...]:
+        """See `Client.robots`."""
+        found, after = await self._send(self._calls.robots())
+        while after is not None:
+            more, after = await self._send(self._calls.robots(after))
+            found += more
+        return found
+
+    async def robot(self, robot: str) -> RobotState:
+        """See `Client.robot`."""
+        return await self._send(self._calls.robot(robot))
 
     async def _run(self, steps: transfers.Steps[T]) -> T:
         """Send the calls of a transfer one after the other and return its result."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from placecell_client import transfers
+from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
@@ -34,6 +35,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.robots import RobotState
 
 T = TypeVar("T")
 ClientT = TypeVar("ClientT", bound="Client")
@@ -180,6 +182,8 @@ class Client(BaseClient):
         motion: Motion = "yaw",
         session: str | None = None,
         max_false_acceptance: float | None = None,
+        hints: Hints | None = None,
+        robot: str | None = None,
     ) -> Localizations:
         """Localize the robot: compute the pose of its frame in each map.
 
@@ -199,6 +203,9 @@ class Client(BaseClient):
             max_false_acceptance: Largest expected share of requests that get a false pose, off by
                 more than 3 m or 10 degrees; more than 0 and at most 0.5. Default: 0.001, or the
                 smallest value that the model supports.
+            hints: Where the robot is, as far as it knows. A pose that contradicts a hint is not
+                returned; no hint makes a pose more probable. The result's `hints` tells the effect.
+            robot: Name of the robot. `robots` then shows its pose.
 
         Returns:
             One result per map, most probable first: the pose with its covariance and probability,
@@ -209,7 +216,16 @@ class Client(BaseClient):
         """
         return self._send(
             self._calls.localize(
-                description, segments, sensors, maps, k, motion, session, max_false_acceptance
+                description,
+                segments,
+                sensors,
+                maps,
+                k,
+                motion,
+                session,
+                max_false_acceptance,
+                hints,
+                robot,
             )
         )
 
@@ -483,6 +499,59 @@ class Client(BaseClient):
             if_match: ETag that the newest version must have.
         """
         self._send(self._calls.delete_map(name, if_match))
+
+    def report_pose(
+        self,
+        robot: str,
+        map_name: str | None = None,
+        position: ArrayLike | None = None,
+        orientation: ArrayLike | None = None,
+        covariance: ArrayLike | None = None,
+        *,
+        probability: float | None = None,
+        state: str = "localized",
+        reason: str = "",
+        time: float | None = None,
+    ) -> RobotState:
+        """Report the pose and state of a robot; other clients see them in `robots`.
+
+        Args:
+            robot: Name of the robot.
+            map_name: Name of the map; None if the robot has no pose now.
+            position: Position of the sensor in the map's frame x, y, z, meters.
+            orientation: Orientation of the sensor, quaternion x, y, z, w. Default: none.
+            covariance: Covariance of the pose: 3 x 3 (x, y, z), 4 x 4 (and yaw) or 6 x 6 (and
+                rotations about x, y, z), meters and radians.
+            probability: Probability that the pose is right.
+            state: State of the robot in a word, such as `localized` or `lost`.
+            reason: Reason for the state, at most 200 characters.
+            time: Time of the robot's clock, Unix seconds.
+        """
+        return self._send(
+            self._calls.report_pose(
+                robot,
+                map_name,
+                position,
+                orientation,
+                covariance,
+                probability,
+                state,
+                reason,
+                time,
+            )
+        )
+
+    def robots(self) -> tuple[RobotState, ...]:
+        """Return the last report of each robot that this API key may see, by name."""
+        found, after = self._send(self._calls.robots())
+        while after is not None:
+            more, after = self._send(self._calls.robots(after))
+            found += more
+        return found
+
+    def robot(self, robot: str) -> RobotState:
+        """Return the last report of a robot."""
+        return self._send(self._calls.robot(robot))
 
     def _run(self, steps: transfers.Steps[T]) -> T:
         """Send the calls of a transfer one after the other and return its result."""

@@ -46,6 +46,12 @@ def advice_of(found: Localization) -> Advice:
         )
     if found.reason == "ambiguous":
         return Advice(f"{drive} {SESSION} 'places' has both places.", meters)
+    if found.reason == "outside-hints":
+        return Advice(
+            "Check the hints, widen them, or send the request without them. If the hints are "
+            f"right: {drive[0].lower()}{drive[1:]} {SESSION}",
+            meters,
+        )
     if found.best is not None:
         return Advice(
             f"{drive} {SESSION} A larger 'max_false_acceptance' lowers the threshold.", meters

@@ -48,6 +48,7 @@ class MapQuery:
         there: segments of the map, for guided matching.
         confidence: model of the probability.
         evidence: evidence of the session's earlier requests in the map.
+        guesses: poses to try besides those of the candidates, such as poses within a hint.
     """
 
     name: str
@@ -56,6 +57,7 @@ class MapQuery:
     there: MapSegments
     confidence: Confidence
     evidence: Evidence | None = None
+    guesses: tuple[Pose, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,7 +124,7 @@ def localize_jointly(
     )
     for number, query in enumerate(queries):
         current().check()
-        places = find_places(query.candidates, parameters, query.evidence)
+        places = find_places(query.candidates, parameters, query.evidence, query.guesses)
         beliefs = common.get(query.model)
         if len(queries) > 1 and not places.hypotheses and places.usable <= FEW:
             places = find_places(query.candidates, loose)

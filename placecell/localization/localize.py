@@ -21,6 +21,9 @@ from placecell.localization.voting import most_voted
 
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
 
+HintedReason = Reason | Literal["outside-hints"]
+"""Reason of a localization whose best pose may contradict the request's hints."""
+
 PARAMETERS = LocalizationParameters()
 
 RIGHT_DEGREES = 3.0
@@ -54,7 +57,7 @@ class Localization:
     probability: float
     threshold: float
     risk: float | None
-    reason: Reason | None
+    reason: HintedReason | None
     detail: str
     features: Float64 | None
     hypotheses: tuple[Hypothesis, ...]
@@ -108,16 +111,22 @@ class PlaceHypotheses:
 
 
 def find_places(
-    candidates: Candidates, parameters: LocalizationParameters, evidence: Evidence | None = None
+    candidates: Candidates,
+    parameters: LocalizationParameters,
+    evidence: Evidence | None = None,
+    guesses: Sequence[Pose] = (),
 ) -> PlaceHypotheses:
-    """Find the pose hypotheses of one map, from candidates and from earlier requests."""
+    """Find the pose hypotheses of one map, from candidates, earlier requests and other guesses.
+
+    A guess becomes a hypothesis only by the candidates that agree with it.
+    """
     correspondences = correspond(candidates, parameters)
     if correspondences.usable < parameters.least_segments:
         return PlaceHypotheses((), correspondences.usable)
     voted = most_voted(correspondences, parameters)
-    guesses = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
+    past = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
     return PlaceHypotheses(
-        tuple(find_hypotheses(voted, parameters, guesses)), correspondences.usable
+        tuple(find_hypotheses(voted, parameters, [*past, *guesses])), correspondences.usable
     )
 
 

@@ -20,6 +20,7 @@ from service.api.schemas.msgpack import (
     PackedMatchRequest,
 )
 from service.api.schemas.recognition import DescribeRequest, MatchRequest
+from service.api.schemas.robots import RobotReportIn
 
 _REFERENCE = "#/components/schemas/{model}"
 _SCHEMAS: tuple[type[BaseModel], ...] = (
@@ -32,6 +33,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     PackedLocalizeRequest,
     PackedMatchRequest,
     ProblemBody,
+    RobotReportIn,
 )
 
 

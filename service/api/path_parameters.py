@@ -41,5 +41,17 @@ def checked(name: str) -> str:
     return name
 
 
+async def checked_robot(
+    robot: Annotated[str, _path("robot", "Name of the robot", "ann")],
+) -> str:
+    """Return the robot's name in the path; 422 if it is not a valid name."""
+    if not re.fullmatch(NAME_PATTERN, robot):
+        raise Problem(
+            422, "invalid-name", f"Invalid robot name {robot!r:.200}: expected {NAME_RULE}."
+        )
+    return robot
+
+
 Name = Annotated[str, Depends(checked_name)]
+RobotName = Annotated[str, Depends(checked_robot)]
 OtherName = Annotated[str, Depends(checked_other)]

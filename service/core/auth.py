@@ -87,6 +87,23 @@ class Principal:
         if self.key.robot is not None and {*robots} - {self.key.robot}:
             raise self._own_alone()
 
+    def check_reports(self, robot: str) -> None:
+        """Raise a problem (403) unless the key may report the pose of this robot.
+
+        A key that is bound to a robot reports this robot; any other key needs write access.
+        """
+        if self.key.robot is None and not self.key.write:
+            raise Problem(
+                403,
+                "forbidden",
+                "This key may read maps, but not report robots. Use a key with write access, or "
+                "one that is bound to the robot.",
+            )
+        if self.key.robot not in (None, robot):
+            raise Problem(
+                403, "forbidden", f"This key may report only the robot {self.key.robot!r:.80}."
+            )
+
     def check_all(self) -> None:
         """Raise a problem (403) unless the key may write segments of all robots."""
         if self.key.robot is not None:

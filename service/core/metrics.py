@@ -63,6 +63,11 @@ class Metrics:
         self.map_segments = Gauge(
             "placecell_map_segments", "Number of segments in all maps.", registry=of
         )
+        self.robots = Gauge(
+            "placecell_robots",
+            "Number of robots that reported within limits.robot_seconds.",
+            registry=of,
+        )
         self.calibrated = Gauge(
             "placecell_maps_by_calibration",
             "Number of maps that were searched since the start, by the state of the calibration "

@@ -252,6 +252,18 @@ class Limits(BaseModel):
         description="Largest number of `/localize` sessions in memory. Beyond it, the key with "
         "the most sessions loses its longest idle one.",
     )
+    robots: int = Field(
+        default=10_000,
+        ge=1,
+        description="Largest number of robots whose last report is in memory. Beyond it, the key "
+        "with the most robots loses its oldest one.",
+    )
+    robot_seconds: float = Field(
+        default=3_600.0,
+        gt=0,
+        allow_inf_nan=False,
+        description="Seconds after its last report when a robot is dropped from the list.",
+    )
     connections: int = Field(
         default=1_000,
         ge=1,

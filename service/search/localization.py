@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
+from placecell_client.hints import OutsidePlace, SensorPose, UsedHints
+from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
 from placecell.core.types import Float64, Int8, Int64
@@ -12,8 +15,11 @@ from placecell.localization import (
     Confidence,
     Localization,
     LocalizationParameters,
+    Pose,
 )
+from placecell.localization.covariance import at_point
 from placecell.localization.evidence import Evidence, middle_of
+from placecell.localization.guided_matching import MapSegments
 from placecell.localization.joint import JointLocalization, MapQuery, localize_jointly
 from placecell.localization.localize import threshold_of, unknown
 from service.core.problems import invalid_value
@@ -21,9 +27,11 @@ from service.core.timing import Timing
 from service.inference.describer import Descriptors, SegmentError
 from service.inference.match_probability import QueryComparison
 from service.inference.model_registry import Model
+from service.live.robots import RobotPose, RobotReport
 from service.maps.repository import MapRepository
 from service.maps.shared_index import IndexPart, Patterns
 from service.maps.snapshot import MapSnapshot
+from service.search.hints import ResolvedHints, guesses_within
 from service.search.links import pose_between
 from service.search.matching import index_parts, nearest_segments
 from service.search.query import MapSelection, Query
@@ -58,6 +66,7 @@ def map_query(
     snapshot: MapSnapshot,
     k: int,
     evidence: Evidence | None = None,
+    guesses: Callable[[MapSegments], tuple[Pose, ...]] = lambda _: (),
 ) -> MapQuery:
     """Search the candidates in one map.
 
@@ -68,6 +77,7 @@ def map_query(
         snapshot: the map, with an index.
         k: largest number of candidates of a segment.
         evidence: result of the robot's earlier requests.
+        guesses: returns poses to try, given the map's segments compared with the codes.
     """
     nearest = nearest_segments(codes, model, (snapshot,), k)
     there = StoredNeighborhood(codes, model, snapshot)
@@ -77,7 +87,15 @@ def map_query(
     )
     places = snapshot.layers.column("centroids", nearest.rows)
     candidates = Candidates(centroids, nearest.rows, places, probabilities)
-    return MapQuery(snapshot.name, model.id, candidates, there, model.confidence, evidence)
+    return MapQuery(
+        name=snapshot.name,
+        model=model.id,
+        candidates=candidates,
+        there=there,
+        confidence=model.confidence,
+        evidence=evidence,
+        guesses=guesses(there),
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,6 +153,8 @@ class LocalizationResult:
         maps: localization in each map.
         errors: reason for each segment that no model describes, by index.
         dropped_points: points of the request that were not finite and were left out.
+        sensor: pose of the sensor in the request's frame.
+        hints: effect of the request's hints; None if it has none.
     """
 
     model_id: str
@@ -142,6 +162,8 @@ class LocalizationResult:
     maps: tuple[MapLocalization, ...]
     errors: dict[int, SegmentError]
     dropped_points: int
+    sensor: SensorPose
+    hints: UsedHints | None = None
 
     def __len__(self) -> int:
         return len(self.maps)
@@ -162,6 +184,7 @@ def localize(
     parameters: LocalizationParameters,
     timing: Timing,
     session: Session | None = None,
+    resolve_hints: Callable[[SensorPose], ResolvedHints] | None = None,
 ) -> LocalizationResult:
     """Localize a robot by the segments around it, in the maps of its query's selection.
 
@@ -173,10 +196,12 @@ def localize(
         parameters: parameters of the localization.
         timing: stopwatch of the request.
         session: earlier requests of the same robot.
+        resolve_hints: puts the request's hints into the frames of the maps, given the pose of the
+            sensor in the request's frame; None if there are no hints.
 
     Raises:
         Problem: 422 if a model's calibration does not support the parameters'
-            `max_false_acceptance`.
+            `max_false_acceptance`, or if a hint is wrong.
     """
     check_risk(query.selection, parameters)
     groups: list[ModelQuery] = []
@@ -197,11 +222,17 @@ def localize(
     def parts(group: ModelQuery) -> list[IndexPart]:
         return index_parts(maps, group.model, group.searched, patterns)
 
-    answers = localize_among(groups, query.k, parameters, timing, parts, evidence)
+    sensor = SensorPose((0.0, 0.0, 0.0) if query.sensor is None else query.sensor.tolist())
+    hints = None if resolve_hints is None else resolve_hints(sensor)
+    answers = localize_among(groups, query.k, parameters, timing, parts, evidence, hints)
     for each in answers:
         if session and each.is_full:
             hypotheses = each.localization.hypotheses
             session.remember(each.snapshot, middles[each.snapshot.head.uid], hypotheses)
+    outside = None
+    if hints is not None:
+        outside = _outside(answers, hints)
+        sensor, answers = hints.sensor, _narrowed(answers, hints)
     errors = set.intersection(*({*described.errors} for described in descriptors))
     return LocalizationResult(
         model_id=query.model_id,
@@ -209,7 +240,71 @@ def localize(
         maps=tuple(answers),
         errors={index: descriptors[0].errors[index] for index in sorted(errors)},
         dropped_points=descriptors[0].dropped_points,
+        sensor=sensor,
+        hints=None if hints is None else _used(hints, query.selection, outside),
     )
+
+
+def _narrowed(answers: Sequence[MapLocalization], hints: ResolvedHints) -> list[MapLocalization]:
+    """Return the localizations without the poses that the hints exclude, in their order."""
+    narrowed = []
+    for each in answers:
+        told = hints.narrowed(each.snapshot, each.localization)
+        narrowed.append(replace(each, judged=replace(each.judged, localization=told)))
+    return sorted(narrowed, key=_sort_key)
+
+
+def _outside(answers: Sequence[MapLocalization], hints: ResolvedHints) -> OutsidePlace | None:
+    """Return the best place outside the hints if it is more probable than all within them."""
+    inside, best = 0.0, None
+    for each in answers:
+        found = each.localization
+        if found.best is None:
+            continue
+        if hints.allow(each.snapshot, found.best.pose):
+            inside = max(inside, found.probability)
+        elif best is None or found.probability > best.localization.probability:
+            best = each
+    if best is None or best.localization.best is None or best.localization.probability <= inside:
+        return None
+    pose = best.localization.best.pose
+    x, y, z = pose.apply(np.asarray(hints.sensor.position, np.float64)).tolist()
+    yaw = float((pose.yaw + hints.sensor.yaw + np.pi) % (2 * np.pi) - np.pi)
+    return OutsidePlace(
+        best.snapshot.name, best.snapshot.frame, (x, y, z), yaw, best.localization.probability
+    )
+
+
+def _used(hints: ResolvedHints, selection: MapSelection, outside: OutsidePlace | None) -> UsedHints:
+    allowed = [each.name for each in selection.maps if each.head.uid in hints.areas]
+    return UsedHints(hints.used, hints.unused, tuple(allowed), outside)
+
+
+def report_of(robot: str, result: LocalizationResult) -> RobotReport:
+    """Return a robot's report by its localization: the pose of its sensor, or the reason for none.
+
+    Args:
+        robot: name of the robot.
+        result: result of its request.
+    """
+    best = result[0] if len(result) else None
+    found = None if best is None else best.localization
+    if best is None or found is None or found.pose is None or found.best is None:
+        reason = "no map was searched" if found is None or found.reason is None else found.reason
+        return RobotReport(robot, None, "not-localized", reason, None, "localize")
+    point = np.asarray(result.sensor.position, np.float64)
+    there = found.pose.after(Pose.of_yaw(result.sensor.yaw, point))
+    x, y, z = there.translation.tolist()
+    i, j, k, w = Rotation.from_matrix(there.rotation).as_quat(canonical=True).tolist()
+    covariance = at_point(found.best.covariance, found.pose, point).tolist()
+    pose = RobotPose(
+        map=best.snapshot.name,
+        position=(x, y, z),
+        orientation=(i, j, k, w),
+        covariance=tuple(map(tuple, covariance)),
+        probability=found.probability,
+    )
+    return RobotReport(robot, pose, "localized", "", None, "localize")
 
 
 def check_risk(selection: MapSelection, parameters: LocalizationParameters) -> None:
@@ -234,6 +329,7 @@ def localize_among(
     timing: Timing,
     parts: Callable[[ModelQuery], list[IndexPart]],
     evidence: Callable[[MapSnapshot], Evidence | None],
+    hints: ResolvedHints | None = None,
 ) -> list[MapLocalization]:
     """Localize the robot in any of the maps, the most probable first.
 
@@ -248,13 +344,14 @@ def localize_among(
         timing: stopwatch of the request.
         parts: gives the parts of the search in a model's maps at once.
         evidence: gives the result of the robot's earlier requests in a map.
+        hints: where the robot says that it is.
     """
     past = {
         (number, place): evidence(snapshot)
         for number, group in enumerate(groups)
         for place, snapshot in enumerate(group.searched)
     }
-    chosen = _chosen(groups, past, parameters, parts)
+    chosen = _chosen(groups, past, parameters, parts, hints)
     queries = []
     for number, place in chosen:
         current().check()
@@ -267,6 +364,7 @@ def localize_among(
                 snapshot=group.searched[place],
                 k=k,
                 evidence=past[number, place],
+                guesses=partial(_guesses, group, group.searched[place], parameters, hints),
             )
         )
     timing.lap("search")
@@ -295,6 +393,29 @@ def localize_among(
             )
     timing.lap("verify")
     return sorted(answers, key=_sort_key)
+
+
+def _guesses(
+    group: ModelQuery,
+    snapshot: MapSnapshot,
+    parameters: LocalizationParameters,
+    hints: ResolvedHints | None,
+    there: MapSegments,
+) -> tuple[Pose, ...]:
+    """Return poses within the hints to try in a map."""
+    area = None if hints is None else hints.areas.get(snapshot.head.uid)
+    if hints is None or area is None:
+        return ()
+    return guesses_within(
+        area=area,
+        sensor=hints.sensor,
+        codes=group.codes,
+        centroids=group.centroids,
+        model=group.model,
+        snapshot=snapshot,
+        there=there,
+        parameters=parameters,
+    )
 
 
 def not_searched(
@@ -330,8 +451,12 @@ def _chosen(
     past: dict[tuple[int, int], Evidence | None],
     parameters: LocalizationParameters,
     parts: Callable[[ModelQuery], list[IndexPart]],
+    hints: ResolvedHints | None = None,
 ) -> list[tuple[int, int]]:
-    """Choose the maps to search in full, by group and index."""
+    """Choose the maps to search in full, by group and index.
+
+    Half of them at most are those in which the robot was before, and those that the hints allow.
+    """
     every = list(past)
     if len(every) <= FULL:
         return every
@@ -343,4 +468,12 @@ def _chosen(
     )
     known = [index for index, each in enumerate(every) if (before := past[each]) and before.past]
     known.sort(key=lambda index: -votes[index])
+    if hints is not None:
+        areas = hints.areas
+        hinted = [
+            index
+            for index, (number, place) in enumerate(every)
+            if index not in known and groups[number].searched[place].head.uid in areas
+        ]
+        known += sorted(hinted, key=lambda index: -votes[index])
     return [every[index] for index in best_of(votes, parameters.least_segments, known)]

@@ -3,6 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from placecell.core.types import Float64
 from placecell.descriptors.reranking import CANDIDATES
 from service.core.auth import Principal
 from service.core.cost import Cost, check_cost, cost_of_search
@@ -53,6 +56,8 @@ class Query:
         prepared: the request's scan, prepared for each model of the selection.
         searched_k: number of candidates of a segment that are searched: k, or more to re-rank them.
         is_reranked: whether the candidates of `/match` are re-ranked.
+        sensor: median sensor position of the request's scan, float64 (3,), meters; None if the
+            request has descriptors.
     """
 
     model_id: str
@@ -62,6 +67,7 @@ class Query:
     prepared: tuple[PreparedScan, ...]
     searched_k: int
     is_reranked: bool
+    sensor: Float64 | None = None
 
     async def describe(self, timing: Timing) -> list[Descriptors]:
         """Return the descriptors by each model of the selection, computed in batches."""
@@ -185,7 +191,16 @@ def query_of_scan(
         one = model.describer.prepare(scan, timing, besides=cost)
         prepared.append(one)
         cost += one.cost
-    return Query(default.id, selection, k, None, tuple(prepared), searched_k, rerank)
+    return Query(
+        model_id=default.id,
+        selection=selection,
+        k=k,
+        given=None,
+        prepared=tuple(prepared),
+        searched_k=searched_k,
+        is_reranked=rerank,
+        sensor=np.median(scan.sensors, axis=0),
+    )
 
 
 def _searched_k(queries: int, k: int, is_reranked: bool) -> int:

@@ -63,7 +63,7 @@ def test_both_clients_have_the_same_methods() -> None:
         "close", "info", "describe", "match", "localize", "maps", "put_map", "edit_map",
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
         "prune_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
-        "delete_upload", "reset_ids",
+        "delete_upload", "reset_ids", "report_pose", "robots", "robot",
     }  # fmt: skip
 
 

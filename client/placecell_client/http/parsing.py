@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from placecell_client.hints import UsedHints
 from placecell_client.http.encoding import loads, row_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
@@ -32,6 +33,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, localization_of
 from placecell_client.results.merge import Merge, merge_of
+from placecell_client.results.robots import RobotState
 
 
 def info(answer: HttpResponse) -> Info:
@@ -121,6 +123,8 @@ def localizations(answer: HttpResponse, dropped: int = 0) -> Localizations:
         },
         skipped=_skipped(content),
         dropped_points=dropped + _dropped(content),
+        # Older services have no such field.
+        hints=None if content.get("hints") is None else UsedHints.of(content["hints"]),
     )
 
 
@@ -210,6 +214,17 @@ def alignment(answer: HttpResponse) -> MapAlignment:
 def merge(answer: HttpResponse) -> Merge:
     """Read the response of `POST /maps/{map}/merge`."""
     return merge_of(_content(answer))
+
+
+def robot(answer: HttpResponse) -> RobotState:
+    """Read the response of `GET` and `PUT /robots/{robot}`."""
+    return RobotState.of(_content(answer))
+
+
+def robots(answer: HttpResponse) -> tuple[tuple[RobotState, ...], str | None]:
+    """Read the response of `GET /robots`: one page, and the name to continue after."""
+    content = _content(answer)
+    return tuple(map(RobotState.of, content["robots"])), content["next"]
 
 
 def oldest(answer: HttpResponse) -> int:

@@ -9,6 +9,7 @@ from urllib.parse import quote, urlencode
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client.hints import Hints
 from placecell_client.http import parsing
 from placecell_client.http.encoding import (
     MEDIA_TYPES,
@@ -36,6 +37,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.robots import RobotState
 
 T = TypeVar("T")
 
@@ -139,11 +141,17 @@ class Calls:
         motion: Motion,
         session: str | None,
         max_false_acceptance: float | None,
+        hints: Hints | None = None,
+        robot: str | None = None,
     ) -> Call[Localizations]:
         """Build `POST /localize`."""
         body = _search(maps, k) | {"motion": motion}
         if session is not None:
             body["session"] = session
+        if hints is not None:  # older services have no such fields
+            body["hints"] = hints.as_dict()
+        if robot is not None:
+            body["robot"] = robot
         if max_false_acceptance is not None:
             body["max_false_acceptance"] = max_false_acceptance
         if description is not None and segments is None and sensors is None:
@@ -313,6 +321,51 @@ class Calls:
     def delete_map(self, name: str, if_match: str | None) -> Call[None]:
         """Build `DELETE /maps/{map}`."""
         return self._tied("DELETE", _path(name), parsing.gone, if_match)
+
+    def report_pose(
+        self,
+        robot: str,
+        map_name: str | None,
+        position: ArrayLike | None,
+        orientation: ArrayLike | None,
+        covariance: ArrayLike | None,
+        probability: float | None,
+        state: str,
+        reason: str,
+        time: float | None,
+    ) -> Call[RobotState]:
+        """Build `PUT /robots/{robot}`."""
+        arrays = {"position": position, "orientation": orientation, "covariance": covariance}
+        values = {
+            name: np.asarray(each, np.float64).tolist()
+            for name, each in arrays.items()
+            if each is not None
+        }
+        others = {"map": map_name, "probability": probability, "time": time}
+        body = {"state": state, "reason": reason, **values}
+        body |= {name: each for name, each in others.items() if each is not None}
+        return self._json("PUT", f"/robots/{_quoted(robot)}", body, parsing.robot)
+
+    def robot(self, robot: str) -> Call[RobotState]:
+        """Build `GET /robots/{robot}`."""
+        return Call("GET", f"/robots/{_quoted(robot)}", parsing.robot)
+
+    def robots(self, after: str = "") -> Call[tuple[tuple[RobotState, ...], str | None]]:
+        """Build `GET /robots`; the result is one page and the name to continue after."""
+        query = f"?{urlencode({'after': after})}" if after else ""
+        return Call("GET", f"/robots{query}", parsing.robots)
+
+    def _json(
+        self,
+        method: str,
+        path: str,
+        body: dict[str, Any],
+        read: Callable[[HttpResponse], T],
+        repeatable: bool = True,
+    ) -> Call[T]:
+        """Build a request with a small body, which is always JSON."""
+        headers = {"Content-Type": MEDIA_TYPES["json"]}
+        return Call(method, path, read, headers, dumps(body, "json"), repeatable=repeatable)
 
     def _tied(
         self, method: str, path: str, read: Callable[[HttpResponse], T], if_match: str | None

@@ -6,6 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client.hints import UsedHints
 from placecell_client.results.core import ItemError, Skipped
 
 Motion = Literal["yaw", "se3"]
@@ -118,8 +119,8 @@ class Localization:
         map: Name of the map.
         frame: Name of its coordinate frame.
         pose: Pose of the robot's frame in the map's frame; None if the robot is not localized.
-        reason: Reason why the robot is not localized: `too-few-segments`, `inconsistent` or
-            `ambiguous`; None if it is.
+        reason: Reason why the robot is not localized: `too-few-segments`, `inconsistent`,
+            `ambiguous` or `outside-hints`; None if it is.
         detail: The reason in words.
         probability: Probability that the best hypothesis is right within 1 m and 3 degrees, 0 to 1.
         covariance: Covariance of the pose, float64: (4, 4) for x, y, z, yaw, or (6, 6) for x, y, z
@@ -188,6 +189,7 @@ class Localizations:
         errors: Segments that could not be used, by index.
         skipped: Maps that were not searched, because of their model.
         dropped_points: Number of points that were not finite and were left out.
+        hints: Effect of the hints; None if the request had none.
     """
 
     model_id: str
@@ -195,6 +197,7 @@ class Localizations:
     errors: dict[int, ItemError]
     skipped: tuple[Skipped, ...]
     dropped_points: int = 0
+    hints: UsedHints | None = None
 
     @property
     def best(self) -> Localization | None:

@@ -1,6 +1,7 @@
 """`/localize`: segments in, the robot's pose out."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ from service.core.auth import Principal
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.maps.snapshot import MapSnapshot
-from service.search.localization import LocalizationResult, MapLocalization
+from service.search.localization import LocalizationResult, MapLocalization, report_of
 from service.search.query import Query
 
 router = APIRouter(tags=["recognition"])
@@ -68,6 +69,8 @@ def _read(
 ) -> tuple[LocalizeBody, Query]:
     timing.lap("queue")
     request = parse(LocalizeRequest, PackedLocalizeRequest, body, state.settings.limits)
+    if request.robot is not None:
+        principal.check_reports(request.robot)
     return request, read_query(state, principal, request, timing)
 
 
@@ -90,7 +93,11 @@ def _search(
         ),
         session=request.session,
         principal=principal,
+        hints=None if request.hints is None else request.hints.hints(),
     )
+    robot = request.robot or principal.key.robot
+    if robot is not None:
+        state.engine.robots.report(report_of(robot, result), principal)
     content = render(_response(result), answer)
     timing.lap("encode")
     return content
@@ -106,6 +113,7 @@ def _response(result: LocalizationResult) -> dict[str, Any]:
         ],
         "dropped_points": result.dropped_points,
         "skipped": skipped_maps(result.selection),
+        "hints": None if result.hints is None else asdict(result.hints),
     }
 
 

@@ -5,7 +5,8 @@ from typing import Annotated, Generic, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from placecell.localization.acceptance import LARGEST_RISK
-from placecell.localization.localize import Reason
+from placecell.localization.localize import HintedReason
+from service.api.schemas.hints import HintsIn, UsedHintsOut
 from service.api.schemas.recognition import (
     EXAMPLE,
     Centroids,
@@ -51,6 +52,16 @@ class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Ce
         description="Largest expected share of requests that get a false pose, off by more than "
         "3 m or 10 degrees. A larger value returns more poses. Null: 0.001, or the smallest value "
         "that the model's calibration supports.",
+    )
+    hints: HintsIn | None = Field(
+        None,
+        description="Where the robot is, as far as it knows. Hints narrow the answer; they never "
+        "make a pose more probable.",
+    )
+    robot: SessionId | None = Field(
+        None,
+        description="Name of the robot. `GET /robots` then shows its pose in this answer. The key "
+        "needs the right to report the robot's pose.",
     )
 
     @model_validator(mode="after")
@@ -118,7 +129,7 @@ class LocalizationOut(BaseModel):
     map: str
     frame: str = Field(description="Name of the frame of the map.")
     localized: bool
-    reason: Reason | None = Field(
+    reason: HintedReason | None = Field(
         description="Reason why the robot is not localized. Null if it is."
     )
     detail: str = Field(description="Reason in words. Empty if there is none.")
@@ -192,4 +203,7 @@ class LocalizeResponse(BaseModel):
     skipped: list[SkippedOut] = Field(
         description="Maps that were not searched, because their "
         "model is not loaded or not the requested one."
+    )
+    hints: UsedHintsOut | None = Field(
+        None, description="Effect of the request's hints. Null if it has none."
     )

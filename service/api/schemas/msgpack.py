@@ -16,6 +16,7 @@ from pydantic import (
     PlainValidator,
     ValidationError,
     WithJsonSchema,
+    field_validator,
     model_validator,
 )
 from pydantic_core import InitErrorDetails
@@ -112,6 +113,24 @@ CentroidsBlob = Annotated[Float64, PlainValidator(_centroids), _BLOB]
 CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
 
 
+def _keyed(value: object) -> dict[str, object]:
+    """Return a msgpack map as a dictionary.
+
+    Raises:
+        ValueError: it is no map, or its keys are not distinct strings.
+    """
+    if not isinstance(value, Pairs):
+        raise ValueError("expected a map")
+    content: dict[str, object] = {}
+    for key, item in value.items:
+        if not isinstance(key, str):
+            raise ValueError("expected strings as keys")
+        if key in content:
+            raise ValueError(f"found the key {key!r:.100} twice")
+        content[key] = item
+    return content
+
+
 class PackedRequest(Request):
     """Request as a msgpack map whose keys are distinct strings."""
 
@@ -120,16 +139,7 @@ class PackedRequest(Request):
     @model_validator(mode="before")
     @classmethod
     def _keys(cls, value: object) -> dict[str, object]:
-        if not isinstance(value, Pairs):
-            raise ValueError("expected a map")
-        content: dict[str, object] = {}
-        for key, item in value.items:
-            if not isinstance(key, str):
-                raise ValueError("expected strings as keys")
-            if key in content:
-                raise ValueError(f"found the key {key!r:.100} twice")
-            content[key] = item
-        return content
+        return _keyed(value)
 
 
 class PackedSegment(PackedRequest):
@@ -152,8 +162,20 @@ class PackedMatchRequest(PackedRequest, MatchQuery[PackedSegment, CodesBlob, Cen
     """`MatchRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
 
 
+def _unpaired(value: object) -> object:
+    """Convert the maps in a value to dictionaries."""
+    if isinstance(value, Pairs):
+        return {key: _unpaired(item) for key, item in _keyed(value).items()}
+    return value
+
+
 class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):
     """`LocalizeRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
+
+    @field_validator("hints", mode="before")
+    @classmethod
+    def _hints(cls, value: object) -> object:
+        return _unpaired(value)
 
 
 class PackedDescriptor(BaseModel):

@@ -11,6 +11,13 @@ Coordinate = Annotated[
     float, Field(strict=True, allow_inf_nan=False, ge=-COORDINATE_LIMIT, le=COORDINATE_LIMIT)
 ]
 Point = tuple[Coordinate, Coordinate, Coordinate]
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
+Quaternion = tuple[Finite, Finite, Finite, Finite]
+Covariance = Annotated[
+    list[Annotated[list[Finite], Field(min_length=3, max_length=6)]],
+    Field(min_length=3, max_length=6),
+]
 Name = Annotated[str, Field(strict=True)]
 Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
 Centroids = Annotated[list[Point], Field(fail_fast=True, min_length=1)]
