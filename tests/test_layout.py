@@ -77,6 +77,8 @@ LAYERS = (
     ("robot.core",),
     ("robot.outputs",),
     ("robot",),
+    ("robot.node",),
+    ("robot.zenoh",),
     ("evaluation",),
     ("training.data",),
     ("evaluation.recognition", "evaluation.poses"),

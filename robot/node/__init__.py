@@ -1,0 +1,1 @@
+"""Node of the agent: pairs scans with odometry, and publishes poses; ROS 2 and Zenoh share it."""
