@@ -18,12 +18,12 @@ from placecell.sources.bags.pointcloud2 import PointCloud2, decode
 from placecell.sources.errors import DriveError
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
-from robot.core.status import AgentStatus, Summary
+from robot.core.status import AgentStatus
 from robot.node.diagnostics import diagnostic_of
 from robot.node.frames import StaticFrames
 from robot.node.messages import CertainPose, NodePublisher, StampedTransform
 from robot.node.odometry_buffer import OdometryBuffer
-from robot.node.scan_queue import PosedScan, ScanQueue, WaitingScan
+from robot.node.scan_queue import PairedScan, ScanQueue, WaitingScan
 from robot.node.settings import NodeSettings
 from robot.node.sweep_clock import SweepClock
 
@@ -46,9 +46,6 @@ class NodeAgent(Protocol):
 
     def localize_now(self) -> None:
         """Request a pose at the next scan."""
-
-    def close(self) -> Summary:
-        """Finish, and return the summary."""
 
 
 class RobotNode:
@@ -146,11 +143,10 @@ class RobotNode:
 
     # The agent's thread.
 
-    def run(self, stop: threading.Event) -> Summary:
-        """Process messages until the event is set; return the summary."""
+    def run(self, stop: threading.Event) -> None:
+        """Process messages until the event is set; the agent stays open."""
         while not stop.is_set():
             self.step(0.1)
-        return self.close()
 
     def step(self, timeout: float) -> bool:
         """Process what has arrived; wait at most `timeout` seconds for something.
@@ -173,17 +169,13 @@ class RobotNode:
         self._report()
         return processed
 
-    def close(self) -> Summary:
-        """Close the agent, and return the summary."""
-        return self._agent.close()
-
-    def _work(self) -> tuple[list[Callable[[], None]], PosedScan | None]:
+    def _work(self) -> tuple[list[Callable[[], None]], PairedScan | None]:
         """Return the calls and the scan to process now; the lock is held."""
         calls = list(self._calls)
         self._calls.clear()
         return calls, self._queue.take(self._odometry, self._clock())
 
-    def _process(self, posed: PosedScan) -> bool:
+    def _process(self, posed: PairedScan) -> bool:
         """Give a scan to the agent, and publish the pose; return whether that was possible."""
         cloud, time_s = posed.scan.cloud, posed.scan.time
         mount = self._find_mount()

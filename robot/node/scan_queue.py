@@ -22,7 +22,7 @@ class WaitingScan:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PosedScan:
+class PairedScan:
     """Scan with the pose of the robot's base in the odometry frame, float64 (4, 4)."""
 
     scan: WaitingScan
@@ -64,7 +64,7 @@ class ScanQueue:
             self._waiting.popleft()
             self.late += 1
 
-    def take(self, odometry: OdometryBuffer, now: float) -> PosedScan | None:
+    def take(self, odometry: OdometryBuffer, now: float) -> PairedScan | None:
         """Return the newest scan that has a pose, and drop those before it; None: wait.
 
         Args:
@@ -78,7 +78,7 @@ class ScanQueue:
                 for _ in range(index + 1):
                     self._waiting.popleft()
                 self.late += index
-                return PosedScan(scan, pose)
+                return PairedScan(scan, pose)
         before = len(self._waiting)
         self._waiting = deque(
             scan

@@ -8,7 +8,7 @@ from placecell.core.types import Float32, Float64
 from placecell.sources.bags.pointcloud2 import PointCloud2, PointField
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
-from robot.core.status import AgentState, AgentStatus, LinkState, SpoolStatus, Summary
+from robot.core.status import AgentState, AgentStatus
 from robot.node.messages import CertainPose, Diagnostic, StampedTransform
 
 SECOND = 10**9
@@ -45,13 +45,6 @@ class FakeAgent:
 
     def localize_now(self) -> None:
         self.requests += 1
-
-    def close(self) -> Summary:
-        scans = len(self.scans)
-        return Summary(
-            0, scans, 0, 0, 0, 0, 0, None, 0, 0, SpoolStatus(), (),
-            self.status.state, LinkState.UNKNOWN,
-        )  # fmt: skip
 
 
 @dataclass

@@ -266,11 +266,10 @@ def test_link_and_state_set_the_level() -> None:
     assert levels == [DiagnosticLevel.WARN, DiagnosticLevel.ERROR]
 
 
-def test_node_runs_until_it_is_stopped_and_closes_the_agent() -> None:
+def test_node_runs_until_it_is_stopped() -> None:
     agent, publisher, stop = FakeAgent(), FakePublisher(), threading.Event()
     node = RobotNode(agent, publisher, NodeSettings(mount=moved(0)))
-    summaries = []
-    thread = threading.Thread(target=lambda: summaries.append(node.run(stop)))
+    thread = threading.Thread(target=node.run, args=[stop])
     thread.start()
     node.on_odometry(odometry(10.0, 0.0))
     node.on_cloud(cloud(10.0))
@@ -280,7 +279,8 @@ def test_node_runs_until_it_is_stopped_and_closes_the_agent() -> None:
         threading.Event().wait(0.01)
     stop.set()
     thread.join(5)
-    assert summaries[0].scans == 1
+    assert not thread.is_alive()
+    assert len(agent.scans) == 1
 
 
 @pytest.mark.parametrize(
