@@ -58,7 +58,7 @@ LAYERS = (
     ("town.drives",),
     ("service.core",),
     ("service.live",),
-    ("service.inference",),
+    ("service.inference", "service.clouds"),
     ("service.maps",),
     ("service.maps.sqlite", "service.maps.writes"),
     ("service.search",),

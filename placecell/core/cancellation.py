@@ -8,12 +8,12 @@ A token is set for a request. All code that the request runs finds it, also in o
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from math import inf
 from threading import Lock
-from typing import Any
+from typing import Any, TypeVar
 
 import numba
 import numpy as np
@@ -21,8 +21,14 @@ from llvmlite import ir
 
 from placecell.core.types import Int32
 
+STEP_ITEMS = 4_096
+"""Number of items after which a loop checks its token."""
+
 TURN_SECONDS = 0.1
 """Interval at which work that waits for a lock checks its token, seconds."""
+
+
+Item = TypeVar("Item")
 
 
 class Cancelled(Exception):  # noqa: N818 -- as asyncio's CancelledError, but an ordinary exception
@@ -86,6 +92,19 @@ def cancelled_by(token: CancelToken) -> Iterator[CancelToken]:
         yield token
     finally:
         _token.reset(before)
+
+
+def checked(items: Iterable[Item]) -> Iterator[Item]:
+    """Yield items, and check the token of the current work now and then.
+
+    Raises:
+        Cancelled: The request became late, or its client disconnected.
+    """
+    token = current()
+    for index, item in enumerate(items):
+        if index % STEP_ITEMS == 0:
+            token.check()
+        yield item
 
 
 @contextmanager

@@ -7,7 +7,7 @@ import numpy as np
 from placecell.core.parameters import Parameters
 from placecell.core.progress import Progress, silent
 from placecell.core.segments import Segments
-from placecell.core.types import Float32, UInt8
+from placecell.core.types import Bool, Float32, Int64, UInt8
 from placecell.datasets import Drive
 from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.ceiling import is_overhead
@@ -18,7 +18,15 @@ from placecell.segmentation.local_map import Accumulator
 from placecell.segmentation.recording import Recording
 from placecell.segmentation.region_growing import segment_indices
 
-__all__ = ["Progress", "packed_grids", "record", "segment_captures", "segment_map", "silent"]
+__all__ = [
+    "Progress",
+    "packed_grids",
+    "record",
+    "segment_captures",
+    "segment_map",
+    "segment_rows",
+    "silent",
+]
 
 
 def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:
@@ -28,8 +36,20 @@ def segment_map(local_map: Float32, parameters: Parameters) -> list[Float32]:
         local_map: float32 (n, 3), meters, world frame.
         parameters: parameters of ground removal, ceiling removal and region growing.
     """
-    objects = local_map[~(is_ground(local_map, parameters) | is_overhead(local_map, parameters))]
-    return [objects[indices] for indices in segment_indices(objects, parameters)]
+    return [local_map[rows] for rows in segment_rows(local_map, parameters)[0]]
+
+
+def segment_rows(local_map: Float32, parameters: Parameters) -> tuple[list[Int64], Bool]:
+    """Return the rows of each segment's points in a local map, and whether each row is ground.
+
+    Args:
+        local_map: float32 (n, 3), meters, world frame.
+        parameters: parameters of ground removal, ceiling removal and region growing.
+    """
+    ground = is_ground(local_map, parameters)
+    objects = np.flatnonzero(~(ground | is_overhead(local_map, parameters)))
+    regions = segment_indices(local_map[objects], parameters)
+    return [objects[indices] for indices in regions], ground
 
 
 def segment_captures(

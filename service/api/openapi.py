@@ -21,6 +21,7 @@ from service.api.schemas.msgpack import (
 )
 from service.api.schemas.recognition import DescribeRequest, MatchRequest
 from service.api.schemas.robots import RobotReportIn
+from service.api.schemas.scans import PackedScanResponse
 
 _REFERENCE = "#/components/schemas/{model}"
 _SCHEMAS: tuple[type[BaseModel], ...] = (
@@ -32,6 +33,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     PackedDescribeResponse,
     PackedLocalizeRequest,
     PackedMatchRequest,
+    PackedScanResponse,
     ProblemBody,
     RobotReportIn,
 )

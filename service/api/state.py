@@ -46,7 +46,8 @@ class Lanes:
     def of(cls, settings: Settings, metrics: Metrics) -> "Lanes":
         """Create the lanes; all of them share the memory for bodies."""
         limits = settings.limits
-        share = max(limits.held_bytes // 2, limits.map_bytes, limits.body_bytes, limits.json_bytes)
+        largest = max(limits.map_bytes, limits.body_bytes, limits.json_bytes, limits.scan_bytes)
+        share = max(limits.held_bytes // 2, largest)
         budget = ByteBudget(max(limits.held_bytes, share), share, "bodies")
         receiver = Receiver(limits.bodies, budget)
         small = BodyRules(limits.body_seconds, limits.stall_seconds)

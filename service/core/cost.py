@@ -37,6 +37,8 @@ class Rates:
     """Seconds per pair of a query and a map segment, for each candidate wanted."""
     candidate: float = 1.1e-6
     """Seconds per candidate of a query whose match probability is computed."""
+    scanned: float = 4.6e-6
+    """Seconds per point of a point cloud file: reading, leveling, segmentation."""
     supported: float = 3.0e-9
     """Seconds per pair of a candidate and a neighbor's candidate that may support it."""
 
@@ -53,6 +55,7 @@ class Cost:
     neighborhoods: float = 0.0
     search: float = 0.0
     candidates: float = 0.0
+    scan: float = 0.0
 
     @property
     def seconds(self) -> float:
@@ -80,6 +83,7 @@ REMEDIES = {
     "network": "Send fewer segments.",
     "neighborhoods": "Send fewer segments, or fewer points of each.",
     "search": "Name fewer maps, or send fewer segments.",
+    "scan": "Send fewer points, such as one for each voxel of 0.1 m.",
     "candidates": "Ask for fewer candidates (k), or send fewer segments.",
 }
 
@@ -120,6 +124,11 @@ def cost_of_describing(
         network=len(counts) * RATES.segment,
         neighborhoods=near * RATES.near_voxel,
     )
+
+
+def cost_of_segmenting(points: int) -> Cost:
+    """Return the cost of segmenting the points of a file."""
+    return Cost(scan=points * RATES.scanned)
 
 
 def near_voxels(points: Float32, counts: Int64, looks: NeighborhoodParameters) -> int:

@@ -77,6 +77,12 @@ class Limits(BaseModel):
         description="Largest size of all unfinished uploads in parts, on disk, bytes; one key may "
         "use half.",
     )
+    scan_bytes: int = Field(
+        default=40 * MEBIBYTE, ge=1, description="Largest point cloud file in one request, bytes."
+    )
+    scan_points: int = Field(
+        default=1_000_000, ge=1, description="Largest number of points of a point cloud file."
+    )
     segments: int = Field(
         default=1_000, ge=1, description="Largest number of segments or descriptors per request."
     )

@@ -6,6 +6,7 @@ from time import perf_counter
 STAGES = (
     "receive",
     "decode",
+    "segment",
     "look",
     "align",
     "voxelise",
@@ -18,7 +19,8 @@ STAGES = (
 )
 """All steps, in order.
 
-`look` describes the neighborhood of each segment, `verify` finds a pose from candidates.
+`segment` segments a point cloud file, `look` describes the neighborhood of each segment, `verify`
+finds a pose from candidates.
 """
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from placecell.sources.clouds.cloud import Cloud, check_growth, cut_short, read_content, reason_of
+from placecell.sources.clouds.read_limits import check_bytes, check_points
 from placecell.sources.errors import DriveError
 
 SMALLEST_HEADER = 227
@@ -55,6 +56,8 @@ def read_las(file: Path) -> Cloud:
     """
     content = read_content(file)
     header = parse_header(content, file)
+    check_points(file, header.points)
+    check_bytes(file, header.points * header.point_bytes)
     if header.compressed:
         check_growth(file, len(content), header.points * header.point_bytes)
     content = plain_text(content, header, file)

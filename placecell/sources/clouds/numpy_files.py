@@ -22,11 +22,14 @@ from placecell.sources.clouds.cloud import (
     read_content,
     reason_of,
 )
+from placecell.sources.clouds.read_limits import TooLargeError, check_bytes
 from placecell.sources.errors import DriveError
 from placecell.sources.point_times import is_time
 
 NPY = b"\x93NUMPY"
 ZIP = b"PK\x03\x04"
+ENTRY, MOST_ENTRIES = b"PK\x01\x02", 1_000
+"""Mark of an entry in an archive's table, and the largest number of them."""
 WIDEST = 64
 """Most columns of an array of points."""
 POINT_KEYS = (
@@ -67,10 +70,17 @@ def read_npz(file: Path, columns: tuple[str, ...] | None) -> Cloud:
     content = read_content(file)
     arrays: dict[str, NDArray[Any]] = {}
     refused = ""
+    if (count := content.count(ENTRY)) > MOST_ENTRIES:
+        raise TooLargeError(
+            f"{file}: the archive has {count:,} entries; expected at most {MOST_ENTRIES:,}. Save "
+            "the points alone, as an array 'points'"
+        )
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
             entries = [each for each in archive.infolist() if each.filename.endswith(".npy")]
-            check_growth(file, len(content), sum(each.file_size for each in entries))
+            claimed = sum(each.file_size for each in entries)
+            check_growth(file, len(content), claimed)
+            check_bytes(file, claimed)
             for entry in entries:
                 try:
                     arrays[entry.filename.removesuffix(".npy")] = array_of(

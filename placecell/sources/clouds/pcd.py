@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from placecell.core.cancellation import checked
 from placecell.sources.clouds.cloud import (
     HEAD,
     Cloud,
@@ -16,6 +17,7 @@ from placecell.sources.clouds.cloud import (
     read_content,
     reason_of,
 )
+from placecell.sources.clouds.read_limits import check_bytes, check_points, check_text
 from placecell.sources.errors import DriveError
 
 LZF_GROWTH = 88
@@ -24,7 +26,8 @@ ITEM_TYPES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
 PADDING = "_"
 IDENTITY = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 MOST_FIELDS = 1024
-MOST_COUNT = 1_000_000
+MOST_VALUES = 65_536
+"""Most values of a point; `pypcd4` names each of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +75,9 @@ def read_pcd(file: Path) -> Cloud:
     header = parse_header(content, file)
     remarks = list[str]()
     body = content[header.start :]
+    check_points(file, header.points)
     if header.data == "ascii":
+        check_text(file, body)
         rows, body = ascii_rows(body)
         header = agreed_points(header, rows, "rows of points", file, remarks)
         body = b"\n".join(body.splitlines()[: header.points])
@@ -125,7 +130,8 @@ def parse_header(content: bytes, file: Path) -> PcdHeader:
         )
     )
     wrong = [each for each in fields if each[2] not in ITEM_TYPES.get(each[1], ())]
-    if len(fields) != len(names) or wrong or not all(1 <= each[3] <= MOST_COUNT for each in fields):
+    counts = [each[3] for each in fields]
+    if len(fields) != len(names) or wrong or min(counts) < 1 or sum(counts) > MOST_VALUES:
         odd = f"the type {wrong[0][1]} of {wrong[0][2]} bytes" if wrong else "other numbers of them"
         raise DriveError(
             f"{file}: its PCD header has {len(names)} FIELDS, but {odd} in SIZE, TYPE or COUNT. "
@@ -208,7 +214,7 @@ def ascii_rows(body: bytes) -> tuple[int, bytes]:
     """
     rows = [
         b" ".join(words)
-        for line in body.splitlines()
+        for line in checked(body.splitlines())
         if (words := line.split()) and not words[0].startswith(b"#")
     ]
     return len(rows), b"\n".join(rows)
@@ -227,6 +233,7 @@ def check_compressed(header: PcdHeader, body: bytes, file: Path, remarks: list[s
     if len(body) < 8:
         raise cut_short(file, "bytes of compressed data", len(body), 8)
     packed, unpacked = struct.unpack("<II", body[:8])
+    check_bytes(file, unpacked)
     if packed > len(body) - 8:
         raise cut_short(file, "bytes of compressed data", len(body) - 8, packed)
     if packed < len(body) - 8:

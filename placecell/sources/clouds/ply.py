@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from placecell.core.cancellation import checked
 from placecell.sources.clouds.cloud import (
     HEAD,
     Cloud,
@@ -21,6 +22,7 @@ from placecell.sources.clouds.cloud import (
     read_content,
     reason_of,
 )
+from placecell.sources.clouds.read_limits import check_points, check_text
 from placecell.sources.errors import DriveError
 
 TYPES = {
@@ -88,6 +90,7 @@ def read_ply(file: Path) -> Cloud:
             f"{file}: has no element 'vertex'; its elements are: {printable(found)[:400]}"
         )
     vertex = elements[index]
+    check_points(file, vertex.count)
     names = tuple(each.name for each in vertex.properties)
     _, needed = needed_fields(names, file)
     lists = {each.name for each in vertex.properties if each.length_type} & set(needed)
@@ -98,6 +101,7 @@ def read_ply(file: Path) -> Cloud:
         )
     wanted = {name: names.index(name) for name in needed}
     if encoding == "ascii":
+        check_text(file, content[start:])
         values = ascii_values(content[start:], elements[:index], vertex, wanted, file)
     else:
         order = ORDERS[encoding]
@@ -192,7 +196,7 @@ def binary_values(
     found = {name: np.zeros(vertex.count, types[name][1:]) for name in wanted}
     readers = {name: struct.Struct(order + np.dtype(types[name]).char) for name in wanted}
     at = {index: name for name, index in wanted.items()}
-    for row in range(vertex.count):
+    for row in checked(range(vertex.count)):
         for index, each in enumerate(vertex.properties):
             if index in at:
                 name = at[index]
@@ -217,7 +221,7 @@ def end_of(content: bytes, start: int, element: Element, order: str, file: Path)
                         element.count)  # fmt: skip
     if not element.has_lists:
         return start + least * element.count
-    for _ in range(element.count):
+    for _ in checked(range(element.count)):
         for each in element.properties:
             start = end_of_property(content, start, each, order, file)
     return start
@@ -266,12 +270,12 @@ def ascii_values(
     try:
         if first_list is None or first_list > max(wanted.values()):
             table = np.loadtxt(
-                (line.decode("ascii", "replace") for line in rows),
+                (line.decode("ascii", "replace") for line in checked(rows)),
                 usecols=tuple(wanted.values()), comments=None, ndmin=2,
             )  # fmt: skip
             return {name: table[:, column] for column, name in enumerate(wanted)}
         found = {name: np.zeros(len(rows)) for name in wanted}
-        for row, line in enumerate(rows):
+        for row, line in enumerate(checked(rows)):
             words = line.split()
             position = 0
             for index, each in enumerate(vertex.properties):

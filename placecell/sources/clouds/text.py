@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from placecell.core.cancellation import checked
 from placecell.core.types import Float64
 from placecell.sources.clouds.cloud import HEAD, Cloud, find_axes, needed_fields, read_content
+from placecell.sources.clouds.read_limits import check_text
 from placecell.sources.errors import DriveError
 
 COMMENTS = ("#", "//", "%", "!")
@@ -49,8 +51,8 @@ class Table:
         rows = [row.replace(",", ".") for row in self.rows] if self.decimal_comma else self.rows
         try:
             return np.loadtxt(
-                rows, delimiter=self.delimiter, usecols=columns, comments=None, quotechar='"',
-                ndmin=2,
+                checked(rows), delimiter=self.delimiter, usecols=columns, comments=None,
+                quotechar='"', ndmin=2,
             )  # fmt: skip
         except (ValueError, IndexError):
             return with_missing(rows, self.delimiter, columns, file)
@@ -82,7 +84,9 @@ def read_text(file: Path, columns: tuple[str, ...] | None) -> Cloud:
     Raises:
         DriveError: the file has no table of points.
     """
-    return points_of(parse(decode(read_content(file)), columns, file), file)
+    content = read_content(file)
+    check_text(file, content)
+    return points_of(parse(decode(content), columns, file), file)
 
 
 def points_of(table: Table, file: Path) -> Cloud:
@@ -112,7 +116,7 @@ def parse(text: str, columns: tuple[str, ...] | None, file: Path) -> Table:
     """
     rows: list[str] = []
     comments: list[str] = []
-    for line in text.splitlines():
+    for line in checked(text.splitlines()):
         row = line.strip(" \r\n\f\x1a")
         if len(row) > HEAD:
             raise DriveError(
@@ -213,7 +217,7 @@ def with_missing(
         DriveError: a value is no number, or a row is too short.
     """
     values = np.full((len(rows), len(columns)), np.nan)
-    for index, row in enumerate(rows):
+    for index, row in enumerate(checked(rows)):
         cells = row.split(delimiter)
         for position, column in enumerate(columns):
             cell = cells[column].strip().strip('"') if column < len(cells) else None

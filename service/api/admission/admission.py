@@ -79,9 +79,19 @@ class Lane:
 
     @asynccontextmanager
     async def admit(
-        self, request: Request, media_types: Collection[str], timing: Timing
+        self,
+        request: Request,
+        media_types: Collection[str],
+        timing: Timing,
+        body_bytes: int | None = None,
     ) -> AsyncIterator[Body]:
         """Receive a request's body; cancel the block at the deadline or on disconnect.
+
+        Args:
+            request: the HTTP request.
+            media_types: media types that the body may have.
+            timing: stopwatch of the request.
+            body_bytes: largest size of the decompressed body, bytes; None: that of the lane.
 
         Raises:
             Problem: 429 if the lane is full; 504 if the deadline passes; 408, 413 or 415 if the
@@ -110,10 +120,8 @@ class Lane:
                 request, client, limit, limit + spent, is_heavy
             ) as admitted:
                 if coding != "identity":
-                    packed = content
-                    content = await admitted.run(
-                        lambda: decompress(packed, coding, self._body_bytes)
-                    )
+                    packed, most = content, body_bytes or self._body_bytes
+                    content = await admitted.run(lambda: decompress(packed, coding, most))
                     held.add(len(content))
                 yield Body(media_type, content)
 

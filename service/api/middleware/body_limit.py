@@ -62,9 +62,16 @@ class BodyLimit:
     def _limit(self, scope: Scope) -> int:
         if scope["method"] == "PUT" and get_route_path(scope).startswith("/maps/"):
             return self._limits.map_bytes
+        if scope["method"] == "POST" and is_scan(get_route_path(scope)):
+            return self._limits.scan_bytes
         if get_route_path(scope) in RECOGNITION and not _is_msgpack(scope):
             return self._limits.json_bytes
         return self._limits.body_bytes
+
+
+def is_scan(path: str) -> bool:
+    """Return whether a path takes a point cloud file."""
+    return path == "/scans" or (path.startswith("/maps/") and path.endswith("/scans"))
 
 
 def _is_msgpack(scope: Scope) -> bool:

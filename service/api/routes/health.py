@@ -16,6 +16,7 @@ from service.api.schemas.info import (
     CostsOut,
     HealthResponse,
     InfoResponse,
+    KeyResponse,
     MapFileOut,
     ModelOut,
 )
@@ -82,6 +83,20 @@ async def info(request: Request, state: StateOf, principal: PrincipalOf) -> Info
         limits=state.settings.limits,
         costs=CostsOut(machine=MACHINE, **asdict(RATES)),
         map_file=MapFileOut(format=FORMAT, version=VERSION, media_type=MEDIA_TYPE),
+    )
+
+
+@router.get("/key", summary="Read the scope of the key", responses=documented(401))
+async def key(state: StateOf, principal: PrincipalOf) -> KeyResponse:
+    """Return what the key of this request may do, so that a program offers no more."""
+    scope = principal.key
+    return KeyResponse(
+        name=principal.name,
+        role="admin" if scope.admin else "write" if scope.write else "read",
+        may_write=scope.write,
+        maps=list(scope.maps),
+        robot=scope.robot,
+        open=not state.keys,
     )
 
 

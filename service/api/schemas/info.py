@@ -71,6 +71,7 @@ class CostsOut(BaseModel):
         description="Seconds per pair of a query and a map segment, for each candidate (k)."
     )
     candidate: float = Field(description="Seconds per candidate of a query.")
+    scanned: float = Field(description="Seconds per point of a point cloud file.")
     supported: float = Field(
         description="Seconds per pair of a candidate and a candidate of a neighbor of the query, "
         "to re-rank: at most 320 pairs per candidate."
@@ -87,6 +88,24 @@ class InfoResponse(BaseModel):
     costs: CostsOut
     map_file: MapFileOut
     up: Literal["z"] = "z"
+
+
+class KeyResponse(BaseModel):
+    """Scope of the key that sent the request."""
+
+    name: str = Field(description="Name of the key's principal; `anyone` without keys.")
+    role: Literal["read", "write", "admin"] = Field(
+        description="`read`: read maps and recognize. `write`: also write, merge and delete maps. "
+        "`admin`: also reload models and free ids."
+    )
+    may_write: bool = Field(description="True if the key may write maps in its scope.")
+    maps: list[str] = Field(description="Patterns of the names of its maps, with * and ?.")
+    robot: str | None = Field(
+        description="Robot whose segments alone the key may write; null for all robots."
+    )
+    open: bool = Field(
+        description="True if the service has no keys, so that every client may do everything."
+    )
 
 
 class ReloadResponse(BaseModel):

@@ -1,0 +1,1 @@
+"""Point cloud files that clients send: reading with limits, and segmentation."""
