@@ -20,6 +20,7 @@ from cli.inspect_source import inspect
 from cli.keys import keys
 from cli.maps import maps
 from cli.prepare import prepare
+from cli.robot import robot
 from cli.serve import serve
 from cli.study import study
 from cli.town import town
@@ -76,6 +77,7 @@ RUN, MAP, EVALUATE, TRAIN, MEASURE = "Run", "Map", "Evaluate", "Train", "Measure
 
 app.command(rich_help_panel=RUN)(takes_drives(demo))
 app.command(rich_help_panel=RUN)(serve)
+app.command(rich_help_panel=RUN)(takes_drives(robot))
 app.command(rich_help_panel=RUN)(config)
 app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)

@@ -54,13 +54,16 @@ class OdometrySettings:
             DriveError: none of these scans can be read.
         """
         chosen = np.unique(np.linspace(0, len(source) - 1, SAMPLES).astype(int))
-        ranges = []
-        for index in chosen:
-            points = read(source, int(index)).points
-            if len(points):
-                ranges.append(np.quantile(np.linalg.norm(points, axis=1), 0.98))
-        if not ranges:
+        clouds = [read(source, int(index)).points for index in chosen]
+        clouds = [points for points in clouds if len(points)]
+        if not clouds:
             raise DriveError(f"{source.path}: {len(chosen)} scans were tried, and none has points")
+        return cls.of_points(clouds, use_times)
+
+    @classmethod
+    def of_points(cls, clouds: Sequence[Float32], use_times: bool) -> "OdometrySettings":
+        """Find the settings from some scans with points."""
+        ranges = [np.quantile(np.linalg.norm(points, axis=1), 0.98) for points in clouds]
         max_range = float(np.clip(1.2 * np.median(ranges), *RANGES).round(1))
         return cls(max_range, round(NEAREST * max_range, 2), max_range / VOXELS_IN_RANGE, use_times)
 
@@ -110,27 +113,64 @@ def run(
         progress: shows the progress.
         title: title of the progress bar.
     """
-    odometry = kiss_icp(settings)
+    odometry = ScanOdometry(settings)
     stamps = times_of(source, scans)
+    forward = 1.0 if scans[-1] >= scans[0] else -1.0
     poses = np.tile(np.eye(4), (len(scans), 1, 1))
-    no_times = np.zeros(0)
     for step in progress(range(len(scans)), len(scans), title):
-        scan = read(source, scans[step])
-        expected = expected_motion(poses, stamps, step)
-        points = scan.points
-        if settings.deskew and scan.times is not None and expected is not None:
-            forward = 1.0 if scans[-1] >= scans[0] else -1.0
-            points = deskew(points, forward * scan.times, float(stamps[step]), expected)
-        if not len(points):
-            poses[step] = poses[step - 1] if step else np.eye(4)
-            continue
-        if expected is not None:
-            # KISS-ICP expects the last step again; scans may be missing between two.
-            last, now = expected.at(stamps[[step - 1, step]])
-            odometry.last_delta = np.linalg.inv(last) @ now
-        odometry.register_frame(points.astype(np.float64), no_times)
-        poses[step] = odometry.last_pose
+        poses[step] = odometry.add(read(source, scans[step]), float(stamps[step]), forward)
     return poses
+
+
+class ScanOdometry:
+    """Odometry of KISS-ICP, scan by scan.
+
+    Attributes:
+        stamps: times of the last scans, seconds, at most two.
+        poses: poses of the last scans in the frame of the first, at most two.
+    """
+
+    def __init__(self, settings: OdometrySettings) -> None:
+        """Begin an odometry.
+
+        Raises:
+            DriveError: KISS-ICP is not installed.
+        """
+        self._odometry = kiss_icp(settings)
+        self._deskew = settings.deskew
+        self.stamps: list[float] = []
+        self.poses: list[Float64] = []
+
+    def add(self, scan: LidarScan, stamp: float, forward: float = 1.0) -> Float64:
+        """Return the pose of the next scan in the frame of the first, float64 (4, 4).
+
+        Args:
+            scan: the scan.
+            stamp: its time, seconds, later than that of the scan before.
+            forward: 1, or -1 if the drive is run backward.
+        """
+        expected = self._expected()
+        points = scan.points
+        if self._deskew and scan.times is not None and expected is not None:
+            points = deskew(points, forward * scan.times, stamp, expected)
+        if not len(points):
+            pose = self.poses[-1] if self.poses else np.eye(4)
+        else:
+            if expected is not None:
+                # KISS-ICP expects the last step again; scans may be missing between two.
+                last, now = expected.at(np.array([self.stamps[-1], stamp]))
+                self._odometry.last_delta = np.linalg.inv(last) @ now
+            self._odometry.register_frame(points.astype(np.float64), np.zeros(0))
+            pose = np.array(self._odometry.last_pose)
+        self.stamps = [*self.stamps[-1:], stamp]
+        self.poses = [*self.poses[-1:], pose]
+        return pose
+
+    def _expected(self) -> SensorMotion | None:
+        """Return the motion that goes on as between the two scans before."""
+        if len(self.poses) < 2:
+            return None
+        return SensorMotion(np.array(self.stamps), np.array(self.poses))
 
 
 def times_of(source: ScanSource, scans: Sequence[int]) -> Float64:
@@ -141,13 +181,6 @@ def times_of(source: ScanSource, scans: Sequence[int]) -> Float64:
     steps = np.abs(np.diff(stamps))
     steps[steps <= 0] = USUAL_PERIOD
     return np.concatenate([[0.0], np.cumsum(steps)])
-
-
-def expected_motion(poses: Float64, stamps: Float64, step: int) -> SensorMotion | None:
-    """Return the motion that goes on as between the two scans before."""
-    if step < 2:
-        return None
-    return SensorMotion(stamps[step - 2 : step], poses[step - 2 : step])
 
 
 def rotated(points: Float32, pose: Float64) -> Float32:

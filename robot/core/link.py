@@ -14,11 +14,15 @@ class LinkError(Exception):
 
     Attributes:
         retry_after: seconds that the service asks to wait; None if it does not.
+        was_reached: whether the service answered.
     """
 
-    def __init__(self, message: str, retry_after: float | None = None) -> None:
+    def __init__(
+        self, message: str, retry_after: float | None = None, was_reached: bool = False
+    ) -> None:
         super().__init__(message)
         self.retry_after = retry_after
+        self.was_reached = was_reached
 
 
 class RefusedError(Exception):
@@ -43,6 +47,7 @@ class FixRequest:
         time: time of the scan, seconds.
         meters: distance driven until the scan.
         odom_pose: pose of the sensor in the odometry frame, float64 (4, 4).
+        part: number of jumps of the odometry frame before the scan.
         model_id: id of the model of the descriptors.
         codes: descriptors of the segments around the robot, int8 (n, code bytes).
         centroids: their centroids in the odometry frame, float64 (n, 3), meters.
@@ -55,6 +60,7 @@ class FixRequest:
     time: float
     meters: float
     odom_pose: Float64
+    part: int
     model_id: str
     codes: Int8
     centroids: Float64
@@ -92,8 +98,14 @@ class Link(Protocol):
     def localize(self, request: FixRequest) -> FixAnswer:
         """Request the pose of the robot."""
 
-    def upload(self, name: str, delta: bytes) -> None:
-        """Store an edit in a map, and create the map if it does not exist."""
+    def upload(self, name: str, delta: bytes, create: bool) -> None:
+        """Store an edit in a map.
+
+        Args:
+            name: name of the map.
+            delta: delta file.
+            create: create the map if it does not exist.
+        """
 
     def pull(self, copy: MapCopy) -> MapCopy:
         """Update a copy of a map."""

@@ -3,7 +3,42 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.types import Float64
+from placecell.descriptors.shipped_models import DEFAULT_MODEL
+
+
+@dataclass(frozen=True, slots=True)
+class DriftRates:
+    """Drift of the odometry that the covariance allows for.
+
+    Attributes:
+        position: error of the position for each meter driven.
+        yaw: error of the heading for the square root of each meter driven, radians.
+        tilt: standard deviation of roll and pitch, radians.
+    """
+
+    position: float = 0.02
+    yaw: float = float(np.radians(0.1))
+    tilt: float = float(np.radians(1.0))
+
+    def grown(self, covariance: Float64, meters: float) -> Float64:
+        """Return the covariance of the pose after a distance without a fix, float64 (6, 6).
+
+        Args:
+            covariance: covariance at the fix, (6, 6).
+            meters: distance driven since.
+        """
+        yaw = self.yaw**2 * meters
+        # An error of the heading moves the position sideways; the rest comes with the distance.
+        sideways = covariance[5, 5] * meters**2 + yaw * meters**2 / 3
+        grown = covariance.copy()
+        grown[[0, 1], [0, 1]] += (self.position * meters) ** 2 + sideways
+        grown[2, 2] += (self.position * meters) ** 2 + (self.tilt * min(meters, 20.0)) ** 2
+        grown[5, 5] += yaw
+        return grown
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,14 +52,19 @@ class AgentSettings:
             folder if this id is the same; odometry that restarts needs a new id.
         state: folder for the spool, the last pose and the pulled map; None keeps nothing, and what
             was not sent is lost with the process.
+        maps_folder: folder of the pulled map; None: in the state folder.
         localize: localize in a map.
         upload: send the robot's segments to the service.
         localize_map: map to localize in; None: `map`.
+        upload_map: map that receives the segments; None: `map`. If a map of that name is another's,
+            the robot begins one with the next free name, such as `map-robot`.
         keyframe_meters: distance between two keyframes, at which segments are extracted.
         localize_meters: distance between two requests while tracking; until then each keyframe
             makes one.
         spool_bytes: largest size of the spool.
         pull_seconds: time between two updates of the pulled map, on the scans' clock.
+        model: name of a shipped model, or folder of a model; the map must have the same.
+        drift: drift of the odometry that the covariance allows for.
         parameters: parameters of the segmentation.
     """
 
@@ -32,13 +72,17 @@ class AgentSettings:
     robot: str = "robot"
     session: str = "session"
     state: Path | None = None
+    maps_folder: Path | None = None
     localize: bool = True
     upload: bool = True
     localize_map: str | None = None
+    upload_map: str | None = None
     keyframe_meters: float = 2.0
     localize_meters: float = 4.0
     spool_bytes: int = 1 << 30
     pull_seconds: float = 60.0
+    model: str = DEFAULT_MODEL
+    drift: DriftRates = DriftRates()
     parameters: Parameters = PROTOCOL_V1
 
     def __post_init__(self) -> None:
@@ -59,3 +103,8 @@ class AgentSettings:
     def searched_map(self) -> str:
         """Name of the map to localize in."""
         return self.localize_map or self.map
+
+    @property
+    def written_map(self) -> str:
+        """Wanted name of the map that receives the segments."""
+        return self.upload_map or self.map

@@ -1,0 +1,1 @@
+"""Localize in: fixes, the correction of the odometry, and the state of localization."""

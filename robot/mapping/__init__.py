@@ -1,0 +1,1 @@
+"""Map out: keyframes, edits of the robot's own map, and their way to the service."""

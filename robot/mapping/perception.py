@@ -1,0 +1,246 @@
+"""Perception: from scans and odometry to keyframes with segments, and to edits of a map.
+
+The result depends on the scans and the odometry only. `Perception` can be pickled: a restarted
+agent continues after the last checkpoint and makes the same edits.
+"""
+
+import pickle
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal, Self
+
+import numpy as np
+
+from placecell.core.parameters import Parameters
+from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.segmentation.incremental import IncrementalSegmentation, LiveSegments
+from robot.localization.scan_jump import ScanAgreement, object_columns
+from robot.mapping.keyframes import Keyframes
+from robot.mapping.map_out import Capture, EditMaker, MapEdit
+
+VERSION = 1
+"""Version of the checkpoints."""
+MOST_CAPTURES = 3000
+"""Number of scans whose time and pose are remembered, for the views that become final later."""
+STANDING = 0.1
+"""Steps below this length are noise of the odometry of a standing robot, meters."""
+LARGE_STEP = 5.0
+"""Distance between two scans from which their columns are not compared, meters: scans between them
+are missing."""
+
+Jump = Literal["doubt", "cleared", "carried away"]
+"""A scan that does not fit the one before; the next one that does; a second one that does not."""
+
+Describe = Callable[[list[Float32], Float32], tuple[Int8, Float64, Int64]]
+"""Function that describes the segments of a capture: codes, centroids, and indices of those that
+have a descriptor."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Keyframe:
+    """Segments around the robot at a keyframe, in the odometry frame.
+
+    Attributes:
+        live: the segments.
+        codes: descriptors of those that have one, int8 (n, code bytes).
+        centroids: their centroids, float64 (n, 3), meters.
+    """
+
+    live: LiveSegments
+    codes: Int8
+    centroids: Float64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PerceptionStep:
+    """Result of a scan.
+
+    Attributes:
+        jump: whether the scan fits the one before; None if it does.
+        keyframe: segments, if the scan is a keyframe.
+        edit: edit of the robot's map, if there is one.
+    """
+
+    jump: Jump | None = None
+    keyframe: Keyframe | None = None
+    edit: MapEdit | None = None
+
+
+@dataclass(slots=True)
+class Perception:
+    """Local map, keyframes and edits of one session.
+
+    Attributes:
+        map_out: makes the edits.
+        captures: time and pose of the last scans, by their number.
+        taken: number of scans in the local map so far.
+        scans: number of scans, with those that were dropped.
+        meters: distance driven.
+        keyframes: number of keyframes.
+        part: number of jumps so far.
+    """
+
+    map_out: EditMaker
+    keyframe_rule: Keyframes
+    segmentation: IncrementalSegmentation
+    model_id: str
+    preprocessing: str
+    agreement: ScanAgreement = field(default_factory=ScanAgreement)
+    captures: dict[int, Capture] = field(default_factory=dict)
+    taken: int = 0
+    scans: int = 0
+    meters: float = 0.0
+    keyframes: int = 0
+    part: int = 0
+    _last_position: Float64 | None = None
+    _last_step: Float64 | None = None
+    _doubted: Capture | None = None
+    _doubted_points: Float32 | None = None
+
+    @classmethod
+    def begin(
+        cls,
+        robot: str,
+        session: str,
+        parameters: Parameters,
+        keyframe_meters: float,
+        model_id: str,
+        preprocessing: str,
+    ) -> Self:
+        """Begin a session."""
+        return cls(
+            EditMaker(robot, session),
+            Keyframes(keyframe_meters, max(1, parameters.accumulated_scans // 2)),
+            IncrementalSegmentation(parameters),
+            model_id,
+            preprocessing,
+        )
+
+    @classmethod
+    def load(cls, checkpoint: bytes, model_id: str) -> Self | None:
+        """Return the state of a checkpoint; None if it is of another version or model."""
+        try:
+            version, found = pickle.loads(checkpoint)
+        except Exception:  # Anything may happen with a damaged pickle.
+            return None
+        same = version == VERSION and isinstance(found, cls) and found.model_id == model_id
+        return found if same else None
+
+    def checkpoint(self) -> bytes:
+        """Return the state, to continue from."""
+        return pickle.dumps((VERSION, self), protocol=pickle.HIGHEST_PROTOCOL)
+
+    def keyframe_now(self) -> None:
+        """Make the next scan a keyframe."""
+        self.keyframe_rule.expect()
+
+    def skip(self) -> None:
+        """Count a scan that is not processed."""
+        self.scans += 1
+
+    def add(
+        self, points: Float32, time: float, odom_pose: Float64, describe: Describe
+    ) -> PerceptionStep:
+        """Process a scan.
+
+        Args:
+            points: float32 (n, 3), meters, in the sensor's frame.
+            time: time of the scan, seconds.
+            odom_pose: pose of the sensor in the odometry frame, float64 (4, 4).
+            describe: describes the segments of a capture.
+        """
+        self.scans += 1
+        self._drive(odom_pose)
+        columns = object_columns(points, odom_pose)
+        if self._is_after_gap(odom_pose):
+            self.agreement.reset()
+        fit = self.agreement.examine(columns)
+        capture = Capture(time, odom_pose.copy())
+        jump: Jump | None = None
+        if not fit.fits and self._doubted is None:
+            self._doubted, self._doubted_points = capture, points
+            return PerceptionStep("doubt")
+        if not fit.fits and self._doubted is not None:
+            jump = "carried away"
+            self._begin_anew()
+            assert self._doubted_points is not None
+            self._take(self._doubted_points, self._doubted)
+            fit = self.agreement.examine(columns)
+        elif self._doubted is not None:
+            jump = "cleared"  # The doubtful scan is left out.
+        self._doubted = self._doubted_points = None
+        self.agreement.accept(columns, fit)
+        self._take(points, capture)
+        if not self.keyframe_rule.add(odom_pose):
+            return PerceptionStep(jump)
+        keyframe, edit = self._keyframe(describe, is_last=False)
+        return PerceptionStep(jump, keyframe, edit)
+
+    def finish(self, describe: Describe) -> MapEdit | None:
+        """Return the edit with the segments that are not complete at the end of the drive."""
+        if not self.captures:
+            return None
+        return self._keyframe(describe, is_last=True)[1]
+
+    def _keyframe(self, describe: Describe, is_last: bool) -> tuple[Keyframe, MapEdit | None]:
+        self.keyframes += 1
+        live = self.segmentation.segments()
+        final = self.segmentation.take_final_views()
+        if is_last:
+            rest = np.flatnonzero(~np.isin(live.ids, final.ids))
+            final = LiveSegments.concatenate([final, live.take(rest)])
+        # The final views first, then what stands around them: the context of their descriptors.
+        others = live.take(np.flatnonzero(~np.isin(live.ids, final.ids)))
+        around = LiveSegments.concatenate([final, others])
+        codes, centroids, usable = describe(clouds_of(around), around.segments.sensors)
+        is_final = usable < len(final)
+        edit = self.map_out.add(
+            final.take(usable[is_final]),
+            codes[is_final],
+            centroids[is_final],
+            self._captures_of(final.scans[usable[is_final]]),
+            live.ids,
+            self.model_id,
+            self.preprocessing,
+            is_last,
+        )
+        if not len(final):
+            return Keyframe(live, codes, centroids), edit
+        codes, centroids, _ = describe(clouds_of(live), live.segments.sensors)
+        return Keyframe(live, codes, centroids), edit
+
+    def _captures_of(self, scans: Int64) -> list[Capture]:
+        """Return the capture of each scan; the oldest remembered one in place of an older one."""
+        oldest = next(iter(self.captures.values()))
+        return [self.captures.get(scan, oldest) for scan in scans.tolist()]
+
+    def _take(self, points: Float32, capture: Capture) -> None:
+        self.captures[self.taken] = capture
+        self.captures.pop(self.taken - MOST_CAPTURES, None)
+        self.taken += 1
+        self.segmentation.add(points, capture.odom_pose)
+
+    def _begin_anew(self) -> None:
+        self.part += 1
+        self.segmentation.reset()
+        self.agreement.reset()
+        self.keyframe_rule.reset()
+        self.map_out.begin_part()
+
+    def _drive(self, odom_pose: Float64) -> None:
+        position = odom_pose[:3, 3].copy()
+        if self._last_position is None:
+            self._last_position = position
+        step = float(np.linalg.norm(position - self._last_position))
+        if step >= STANDING:
+            self.meters += step
+            self._last_position = position
+
+    def _is_after_gap(self, odom_pose: Float64) -> bool:
+        before, self._last_step = self._last_step, odom_pose[:3, 3].copy()
+        return before is not None and float(np.linalg.norm(self._last_step - before)) > LARGE_STEP
+
+
+def clouds_of(live: LiveSegments) -> list[Float32]:
+    """Return the points of each segment."""
+    return [live.segments.cloud(index) for index in range(len(live))]
