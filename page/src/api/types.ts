@@ -1,0 +1,182 @@
+// Answers of the public API, as docs/reference/http-api.md describes them.
+
+export type Vector = [number, number, number];
+
+export interface Pose {
+  translation: Vector;
+  rotation: [number, number, number, number];
+  yaw: number;
+}
+
+export interface MapSummary {
+  name: string;
+  segments: number;
+  sequence: number;
+  etag: string;
+  bytes: number;
+  model_id: string;
+  frame: string;
+  robots: Record<string, number>;
+  sources: Record<string, number>;
+  time_span: [number, number] | null;
+  optional: string[];
+  tags?: string[];
+  calibration?: { state: string; read: number } | null;
+}
+
+export interface MapList {
+  model_id: string;
+  maps: MapSummary[];
+  damaged: string[];
+}
+
+export interface KeyInfo {
+  name: string;
+  role: "read" | "write" | "admin";
+  maps: string[];
+  robot: string | null;
+  open: boolean;
+}
+
+export interface Version {
+  sequence: number;
+  etag: string;
+  time: number;
+  author: string;
+  operation: string;
+  changed: number;
+  removed: number;
+}
+
+export interface Written {
+  map: string;
+  sequence: number;
+  etag: string;
+  segments: number;
+  changed: number;
+  removed: number;
+  repeats: number;
+}
+
+export interface Hypothesis {
+  pose: Pose;
+  score: number;
+  agreement: number;
+  pairs: number;
+}
+
+export interface Pair {
+  id: number;
+  other_id: number;
+  residual: number;
+}
+
+export interface Alignment {
+  map: string;
+  etag: string;
+  frame: string;
+  other: string;
+  other_etag: string;
+  other_frame: string;
+  aligned: boolean;
+  reason: string | null;
+  detail: string;
+  pose: Pose | null;
+  overlap: { of_map: number; of_other: number } | null;
+  score: number;
+  agreement: number;
+  pairs: number;
+  inliers: Pair[];
+  others: Hypothesis[];
+}
+
+export interface Merged {
+  map: string;
+  frame: string;
+  dry_run: boolean;
+  sequence: number | null;
+  etag: string | null;
+  previous: number | null;
+  segments: number;
+  changed: number;
+  removed: number;
+  parts: {
+    map: string;
+    merged: boolean;
+    pose: Pose | null;
+    added: number;
+    known: number;
+    repeats: number;
+    removed: number;
+  }[];
+  alignments: {
+    map: string;
+    other: string;
+    aligned: boolean;
+    rejected: boolean;
+    reason: string | null;
+    detail: string;
+  }[];
+}
+
+export interface Candidate {
+  map: string;
+  id: number;
+  robot: string;
+  distance: number;
+  probability: number | null;
+  support: number | null;
+  centroid: Vector;
+}
+
+export interface MatchAnswer {
+  queries: ({ candidates: Candidate[] } | { error: { title: string; detail: string } })[];
+}
+
+export interface Localization {
+  map: string;
+  frame: string;
+  localized: boolean;
+  reason: string | null;
+  detail: string;
+  advice: string;
+  meters_to_drive: number | null;
+  places: { map: string; position: Vector; yaw: number; score: number }[];
+  probability: number;
+  threshold: number;
+  pose: Pose | null;
+  covariance: number[][] | null;
+  inliers: { query: number; id: number; residual: number }[];
+}
+
+export interface LocalizeAnswer {
+  localizations: Localization[];
+}
+
+/** Segments of one cloud, as `POST /scans` finds them. */
+export interface Scan {
+  format: string;
+  points: number;
+  dropped_points: number;
+  segments: { points: Vector[]; centroid: Vector; extents: Vector }[];
+  cloud: { points: Vector[]; labels: number[] };
+  problems: { what: string; cure: string }[];
+}
+
+export interface RobotState {
+  robot: string;
+  map: string | null;
+  position: Vector | null;
+  orientation: [number, number, number, number] | null;
+  covariance: number[][] | null;
+  state: string;
+  reason: string | null;
+  age: number;
+}
+
+export interface Anchor {
+  lat: number;
+  lon: number;
+  height: number;
+  yaw_deg: number;
+}

@@ -1,0 +1,187 @@
+// One map in the scene: its segments as points, and the paths of its robots.
+import {
+  BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Points,
+  ShaderMaterial, type PerspectiveCamera, type OrthographicCamera, Vector3,
+} from "three";
+import type { MapContent } from "../api/map_file";
+import { kindColor } from "./colors";
+
+const VERTEX = `
+attribute vec3 tint;
+varying vec3 vTint;
+uniform float size;
+uniform float perspective;
+void main() {
+  vTint = tint;
+  vec4 place = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * place;
+  gl_PointSize = clamp(perspective > 0.0 ? size * perspective / -place.z : size, 1.5, 12.0);
+}`;
+const FRAGMENT = `
+varying vec3 vTint;
+void main() { gl_FragColor = vec4(vTint, 1.0); }`;
+
+/** A path is broken where two captures lie farther apart in meters or seconds. */
+const GAP_METERS = 30;
+const GAP_SECONDS = 120;
+
+export class MapLayer {
+  readonly group = new Group();
+  readonly points: Points<BufferGeometry, ShaderMaterial>;
+  readonly paths: LineSegments;
+  /** Middle of the map; GPU coordinates are relative to it, for they have 24 bits only. */
+  readonly middle: Vector3;
+  readonly low: Vector3;
+  readonly high: Vector3;
+  /** Row of each drawn point: a fixed shuffle, so that any first part is a sample of the whole. */
+  private readonly rows: Uint32Array;
+  private readonly tints: BufferAttribute;
+
+  constructor(readonly content: MapContent) {
+    const { centroids, ids } = content;
+    this.low = new Vector3(Infinity, Infinity, Infinity);
+    this.high = new Vector3(-Infinity, -Infinity, -Infinity);
+    const corner = new Vector3();
+    for (let row = 0; row < ids.length; row += 1) {
+      corner.fromArray(centroids, 3 * row);
+      this.low.min(corner);
+      this.high.max(corner);
+    }
+    if (!ids.length) {
+      this.low.set(-10, -10, -1);
+      this.high.set(10, 10, 1);
+    }
+    this.middle = this.low.clone().add(this.high).multiplyScalar(0.5);
+    this.rows = shuffled(ids.length);
+    const positions = new Float32Array(3 * ids.length);
+    this.rows.forEach((row, place) => {
+      positions[3 * place] = centroids[3 * row]! - this.middle.x;
+      positions[3 * place + 1] = centroids[3 * row + 1]! - this.middle.y;
+      positions[3 * place + 2] = centroids[3 * row + 2]! - this.middle.z;
+    });
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.tints = new BufferAttribute(new Uint8Array(3 * ids.length), 3, true);
+    geometry.setAttribute("tint", this.tints);
+    this.points = new Points(geometry, new ShaderMaterial({
+      vertexShader: VERTEX, fragmentShader: FRAGMENT,
+      uniforms: { size: { value: 2 }, perspective: { value: 0 } },
+    }));
+    this.points.frustumCulled = false;
+    this.paths = pathsOf(content, this.middle);
+    this.group.add(this.points, this.paths);
+    this.group.matrixAutoUpdate = false;
+    this.place(new Matrix4());
+  }
+
+  /** Place the map's frame in the scene. */
+  place(pose: Matrix4): void {
+    this.group.matrix.copy(pose).multiply(new Matrix4().makeTranslation(this.middle));
+    this.group.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Transform from the map's frame to the scene. */
+  get pose(): Matrix4 {
+    return this.group.matrix.clone().multiply(new Matrix4().makeTranslation(this.middle.clone().negate()));
+  }
+
+  /** Position of a segment in the scene. */
+  position(row: number): Vector3 {
+    return new Vector3().fromArray(this.content.centroids, 3 * row).applyMatrix4(this.pose);
+  }
+
+  setColors(colors: Uint8Array): void {
+    const array = this.tints.array as Uint8Array;
+    this.rows.forEach((row, place) => {
+      array[3 * place] = colors[3 * row]!;
+      array[3 * place + 1] = colors[3 * row + 1]!;
+      array[3 * place + 2] = colors[3 * row + 2]!;
+    });
+    this.tints.needsUpdate = true;
+  }
+
+  /** Draw at most so many points. */
+  limit(count: number): number {
+    const drawn = Math.min(count, this.rows.length);
+    this.points.geometry.setDrawRange(0, drawn);
+    return drawn;
+  }
+
+  /** Row of the segment nearest to a point of the screen, within so many pixels; -1 if none. */
+  pick(
+    camera: PerspectiveCamera | OrthographicCamera, x: number, y: number, width: number, height: number,
+    pixels: number,
+  ): { row: number; distance: number; depth: number } {
+    const all = new Matrix4()
+      .multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
+      .multiply(this.group.matrix).elements;
+    const at = this.points.geometry.getAttribute("position").array;
+    const found = { row: -1, distance: pixels, depth: Infinity };
+    for (let place = 0; place < this.rows.length; place += 1) {
+      const [px, py, pz] = [at[3 * place]!, at[3 * place + 1]!, at[3 * place + 2]!];
+      const w = all[3]! * px + all[7]! * py + all[11]! * pz + all[15]!;
+      if (w <= 0) continue;
+      const sx = ((all[0]! * px + all[4]! * py + all[8]! * pz + all[12]!) / w + 1) * 0.5 * width;
+      const sy = (1 - (all[1]! * px + all[5]! * py + all[9]! * pz + all[13]!) / w) * 0.5 * height;
+      const distance = Math.hypot(sx - x, sy - y);
+      if (distance > pixels) continue;
+      if (distance < found.distance - 1 || (distance < found.distance + 1 && w < found.depth)) {
+        found.row = this.rows[place]!;
+        found.distance = distance;
+        found.depth = w;
+      }
+    }
+    return found;
+  }
+
+  dispose(): void {
+    for (const each of [this.points, this.paths]) {
+      each.geometry.dispose();
+      (each.material as ShaderMaterial).dispose();
+    }
+  }
+}
+
+/** A permutation of 0 to count - 1 that is the same each time. */
+export function shuffled(count: number): Uint32Array {
+  const order = new Uint32Array(count);
+  let state = 0x9e3779b9;
+  for (let place = 0; place < count; place += 1) {
+    state ^= state << 13;
+    state ^= state >>> 17;
+    state ^= state << 5;
+    const other = (state >>> 0) % (place + 1);
+    order[place] = order[other]!;
+    order[other] = place;
+  }
+  return order;
+}
+
+function pathsOf(map: MapContent, middle: Vector3): LineSegments {
+  const robotOf = new Int32Array(map.frameTimes.length).fill(-1);
+  for (let row = 0; row < map.ids.length; row += 1) robotOf[map.frameIndex[row]!] = map.robot[row]!;
+  const last = new Map<number, number>();
+  const places: number[] = [];
+  const tints: number[] = [];
+  robotOf.forEach((robot, frame) => {
+    const before = last.get(robot);
+    last.set(robot, frame);
+    if (robot < 0 || before === undefined) return;
+    const step = [0, 1, 2].map((axis) => map.framePositions[3 * frame + axis]! - map.framePositions[3 * before + axis]!);
+    const far = Math.hypot(...step) > GAP_METERS || map.frameTimes[frame]! - map.frameTimes[before]! > GAP_SECONDS;
+    if (far) return;
+    for (const end of [before, frame]) {
+      places.push(
+        map.framePositions[3 * end]! - middle.x, map.framePositions[3 * end + 1]! - middle.y,
+        map.framePositions[3 * end + 2]! - middle.z,
+      );
+      tints.push(...kindColor(robot));
+    }
+  });
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(tints), 3));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+  lines.frustumCulled = false;
+  return lines;
+}

@@ -1,0 +1,299 @@
+// What the page knows and shows. Views read these signals; actions change them.
+import { computed, signal } from "@preact/signals";
+import { api, ApiError, storeKey, storedKey } from "../api/client";
+import { follow, type ServiceEvent } from "../api/events";
+import { readMap, type MapContent } from "../api/map_file";
+import type { Anchor, KeyInfo, MapList, MapSummary, RobotState } from "../api/types";
+import { colorSegments, type ColorBy, type Legend } from "../scene/coloring";
+import { MapLayer } from "../scene/map_layer";
+import type { View } from "../scene/scene";
+import { Matrix4 } from "three";
+
+export type Tab = "maps" | "robots" | "locate" | "service";
+
+export interface Message {
+  id: number;
+  kind: "error" | "done";
+  text: string;
+  detail: string;
+}
+
+export interface Selection {
+  map: string;
+  row: number;
+}
+
+export const key = signal<KeyInfo | null>(null);
+export const needsKey = signal<string | null>(null);
+export const version = signal("");
+export const list = signal<MapList | null>(null);
+export const open = signal<ReadonlyMap<string, MapContent>>(new Map());
+export const current = signal<string | null>(null);
+export const loading = signal<ReadonlySet<string>>(new Set());
+export const selection = signal<Selection | null>(null);
+export const colorBy = signal<ColorBy>("robot");
+export const legend = signal<Legend[]>([]);
+export const hiddenKinds = signal<ReadonlySet<string>>(new Set());
+export const matched = signal<ReadonlyMap<string, Map<number, number>>>(new Map());
+export const showPaths = signal(true);
+export const tab = signal<Tab>("maps");
+export const messages = signal<Message[]>([]);
+export const robots = signal<RobotState[]>([]);
+export const trails = signal<ReadonlyMap<string, { map: string; places: [number, number, number][] }>>(new Map());
+export const events = signal<ServiceEvent[]>([]);
+export const connected = signal<{ on: boolean; reason: string }>({ on: false, reason: "" });
+export const anchors = signal<ReadonlyMap<string, Anchor>>(new Map());
+export const above = signal(false);
+export const measuring = signal(false);
+export const measured = signal<{ from: Selection; meters: number; vertical: number } | null>(null);
+/** Counts pictures, so that compass and scale follow the view. */
+export const picture = signal(0);
+
+export const currentSummary = computed<MapSummary | null>(
+  () => list.value?.maps.find((each) => each.name === current.value) ?? null,
+);
+
+let view: View | null = null;
+let counter = 0;
+let stop = new AbortController();
+
+export const scene = (): View => view!;
+
+export function say(kind: Message["kind"], text: string, detail = ""): void {
+  counter += 1;
+  const id = counter;
+  messages.value = [...messages.value.slice(-3), { id, kind, text, detail }];
+  if (kind === "done") setTimeout(() => dismiss(id), 8000);
+}
+
+export function dismiss(id: number): void {
+  messages.value = messages.value.filter((each) => each.id !== id);
+}
+
+/** Run an action; show its error, and ask for a key where one is needed. */
+export async function attempt<Result>(work: () => Promise<Result>): Promise<Result | undefined> {
+  try {
+    return await work();
+  } catch (error) {
+    if (error instanceof ApiError && error.status === 401) {
+      needsKey.value = storedKey() ? "The service does not know this key." : "";
+    } else if (error instanceof ApiError) {
+      const wait = error.retryAfter ? ` Try again in ${error.retryAfter} s.` : "";
+      say("error", error.title, error.detail + wait);
+    } else {
+      say("error", "The page failed", error instanceof Error ? error.message : String(error));
+    }
+    return undefined;
+  }
+}
+
+/** Whether the key may write a map. A key of one robot may not change whole maps. */
+export function mayWrite(map: string): boolean {
+  const mine = key.value;
+  if (!mine || mine.role === "read" || mine.robot !== null) return false;
+  return mine.maps.some((pattern) => matches(pattern, map));
+}
+
+export const mayWriteAny = computed(() => key.value !== null && key.value.role !== "read" && key.value.robot === null);
+
+export function matches(pattern: string, name: string): boolean {
+  const expression = pattern.replace(/[.+^${}()|\\]/g, "\\$&").replace(/\*/g, ".*").replace(/\?/g, ".").replace(/\[!/g, "[^");
+  return new RegExp(`^${expression}$`).test(name);
+}
+
+export async function start(created: View): Promise<void> {
+  view = created;
+  view.onFrame = () => (picture.value += 1);
+  await signIn(storedKey());
+}
+
+/** Use a key; an empty one for a service without keys. */
+export async function signIn(typed: string): Promise<void> {
+  storeKey(typed);
+  stop.abort();
+  stop = new AbortController();
+  try {
+    key.value = await api.key();
+    needsKey.value = null;
+    version.value = (await api.info()).version;
+  } catch (error) {
+    if (error instanceof ApiError && error.status === 401) {
+      needsKey.value = typed ? "The service does not know this key. Check it, or ask for a new one." : "";
+      return;
+    }
+    await attempt(() => Promise.reject(error as Error));
+    setTimeout(() => void signIn(typed), 3000);
+    return;
+  }
+  await refresh();
+  const asked = new URLSearchParams(location.hash.slice(1)).get("map");
+  const known = list.value?.maps ?? [];
+  const first = known.find((each) => each.name === asked) ?? (known.length === 1 ? known[0] : undefined);
+  if (first) await openMap(first.name);
+  const { signal } = stop;
+  void follow(signal, onEvent, (on, reason) => (connected.value = { on, reason }));
+  void poll(signal);
+}
+
+export function signOut(): void {
+  stop.abort();
+  storeKey("");
+  for (const name of [...open.value.keys()]) closeMap(name);
+  [list.value, key.value, robots.value, events.value] = [null, null, [], []];
+  needsKey.value = "";
+}
+
+async function poll(signal: AbortSignal): Promise<void> {
+  while (!signal.aborted) {
+    await new Promise((done) => setTimeout(done, 3000));
+    if (signal.aborted || document.hidden) continue;
+    await refresh(true);
+    await refreshRobots();
+  }
+}
+
+/** Read the list of maps again; open maps that have changed are read again. */
+export async function refresh(quiet = false): Promise<void> {
+  try {
+    list.value = await api.maps();
+    if (!connected.value.on) connected.value = { on: true, reason: "" };
+  } catch (error) {
+    if (quiet) {
+      connected.value = { on: false, reason: error instanceof Error ? error.message : "" };
+      return;
+    }
+    await attempt(() => Promise.reject(error as Error));
+    return;
+  }
+  for (const [name, content] of open.value) {
+    const now = list.value.maps.find((each) => each.name === name);
+    if (!now) closeMap(name);
+    else if (now.etag !== content.etag && !loading.value.has(name)) await openMap(name, false);
+  }
+}
+
+let robotsKnown = true;
+
+async function refreshRobots(): Promise<void> {
+  if (!robotsKnown) return;
+  try {
+    robots.value = await api.robots();
+  } catch (error) {
+    if (error instanceof ApiError && error.status === 404) robotsKnown = false;
+  }
+  extendTrails();
+}
+
+function extendTrails(): void {
+  const next = new Map(trails.value);
+  for (const robot of robots.value) {
+    if (!robot.map || !robot.position) continue;
+    const before = next.get(robot.robot);
+    const places = before?.map === robot.map ? before.places : [];
+    const last = places.at(-1);
+    const moved = !last || Math.hypot(...last.map((value, axis) => value - robot.position![axis]!)) > 0.2;
+    if (moved) next.set(robot.robot, { map: robot.map, places: [...places.slice(-999), robot.position] });
+  }
+  trails.value = next;
+}
+
+function onEvent(event: ServiceEvent): void {
+  events.value = [event, ...events.value].slice(0, 100);
+  if (/upload|edit|merge|restore|delete|put|prune/.test(event.kind)) void refresh(true);
+  if (/fix|pose|robot|locali/.test(event.kind)) void refreshRobots();
+}
+
+/** Read a map and show it. */
+export async function openMap(name: string, look = true): Promise<void> {
+  loading.value = new Set([...loading.value, name]);
+  const content = await attempt(() => readMap(name));
+  loading.value = new Set([...loading.value].filter((each) => each !== name));
+  if (!content) return;
+  const before = scene().layers.get(name)?.pose;
+  const layer = new MapLayer(content);
+  const place = before ?? beside(layer);
+  scene().add(layer);
+  layer.place(place);
+  open.value = new Map([...open.value, [name, content]]);
+  if (look || !current.value) current.value = name;
+  if (selection.value?.map === name) select(null);
+  recolor();
+  if (look) {
+    scene().fit(name);
+    location.hash = new URLSearchParams({ map: name }).toString();
+  }
+  if (!anchors.value.has(name)) {
+    const anchor = await api.anchor(name).catch(() => null);
+    if (anchor) anchors.value = new Map([...anchors.value, [name, anchor]]);
+  }
+}
+
+/** Maps of one frame lie on each other. A map of another frame lies beside, until it is aligned. */
+function beside(layer: MapLayer): Matrix4 {
+  let right = -Infinity;
+  for (const other of scene().layers.values()) {
+    if (other.content.name === layer.content.name) continue;
+    if (other.content.frame === layer.content.frame) return other.pose;
+    right = Math.max(right, other.high.clone().applyMatrix4(other.pose).x);
+  }
+  return right === -Infinity ? new Matrix4() : new Matrix4().makeTranslation(right + 30 - layer.low.x, 0, 0);
+}
+
+export function closeMap(name: string): void {
+  scene().remove(name);
+  open.value = new Map([...open.value].filter(([each]) => each !== name));
+  if (current.value === name) current.value = [...open.value.keys()].at(-1) ?? null;
+  if (selection.value?.map === name) select(null);
+  recolor();
+}
+
+export function recolor(): void {
+  const seen = new Map<string, Legend>();
+  [...open.value].forEach(([name, content], index) => {
+    const { colors, legend: parts } = colorSegments(
+      content, colorBy.value, index, matched.value.get(name) ?? new Map(), new Set(hiddenKinds.value),
+    );
+    const layer = scene().layers.get(name);
+    layer?.setColors(colors);
+    if (layer) layer.paths.visible = showPaths.value;
+    for (const part of parts) seen.set(part.label, part);
+  });
+  legend.value = [...seen.values()];
+  scene().zoom(1);
+}
+
+export function select(chosen: Selection | null): void {
+  const before = selection.value;
+  selection.value = chosen;
+  scene().overlay("alike", []);
+  if (!chosen) {
+    scene().mark(null);
+    return;
+  }
+  const layer = scene().layers.get(chosen.map);
+  if (!layer) return;
+  current.value = chosen.map;
+  const place = layer.position(chosen.row);
+  const { extents } = layer.content;
+  const size = extents ? Math.max(0.5, ...[0, 1, 2].map((axis) => extents[3 * chosen.row + axis]! / 20)) : 1;
+  scene().mark(place, size);
+  const other = before && scene().layers.get(before.map);
+  if (measuring.value && before && other) {
+    const from = other.position(before.row);
+    measured.value = { from: before, meters: place.distanceTo(from), vertical: place.z - from.z };
+    scene().overlay("measure", [{ from, to: place, color: [1, 1, 1] }]);
+  } else {
+    measured.value = null;
+    scene().overlay("measure", []);
+  }
+}
+
+/** Select the segment with an id, in the current map. */
+export function selectId(id: number): boolean {
+  const content = current.value ? open.value.get(current.value) : undefined;
+  const row = content ? content.ids.indexOf(id) : -1;
+  if (row < 0 || !content) return false;
+  select({ map: content.name, row });
+  scene().look(scene().layers.get(content.name)!.position(row), Math.min(scene().reach(), 30));
+  return true;
+}

@@ -1,0 +1,145 @@
+// Drop a scan: its segments, its matches, and its pose in the maps.
+import { signal } from "@preact/signals";
+import { Vector3 } from "three";
+import { api } from "../api/client";
+import type { Localization, Scan, Vector } from "../api/types";
+import { FIX, GRAY, kindColor, type Color } from "../scene/colors";
+import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
+import { attempt, current, list, matched, mayWriteAny, open, openMap, recolor, refresh, say, scene } from "../state/store";
+import { Button, count, degrees, FileButton, meters, percent } from "./parts";
+import { useState } from "preact/hooks";
+
+interface Located {
+  file: File;
+  scan: Scan;
+  answers: Localization[] | null;
+}
+
+const located = signal<Located | null>(null);
+const busy = signal("");
+
+/** Segment a scan, find its pose, and draw both. */
+export async function locate(file: File): Promise<void> {
+  busy.value = `Cutting ${file.name} into segments.`;
+  located.value = null;
+  const scan = await attempt(() => api.scan(file));
+  if (scan) {
+    located.value = { file, scan, answers: null };
+    draw(located.value, null);
+    if (scan.segments.length && list.value?.maps.length) {
+      busy.value = "Searching the maps.";
+      const answer = await attempt(() => api.localize({
+        segments: scan.segments.map(({ points }) => ({ points, sensor: [0, 0, 0] })), motion: "yaw",
+      }));
+      if (answer) {
+        located.value = { file, scan, answers: answer.localizations };
+        const best = answer.localizations[0];
+        if (best?.localized) await showIn(best);
+      }
+    }
+  }
+  busy.value = "";
+}
+
+async function showIn(answer: Localization): Promise<void> {
+  if (!open.value.has(answer.map)) await openMap(answer.map, false);
+  current.value = answer.map;
+  const found = located.value!;
+  draw(found, answer);
+  const layer = scene().layers.get(answer.map);
+  if (!layer || !answer.pose) return;
+  const place = vector(answer.pose.translation).applyMatrix4(layer.pose);
+  scene().look(place, 45);
+  matched.value = new Map([[answer.map, new Map(answer.inliers.map((each) => [each.id, 1 - Math.min(each.residual, 1)]))]]);
+  recolor();
+}
+
+/** Draw the cloud, colored by segment, and the lines from its segments to those of the map. */
+function draw(found: Located, answer: Localization | null): void {
+  const layer = answer ? scene().layers.get(answer.map) : undefined;
+  const pose = answer?.pose && layer ? layer.pose.multiply(matrixOf(answer.pose)) : matrixOf({ translation: outside(), rotation: [0, 0, 0, 1] });
+  const { points, labels } = found.scan.cloud;
+  const places = points.map((point) => vector(point).applyMatrix4(pose));
+  const colors = labels.map((label): Color => (label >= 0 ? kindColor(label) : GRAY));
+  const lines: Line[] = [...arrow(pose, 2.5, FIX)];
+  if (layer && answer) {
+    const rows = new Map(Array.from(layer.content.ids, (id, row) => [id, row]));
+    for (const { query, id } of answer.inliers) {
+      const row = rows.get(id);
+      const centroid = found.scan.segments[query]?.centroid;
+      if (row === undefined || !centroid) continue;
+      const from = vector(centroid).applyMatrix4(pose);
+      const lift = from.clone().add(new Vector3(0, 0, 8));
+      lines.push({ from, to: lift, color: FIX }, { from: lift, to: layer.position(row), color: FIX });
+    }
+    if (answer.covariance) lines.push(...ellipse(new Vector3().applyMatrix4(pose), answer.covariance, FIX));
+  }
+  scene().overlay("scan", lines, [{ points: places, colors, size: 2 }]);
+  if (!answer) scene().look(new Vector3().applyMatrix4(pose), 45);
+}
+
+/** A free place beside the open maps. */
+function outside(): Vector {
+  let left = 0;
+  for (const layer of scene().layers.values()) left = Math.min(left, layer.low.clone().applyMatrix4(layer.pose).x - 60);
+  return [left, 0, 0];
+}
+
+const REASONS: Record<string, string> = {
+  "too-few-segments": "The scan shows too few segments.", ambiguous: "Two places fit nearly as well.", inconsistent: "No place fits.",
+};
+
+export function Locate() {
+  const found = located.value;
+  const [name, setName] = useState("");
+  const add = async (): Promise<void> => {
+    const written = await attempt(() => api.addScan(name, "page", found!.file));
+    if (!written) return;
+    say("done", `${count(written.changed)} segments added to ${name}`);
+    await refresh();
+    await openMap(name);
+  };
+  return (
+    <>
+      <p>Drop one LiDAR scan on this page to see its segments and where it was taken. PCD, PLY, LAS, KITTI .bin, NumPy and CSV files work; z must point up.</p>
+      <FileButton label="Choose a scan" onFile={(file) => void locate(file)} />
+      {busy.value && <p role="status">{busy.value}</p>}
+      {found && (
+        <section aria-label="Result" aria-live="polite">
+          <h2>{found.file.name}</h2>
+          <p>{found.scan.format}: {count(found.scan.points)} points, {count(found.scan.segments.length)} segments.</p>
+          {found.scan.problems.map((each) => <p key={each.what} class="warning">{each.what} {each.cure}</p>)}
+          {!found.scan.segments.length && <p>No segment was found. A segment is an object of 100 or more points, such as a car or a trunk. Check that z points up and that lengths are meters.</p>}
+          {found.answers?.length === 0 && <p>There is no map to search.</p>}
+          {(found.answers ?? []).slice(0, 5).map((answer) => <Answer key={answer.map} answer={answer} />)}
+          {mayWriteAny.value && found.scan.segments.length > 0 && (
+            <form class="row" onSubmit={(event) => { event.preventDefault(); void add(); }}>
+              <label class="grow">Add the scan to map <input required pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" value={name} onInput={(event) => setName(event.currentTarget.value)} /></label>
+              <button type="submit">Add</button>
+            </form>
+          )}
+          <Button onClick={() => { located.value = null; scene().overlay("scan", []); }}>Clear</Button>
+        </section>
+      )}
+    </>
+  );
+}
+
+function Answer(props: { answer: Localization }) {
+  const { answer } = props;
+  const { pose } = answer;
+  return (
+    <div class={answer.localized ? "answer good" : "answer"}>
+      <b>{answer.localized ? `In ${answer.map}` : `Not localized in ${answer.map}`}</b>
+      {pose && answer.localized ? (
+        <>
+          <p>x {meters(pose.translation[0])}, y {meters(pose.translation[1])}, z {meters(pose.translation[2])}, heading {degrees(pose.yaw)}</p>
+          <p>{percent(answer.probability)} sure; {answer.inliers.length} segments agree.</p>
+          <Button onClick={() => void showIn(answer)}>Show</Button>
+        </>
+      ) : (
+        <p>{REASONS[answer.reason ?? ""] ?? ""} {answer.detail} {answer.advice}</p>
+      )}
+    </div>
+  );
+}

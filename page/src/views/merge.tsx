@@ -1,0 +1,166 @@
+// Align another map with this one, look at the proposal, then merge both; a merge can be undone.
+import { useEffect, useState } from "preact/hooks";
+import { api, ApiError } from "../api/client";
+import type { Alignment, MapSummary, Merged, Pose } from "../api/types";
+import { FIX, GRAY } from "../scene/colors";
+import { matrixOf, type Line } from "../scene/scene";
+import { attempt, list, mayWrite, mayWriteAny, open, openMap, refresh, say, scene } from "../state/store";
+import { Button, count, degrees, Dialog, meters, percent } from "./parts";
+
+interface Proposal {
+  label: string;
+  pose: Pose;
+  note: string;
+}
+
+export function Merge(props: { map: MapSummary }) {
+  const { map } = props;
+  const others = (list.value?.maps ?? []).filter((each) => each.name !== map.name);
+  const [other, setOther] = useState(others[0]?.name ?? "");
+  const [busy, setBusy] = useState("");
+  const [found, setFound] = useState<Alignment | null>(null);
+  const [chosen, setChosen] = useState(0);
+  const [target, setTarget] = useState(map.name);
+  const [plan, setPlan] = useState<Merged | null>(null);
+  const [done, setDone] = useState<Merged | null>(null);
+  useEffect(() => () => scene().overlay("pairs", []), []);
+
+  const align = async (): Promise<void> => {
+    setBusy("Aligning. This takes some seconds.");
+    setFound(null);
+    setPlan(null);
+    const answer = await attempt(async () => {
+      for (const name of [map.name, other]) if (!open.value.has(name)) await openMap(name, false);
+      return api.align(map.name, other);
+    });
+    setBusy("");
+    if (!answer) return;
+    setFound(answer);
+    show(answer, 0);
+  };
+  const show = (answer: Alignment, index: number): void => {
+    setChosen(index);
+    const proposal = proposalsOf(answer)[index];
+    if (proposal) draw(answer, proposal.pose);
+  };
+  const merge = async (dryRun: boolean): Promise<void> => {
+    setBusy(dryRun ? "Trying the merge. Nothing is written." : "Merging.");
+    const existing = list.value?.maps.find((each) => each.name === target) ?? null;
+    const parts = [map.name, other].filter((name) => name !== target);
+    const answer = await attempt(() => api.merge(target, parts, dryRun, existing?.etag ?? null));
+    setBusy("");
+    if (!answer) return;
+    if (dryRun) {
+      setPlan(answer);
+      return;
+    }
+    setPlan(null);
+    setDone(answer);
+    say("done", `${other} is merged into ${target}`, `${count(answer.changed)} segments added.`);
+    await refresh();
+    await openMap(target);
+  };
+  const undo = async (): Promise<void> => {
+    const merged = done!;
+    setDone(null);
+    const gone = await attempt(async () => {
+      if (merged.previous === null) await api.deleteMap(merged.map, merged.etag!);
+      else await api.restore(merged.map, merged.previous, merged.etag!);
+      return true;
+    });
+    if (gone) say("done", `The merge into ${merged.map} is undone`);
+    await refresh();
+  };
+  if (!others.length) return <p>There is no other map to align with.</p>;
+  const proposals = found ? proposalsOf(found) : [];
+  const exists = (list.value?.maps ?? []).some((each) => each.name === target);
+  return (
+    <>
+      <div class="row">
+        <label class="grow">
+          Other map{" "}
+          <select value={other} onChange={(event) => { setOther(event.currentTarget.value); setFound(null); setPlan(null); }}>
+            {others.map((each) => <option key={each.name} value={each.name}>{each.name}</option>)}
+          </select>
+        </label>
+        <Button kind="main" disabled={busy !== ""} onClick={() => void align()}>Align</Button>
+      </div>
+      {busy && <p role="status">{busy}</p>}
+      {found && (
+        <div role="status">
+          <p>
+            {found.aligned ? `${other} fits: ${found.pairs} pairs of segments agree.` : `${other} is not aligned. ${found.detail}`}
+            {found.overlap && ` It covers ${percent(found.overlap.of_map)} of ${map.name}.`}
+          </p>
+          {proposals.map((proposal, index) => (
+            <Button key={proposal.label} pressed={chosen === index} onClick={() => show(found, index)}>
+              {proposal.label}: {proposal.note}
+            </Button>
+          ))}
+        </div>
+      )}
+      {found?.aligned && mayWriteAny.value && (
+        <>
+          <div class="row">
+            <label class="grow">
+              Merge into map <input value={target} pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" onInput={(event) => { setTarget(event.currentTarget.value); setPlan(null); }} />
+            </label>
+            <Button disabled={busy !== "" || !target || !mayWrite(target)} onClick={() => void merge(true)}>Try the merge</Button>
+          </div>
+          <p class="facts">{exists ? `The map ${target} gets a new version.` : `A new map ${target} is made.`} {map.name !== target && `${map.name} stays as it is. `}{other} stays as it is.</p>
+        </>
+      )}
+      {plan && (
+        <Dialog title={`Merge into ${plan.map}?`} onClose={() => setPlan(null)}>
+          <ul>
+            {plan.parts.map((part) => (
+              <li key={part.map}>{part.merged ? `${part.map}: ${count(part.added)} segments added, ${count(part.repeats)} were there already` : `${part.map} is left out: it does not fit`}</li>
+            ))}
+          </ul>
+          <p>The map will have {count(plan.segments)} segments. You can undo the merge.</p>
+          <div class="row">
+            <Button kind="main" disabled={plan.parts.every((part) => !part.merged)} onClick={() => void merge(false)}>Merge</Button>
+            <Button onClick={() => setPlan(null)}>Cancel</Button>
+          </div>
+        </Dialog>
+      )}
+      {done && (
+        <div class="row" role="status">
+          <span class="grow">{done.map} has {count(done.segments)} segments now.</span>
+          <Button kind="danger" onClick={() => void undo()}>Undo the merge</Button>
+        </div>
+      )}
+    </>
+  );
+}
+
+/** The poses that fit: the best one, and in an ambiguous answer those that fit as well. */
+function proposalsOf(found: Alignment): Proposal[] {
+  const note = (pose: Pose, pairs: number): string =>
+    `${pairs} pairs, ${meters(Math.hypot(...pose.translation))} away, turned by ${degrees(pose.yaw)}`;
+  const best = found.pose ? [{ label: "Best", pose: found.pose, note: note(found.pose, found.pairs) }] : [];
+  return [
+    ...best,
+    ...found.others.map((each, index) => ({ label: found.pose ? "Second" : `Way ${index + 1}`, pose: each.pose, note: note(each.pose, each.pairs) })),
+  ];
+}
+
+function draw(found: Alignment, pose: Pose): void {
+  const [a, b] = [scene().layers.get(found.map), scene().layers.get(found.other)];
+  if (!a || !b) return;
+  b.place(a.pose.multiply(matrixOf(pose)));
+  const rows = (ids: Uint32Array): Map<number, number> => new Map(Array.from(ids, (id, row) => [id, row]));
+  const [mine, theirs] = [rows(a.content.ids), rows(b.content.ids)];
+  const best = found.pose === pose;
+  const lines: Line[] = found.inliers.flatMap((pair) => {
+    const [row, otherRow] = [mine.get(pair.id), theirs.get(pair.other_id)];
+    if (row === undefined || otherRow === undefined) return [];
+    const from = a.position(row);
+    const lift = from.clone().setZ(from.z + 6);
+    return [{ from, to: lift, color: best ? FIX : GRAY }, { from: lift, to: b.position(otherRow), color: best ? FIX : GRAY }];
+  });
+  scene().overlay("pairs", lines);
+  scene().fit();
+}
+
+export const isConflict = (error: unknown): boolean => error instanceof ApiError && error.status === 412;

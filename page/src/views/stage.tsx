@@ -1,0 +1,195 @@
+// The picture with what lies on it: tools, legend, compass, scale, position, selected segment.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { FIX } from "../scene/colors";
+import { COLOR_NAMES, type ColorBy } from "../scene/coloring";
+import { View } from "../scene/scene";
+import {
+  above, anchors, colorBy, current, hiddenKinds, legend, measured, measuring, open, picture, recolor, scene,
+  select, selectId, selection, showPaths, start,
+} from "../state/store";
+import { Button, count, meters } from "./parts";
+import { SegmentCard } from "./segment";
+import { toWgs84 } from "./geo";
+
+export function Stage() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const [failure, setFailure] = useState("");
+  const [pointer, setPointer] = useState<[number, number] | null>(null);
+  useEffect(() => {
+    try {
+      void start(new View(canvas.current!));
+    } catch (error) {
+      setFailure(`This browser draws no 3D pictures (WebGL): ${error instanceof Error ? error.message : ""}`);
+    }
+  }, []);
+  const down = useRef<[number, number]>([0, 0]);
+  const at = (event: PointerEvent): [number, number] => {
+    const box = canvas.current!.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  const click = (event: PointerEvent): void => {
+    const [x, y] = at(event);
+    if (event.button !== 0 || Math.hypot(x - down.current[0], y - down.current[1]) > 4) return;
+    const picked = scene().pick(x, y);
+    select(picked ? { map: picked.layer.content.name, row: picked.row } : null);
+  };
+  return (
+    <section class="stage" aria-label="Map view">
+      <canvas
+        ref={canvas} tabIndex={0} role="img" aria-label="Segments of the open maps. Arrow keys move, plus and minus zoom, Q and E turn, T shows from above, F shows all."
+        onPointerDown={(event) => (down.current = at(event))} onPointerUp={click}
+        onPointerMove={(event) => setPointer(at(event))} onPointerLeave={() => setPointer(null)} onKeyDown={keys}
+      />
+      {failure && <p class="failure" role="alert">{failure}</p>}
+      <Tools />
+      <Legend />
+      <Compass />
+      <Scale pointer={pointer} />
+      {selection.value && <SegmentCard />}
+      {!open.value.size && <p class="empty">Open a map to see it here, or drop a map file or a scan on this page.</p>}
+    </section>
+  );
+}
+
+function keys(event: KeyboardEvent): void {
+  const view = scene();
+  const actions: Record<string, () => void> = {
+    ArrowUp: () => view.pan(0, 1), ArrowDown: () => view.pan(0, -1), ArrowLeft: () => view.pan(-1, 0), ArrowRight: () => view.pan(1, 0),
+    "+": () => view.zoom(1.25), "=": () => view.zoom(1.25), "-": () => view.zoom(0.8), q: () => view.turn(0.2), e: () => view.turn(-0.2),
+    t: toggleAbove, f: () => view.fit(), m: toggleMeasure, Escape: () => select(null),
+  };
+  const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  action();
+}
+
+function toggleAbove(): void {
+  above.value = !above.value;
+  scene().setAbove(above.value);
+}
+
+function toggleMeasure(): void {
+  measuring.value = !measuring.value;
+  if (!measuring.value) {
+    measured.value = null;
+    scene().overlay("measure", []);
+  }
+}
+
+function Tools() {
+  const [id, setId] = useState("");
+  const [unknown, setUnknown] = useState("");
+  const find = (event: Event): void => {
+    event.preventDefault();
+    setUnknown(id && !selectId(Number(id)) ? `${current.value ?? "No open map"} has no segment ${id}.` : "");
+  };
+  return (
+    <div class="tools">
+      <label>
+        Color by{" "}
+        <select
+          value={colorBy.value}
+          onChange={(event) => {
+            colorBy.value = event.currentTarget.value as ColorBy;
+            hiddenKinds.value = new Set();
+            recolor();
+          }}
+        >
+          {Object.entries(COLOR_NAMES).map(([value, name]) => <option key={value} value={value}>{name}</option>)}
+        </select>
+      </label>
+      <Button onClick={toggleAbove} pressed={above.value} title="Key: T">From above</Button>
+      <Button onClick={() => scene().fit()} title="Key: F">Show all</Button>
+      <Button onClick={toggleMeasure} pressed={measuring.value} title="Click two segments. Key: M">Measure</Button>
+      <Button onClick={() => { showPaths.value = !showPaths.value; recolor(); }} pressed={showPaths.value}>Paths</Button>
+      <form onSubmit={find}>
+        <label>
+          <span class="hidden">Segment id</span>
+          <input inputMode="numeric" pattern="[0-9]*" placeholder="Segment id" value={id} onInput={(event) => setId(event.currentTarget.value)} />
+        </label>
+        <button type="submit">Find</button>
+      </form>
+      {unknown && <span role="alert">{unknown}</span>}
+      {measuring.value && (
+        <span role="status">
+          {measured.value ? `${meters(measured.value.meters)} apart, ${meters(measured.value.vertical)} of it up` : "Choose two segments."}
+        </span>
+      )}
+    </div>
+  );
+}
+
+function Legend() {
+  if (!legend.value.length) return null;
+  const kinds = colorBy.value === "robot" || colorBy.value === "origin" || colorBy.value === "class";
+  const toggle = (label: string): void => {
+    const next = new Set(hiddenKinds.value);
+    if (!next.delete(label)) next.add(label);
+    hiddenKinds.value = next;
+    recolor();
+  };
+  return (
+    <ul class="legend" aria-label={`Colors: ${COLOR_NAMES[colorBy.value]}`}>
+      {legend.value.slice(0, 14).map(({ color, label }) => (
+        <li key={label}>
+          <Swatch color={color} />
+          {kinds ? (
+            <button type="button" class="plain" aria-pressed={!hiddenKinds.value.has(label)} title="Gray or colored" onClick={() => toggle(label)}>{label}</button>
+          ) : label}
+        </li>
+      ))}
+      {legend.value.length > 14 && <li>and {legend.value.length - 14} more</li>}
+    </ul>
+  );
+}
+
+export function Swatch(props: { color: string }) {
+  const element = useRef<HTMLSpanElement>(null);
+  useEffect(() => { element.current!.style.background = props.color; }, [props.color]);
+  return <span class="swatch" ref={element} aria-hidden="true" />;
+}
+
+function Compass() {
+  const element = useRef<HTMLDivElement>(null);
+  const anchor = current.value ? anchors.value.get(current.value) : undefined;
+  void picture.value;
+  useEffect(() => {
+    const view = scene();
+    if (!view) return;
+    // An anchor's yaw is the heading of the map's x axis, degrees from east to north.
+    const turn = view.north() + (anchor ? (anchor.yaw_deg * Math.PI) / 180 : 0);
+    element.current!.style.transform = `rotate(${turn}rad)`;
+  });
+  return (
+    <div class="compass" title={anchor ? "North" : "The map's y axis. A map with a WGS84 anchor shows north."}>
+      <div ref={element}><i aria-hidden="true">▲</i><b>{anchor ? "N" : "y"}</b></div>
+    </div>
+  );
+}
+
+function Scale(props: { pointer: [number, number] | null }) {
+  const bar = useRef<HTMLDivElement>(null);
+  const view = scene();
+  void picture.value;
+  const perPixel = view ? view.scale() : 1;
+  const power = 10 ** Math.floor(Math.log10(Math.max(perPixel * 110, 1e-6)));
+  const length = [5, 2, 1].map((step) => step * power).find((each) => each <= perPixel * 110) ?? power;
+  useEffect(() => { bar.current!.style.width = `${Math.round(length / perPixel)}px`; });
+  const layer = view && current.value ? view.layers.get(current.value) : undefined;
+  const place = view && props.pointer ? view.ground(...props.pointer) : null;
+  const inMap = place && layer ? place.applyMatrix4(layer.pose.invert()) : place;
+  const anchor = current.value ? anchors.value.get(current.value) : undefined;
+  const earth = inMap && anchor ? toWgs84(anchor, inMap.x, inMap.y) : null;
+  return (
+    <div class="scale">
+      <div ref={bar} class="bar" />
+      <span>{length >= 1000 ? `${length / 1000} km` : `${Number(length.toPrecision(1))} m`}</span>
+      {view && view.total > 0 && <span class="count">{view.drawn < view.total ? `${count(view.drawn)} of ` : ""}{count(view.total)} segments</span>}
+      {inMap && <span class="place">x {inMap.x.toFixed(1)}, y {inMap.y.toFixed(1)}</span>}
+      {earth && <span class="place">{earth.lat.toFixed(6)}, {earth.lon.toFixed(6)}</span>}
+    </div>
+  );
+}
+
+export const FIX_COLOR = FIX;
