@@ -22,13 +22,13 @@ export interface Coloring {
   legend: Legend[];
 }
 
-/** Return three bytes a segment, and the legend. */
+/** Return three bytes a segment, and the legend. `indexOf` numbers the kinds of all open maps. */
 export function colorSegments(
-  map: MapContent, by: ColorBy, mapIndex: number, matched: Map<number, number>, hidden: Set<string>,
+  map: MapContent, by: ColorBy, indexOf: (kind: string) => number, matched: Map<number, number>, hidden: Set<string>,
 ): Coloring {
   const count = map.ids.length;
-  const kinds = (names: string[], kindOf: (row: number) => number, first = 0): Coloring => {
-    const palette = names.map((name, index) => (hidden.has(name) ? GRAY : kindColor(first + index)));
+  const kinds = (names: string[], kindOf: (row: number) => number): Coloring => {
+    const palette = names.map((name) => (hidden.has(name) ? GRAY : kindColor(indexOf(name))));
     return {
       colors: fill(count, (row) => palette[kindOf(row)] ?? GRAY),
       legend: names.map((label, index) => ({ label, color: css(palette[index]!) })),
@@ -37,8 +37,8 @@ export function colorSegments(
   if (by === "robot") return kinds(map.robots, (row) => map.robot[row]!);
   if (by === "origin") {
     const { source } = map;
-    if (!source) return kinds([map.name], () => 0, mapIndex);
-    return kinds([map.name, ...map.sources], (row) => source[row]!, mapIndex);
+    if (!source) return kinds([map.name], () => 0);
+    return kinds([map.name, ...map.sources], (row) => source[row]!);
   }
   if (by === "class" && map.classes) {
     const { classes } = map;

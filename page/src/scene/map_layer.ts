@@ -4,18 +4,19 @@ import {
   ShaderMaterial, type PerspectiveCamera, type OrthographicCamera, Vector3,
 } from "three";
 import type { MapContent } from "../api/map_file";
-import { kindColor } from "./colors";
+import type { Color } from "./colors";
 
 const VERTEX = `
 attribute vec3 tint;
 varying vec3 vTint;
 uniform float size;
 uniform float perspective;
+uniform float least;
 void main() {
   vTint = tint;
   vec4 place = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * place;
-  gl_PointSize = clamp(perspective > 0.0 ? size * perspective / -place.z : size, 1.5, 12.0);
+  gl_PointSize = clamp(perspective > 0.0 ? size * perspective / -place.z : size, least, 12.0);
 }`;
 const FRAGMENT = `
 varying vec3 vTint;
@@ -29,6 +30,7 @@ export class MapLayer {
   readonly group = new Group();
   readonly points: Points<BufferGeometry, ShaderMaterial>;
   readonly paths: LineSegments;
+  private readonly pathRobots: number[];
   /** Middle of the map; GPU coordinates are relative to it, for they have 24 bits only. */
   readonly middle: Vector3;
   readonly low: Vector3;
@@ -65,10 +67,10 @@ export class MapLayer {
     geometry.setAttribute("tint", this.tints);
     this.points = new Points(geometry, new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT,
-      uniforms: { size: { value: 2 }, perspective: { value: 0 } },
+      uniforms: { size: { value: 2 }, perspective: { value: 0 }, least: { value: ids.length < 50_000 ? 2.5 : 1.5 } },
     }));
     this.points.frustumCulled = false;
-    this.paths = pathsOf(content, this.middle);
+    [this.paths, this.pathRobots] = pathsOf(content, this.middle);
     this.group.add(this.points, this.paths);
     this.group.matrixAutoUpdate = false;
     this.place(new Matrix4());
@@ -88,6 +90,13 @@ export class MapLayer {
   /** Position of a segment in the scene. */
   position(row: number): Vector3 {
     return new Vector3().fromArray(this.content.centroids, 3 * row).applyMatrix4(this.pose);
+  }
+
+  /** Color the paths by robot. */
+  colorPaths(colorOf: (robot: string) => Color): void {
+    const tints = this.paths.geometry.getAttribute("color");
+    this.pathRobots.forEach((robot, place) => tints.setXYZ(place, ...colorOf(this.content.robots[robot] ?? "")));
+    tints.needsUpdate = true;
   }
 
   setColors(colors: Uint8Array): void {
@@ -157,12 +166,12 @@ export function shuffled(count: number): Uint32Array {
   return order;
 }
 
-function pathsOf(map: MapContent, middle: Vector3): LineSegments {
+function pathsOf(map: MapContent, middle: Vector3): [LineSegments, number[]] {
   const robotOf = new Int32Array(map.frameTimes.length).fill(-1);
   for (let row = 0; row < map.ids.length; row += 1) robotOf[map.frameIndex[row]!] = map.robot[row]!;
   const last = new Map<number, number>();
   const places: number[] = [];
-  const tints: number[] = [];
+  const robots: number[] = [];
   robotOf.forEach((robot, frame) => {
     const before = last.get(robot);
     last.set(robot, frame);
@@ -175,13 +184,13 @@ function pathsOf(map: MapContent, middle: Vector3): LineSegments {
         map.framePositions[3 * end]! - middle.x, map.framePositions[3 * end + 1]! - middle.y,
         map.framePositions[3 * end + 2]! - middle.z,
       );
-      tints.push(...kindColor(robot));
+      robots.push(robot);
     }
   });
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
-  geometry.setAttribute("color", new BufferAttribute(new Float32Array(tints), 3));
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(places.length), 3));
   const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
   lines.frustumCulled = false;
-  return lines;
+  return [lines, robots];
 }

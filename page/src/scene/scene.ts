@@ -29,7 +29,6 @@ export class View {
   /** Points drawn in the last picture, and of all. */
   drawn = 0;
   total = 0;
-  lastFrameMs = 0;
   frames = 0;
   onFrame: () => void = () => undefined;
   private readonly scene = new ThreeScene();
@@ -41,6 +40,7 @@ export class View {
   private mode: "perspective" | "above" = "perspective";
   private budget = 300_000;
   private moving = 0;
+  private lastDraw = 0;
   private scheduled = false;
   private readonly marker: Mesh;
 
@@ -124,7 +124,7 @@ export class View {
     const box = new Box3();
     for (const [key, layer] of this.layers) {
       if (name !== undefined && key !== name) continue;
-      box.union(new Box3(layer.low, layer.high).applyMatrix4(layer.pose));
+      box.union(new Box3(layer.low.clone(), layer.high.clone()).applyMatrix4(layer.pose));
     }
     if (box.isEmpty()) return;
     const size = box.getSize(new Vector3());
@@ -301,14 +301,14 @@ export class View {
     }
     this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
-    // Drawing returns before the picture is there; reading a pixel waits for it.
-    const context = this.renderer.getContext();
-    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
-    this.lastFrameMs = performance.now() - started;
     this.frames += 1;
-    if (moving && this.drawn > 1000) {
-      const fitting = (this.drawn * FRAME_MS) / Math.max(this.lastFrameMs, 1);
-      this.budget = Math.max(20_000, 0.5 * this.budget + 0.5 * fitting);
+    // Drawing returns before the picture is there. The browser asks for the next picture only when
+    // it has shown the last one, so the time between two pictures of one movement tells the effort.
+    const between = started - this.lastDraw;
+    this.lastDraw = started;
+    if (moving && between < 1000 && this.drawn > 1000) {
+      const fitting = (this.drawn * FRAME_MS) / Math.max(between, 1);
+      this.budget = Math.max(20_000, 0.7 * this.budget + 0.3 * fitting);
     }
     this.onFrame();
     if (moving && share < 1) setTimeout(() => this.schedule(), 260);

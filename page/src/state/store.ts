@@ -4,10 +4,11 @@ import { api, ApiError, storeKey, storedKey } from "../api/client";
 import { follow, type ServiceEvent } from "../api/events";
 import { readMap, type MapContent } from "../api/map_file";
 import type { Anchor, KeyInfo, MapList, MapSummary, RobotState } from "../api/types";
-import { colorSegments, type ColorBy, type Legend } from "../scene/coloring";
+import { CLASSES, colorSegments, type ColorBy, type Legend } from "../scene/coloring";
 import { MapLayer } from "../scene/map_layer";
 import type { View } from "../scene/scene";
-import { Matrix4 } from "three";
+import { Matrix4, Vector3 } from "three";
+import { kindColor } from "../scene/colors";
 
 export type Tab = "maps" | "robots" | "locate" | "service";
 
@@ -230,13 +231,15 @@ export async function openMap(name: string, look = true): Promise<void> {
 
 /** Maps of one frame lie on each other. A map of another frame lies beside, until it is aligned. */
 function beside(layer: MapLayer): Matrix4 {
-  let right = -Infinity;
+  const corner = new Vector3(-Infinity, 0, 0);
   for (const other of scene().layers.values()) {
     if (other.content.name === layer.content.name) continue;
     if (other.content.frame === layer.content.frame) return other.pose;
-    right = Math.max(right, other.high.clone().applyMatrix4(other.pose).x);
+    const low = other.low.clone().applyMatrix4(other.pose);
+    const high = other.high.clone().applyMatrix4(other.pose);
+    corner.set(Math.max(corner.x, low.x + 30, high.x + 30), low.y, low.z);
   }
-  return right === -Infinity ? new Matrix4() : new Matrix4().makeTranslation(right + 30 - layer.low.x, 0, 0);
+  return corner.x === -Infinity ? new Matrix4() : new Matrix4().makeTranslation(corner.sub(layer.low));
 }
 
 export function closeMap(name: string): void {
@@ -249,13 +252,23 @@ export function closeMap(name: string): void {
 
 export function recolor(): void {
   const seen = new Map<string, Legend>();
-  [...open.value].forEach(([name, content], index) => {
+  const contents = [...open.value.values()];
+  const number = (names: string[]): ((name: string) => number) => {
+    const index = new Map([...new Set(names)].sort().map((name, place) => [name, place]));
+    return (name) => index.get(name) ?? 0;
+  };
+  const robotIndex = number(contents.flatMap((each) => each.robots));
+  const kinds: Partial<Record<ColorBy, (name: string) => number>> = {
+    robot: robotIndex, origin: number(contents.flatMap((each) => [each.name, ...each.sources])),
+  };
+  open.value.forEach((content, name) => {
     const { colors, legend: parts } = colorSegments(
-      content, colorBy.value, index, matched.value.get(name) ?? new Map(), new Set(hiddenKinds.value),
+      content, colorBy.value, kinds[colorBy.value] ?? ((kind) => CLASSES.indexOf(kind)), matched.value.get(name) ?? new Map(), new Set(hiddenKinds.value),
     );
     const layer = scene().layers.get(name);
     layer?.setColors(colors);
     if (layer) layer.paths.visible = showPaths.value;
+    layer?.colorPaths((robot) => kindColor(robotIndex(robot)));
     for (const part of parts) seen.set(part.label, part);
   });
   legend.value = [...seen.values()];
@@ -272,7 +285,6 @@ export function select(chosen: Selection | null): void {
   }
   const layer = scene().layers.get(chosen.map);
   if (!layer) return;
-  current.value = chosen.map;
   const place = layer.position(chosen.row);
   const { extents } = layer.content;
   const size = extents ? Math.max(0.5, ...[0, 1, 2].map((axis) => extents[3 * chosen.row + axis]! / 20)) : 1;

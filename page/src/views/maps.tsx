@@ -62,7 +62,7 @@ function Entry(props: { map: MapSummary }) {
     <li class={current.value === map.name ? "current" : ""}>
       <label class="check">
         <input
-          type="checkbox" checked={isOpen} disabled={loading.value.has(map.name)} aria-label={`Show map ${map.name}`}
+          type="checkbox" checked={isOpen || loading.value.has(map.name)} aria-label={`Show map ${map.name}`}
           onChange={() => (isOpen ? closeMap(map.name) : void openMap(map.name))}
         />
       </label>
