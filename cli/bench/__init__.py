@@ -12,6 +12,7 @@ from cli.bench.json_requests import json_requests
 from cli.bench.ladder import ladder
 from cli.bench.localize import localize
 from cli.bench.maps import maps
+from cli.bench.page import page
 from cli.bench.peers import peers
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
@@ -45,3 +46,4 @@ bench.command()(fleet)
 bench.command()(attack)
 bench.command("json")(json_requests)
 bench.command()(read)
+bench.command()(page)

@@ -1,0 +1,82 @@
+"""A real browser, a real service with the maps of two robots, and a page that must not complain."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from urllib.parse import urlsplit
+
+import pytest
+
+from benchmarks.page.browser import BrowserError, chromium, program
+from benchmarks.page.two_robots import TwoRobots
+from placecell.segmentation.pipeline import silent
+from service.child_process import running_service
+
+sync_api = pytest.importorskip(
+    "playwright.sync_api", reason="needs Playwright: pip install 'placecell[page]'"
+)
+
+SEED = 7
+SCANS = 70
+
+
+@dataclass
+class Watch:
+    """Keeps what a page must not do: errors in the console, and requests to other hosts."""
+
+    host: str
+    errors: list[str] = field(default_factory=list)
+    foreign: list[str] = field(default_factory=list)
+
+    def follow(self, page: "sync_api.Page") -> None:
+        """Listen to a page."""
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", self._said)
+        page.on("request", self._asked)
+
+    def _said(self, message: "sync_api.ConsoleMessage") -> None:
+        # The browser writes a line of its own for each answer that is not a success.
+        if message.type == "error" and "Failed to load resource" not in message.text:
+            self.errors.append(message.text)
+
+    def _asked(self, request: "sync_api.Request") -> None:
+        parts = urlsplit(request.url)
+        if parts.scheme not in {"data", "blob"} and parts.netloc != self.host:
+            self.foreign.append(request.url)
+
+
+@pytest.fixture(scope="session")
+def two_robots(tmp_path_factory: pytest.TempPathFactory) -> TwoRobots:
+    """Two robots in a town, in opposite directions."""
+    return TwoRobots.in_town(tmp_path_factory.mktemp("town"), SEED, SCANS, silent)
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory, two_robots: TwoRobots) -> Iterator[str]:
+    """The address of a service that holds both maps."""
+    with running_service(tmp_path_factory.mktemp("service")) as running:
+        two_robots.store(running)
+        yield running
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator["sync_api.Browser"]:
+    """Chromium of the system."""
+    try:
+        program()
+    except BrowserError as error:
+        pytest.skip(str(error))
+    with chromium() as running:
+        yield running
+
+
+@pytest.fixture
+def page(browser: "sync_api.Browser", address: str) -> Iterator["sync_api.Page"]:
+    """An empty page; it must end without an error and without a request to another host."""
+    with browser.new_context(viewport={"width": 1280, "height": 800}) as context:
+        made = context.new_page()
+        made.set_default_timeout(20_000)
+        watch = Watch(urlsplit(address).netloc)
+        watch.follow(made)
+        yield made
+        assert not watch.errors
+        assert not watch.foreign

@@ -1,0 +1,251 @@
+"""What an operator does on the page, in a real browser."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from placecell_client import Client, CompactMap
+
+from benchmarks.page.two_robots import TwoRobots
+from benchmarks.synthetic_maps.road_map import road_map
+from placecell.descriptors.manifest import Manifest
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [pytest.mark.slow, pytest.mark.integration]
+
+COLORED = """() => {
+  const canvas = document.querySelector(".stage canvas");
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  const context = copy.getContext("2d");
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, copy.width, copy.height);
+  let count = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    count += Math.max(data[at], data[at + 1], data[at + 2]) > 100;
+  }
+  return count;
+}"""
+"""Counts the pixels of the picture that are brighter than its background."""
+
+
+def show(page: "Page", address: str, *maps: str) -> None:
+    """Open the page and some maps."""
+    page.goto(address)
+    for name in maps:
+        page.get_by_role("checkbox", name=f"Show map {name}").check()
+        page.get_by_role("heading", name=name, exact=True).wait_for()
+
+
+def random_map(count: int) -> CompactMap:
+    manifest = Manifest.load(MODELS_FOLDER / DEFAULT_MODEL)
+    codes = np.random.default_rng(1).integers(-128, 128, (count, manifest.code_bytes), np.int8)
+    return road_map(codes, manifest, "bench")
+
+
+def test_maps_are_listed_with_their_robots_and_sizes(page: "Page", address: str) -> None:
+    page.goto(address)
+    entry = page.get_by_role("listitem").filter(has_text="yard")
+    entry.get_by_text("robot A").wait_for()
+    page.get_by_placeholder("Search maps and robots").fill("robot b")
+    entry.wait_for(state="detached")
+    page.get_by_role("button", name="hall").wait_for()
+
+
+def test_small_map_is_drawn_and_counted(page: "Page", address: str) -> None:
+    with Client(address) as client:
+        client.put_map("small", random_map(100))
+    show(page, address, "small")
+    page.get_by_text("100 segments", exact=True).wait_for()
+    page.wait_for_function(f"({COLORED})() > 100")
+    with Client(address) as client:
+        client.delete_map("small")
+
+
+def test_segment_is_picked_and_its_facts_are_right(
+    page: "Page", address: str, two_robots: TwoRobots
+) -> None:
+    show(page, address, "yard")
+    wanted = int(two_robots.yard.ids[17])
+    page.get_by_placeholder("Segment id").fill(str(wanted))
+    page.get_by_role("button", name="Find", exact=True).click()
+    card = page.get_by_role("complementary", name="Selected segment")
+    card.get_by_role("heading", name=f"Segment {wanted}", exact=True).wait_for()
+    x, y, z = two_robots.yard.centroids[17]
+    card.get_by_text(f"{x:.2f}, {y:.2f}, {z:.2f} m").wait_for()
+    card.get_by_role("button", name="Find alike segments").click()
+    card.get_by_role("listitem").first.wait_for()
+    page.keyboard.press("Escape")
+    page.get_by_placeholder("Segment id").fill("999999")
+    page.keyboard.press("Enter")
+    page.get_by_role("alert").filter(has_text="no segment 999999").wait_for()
+
+
+def test_click_on_a_point_selects_it(page: "Page", address: str) -> None:
+    show(page, address, "yard")
+    page.get_by_role("button", name="From above").click()
+    page.wait_for_function(f"({COLORED})() > 100")
+    canvas = page.get_by_role("img")
+    found = canvas.evaluate("""canvas => {
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      const context = copy.getContext("2d");
+      context.drawImage(canvas, 0, 0);
+      const { data } = context.getImageData(0, 0, copy.width, copy.height);
+      const [low, high] = [0.3 * copy.height, 0.6 * copy.height];
+      for (let y = Math.floor(low); y < high; y += 1) {
+        for (let x = Math.floor(copy.width / 4); x < 0.7 * copy.width; x += 1) {
+          const at = 4 * (y * copy.width + x);
+          if (data[at + 2] > 200 && data[at] < 120) {
+            return [x * canvas.clientWidth / copy.width, y * canvas.clientHeight / copy.height];
+          }
+        }
+      }
+      return null;
+    }""")
+    assert found is not None
+    canvas.click(position={"x": found[0], "y": found[1]})
+    page.get_by_role("heading", name="Segment ").wait_for()
+
+
+def test_keyboard_moves_the_view(page: "Page", address: str) -> None:
+    show(page, address, "yard")
+    canvas = page.get_by_role("img")
+    canvas.focus()
+    scale = page.locator(".scale")
+    before = scale.inner_text()
+    for _ in range(6):
+        page.keyboard.press("+")
+    page.wait_for_function(
+        "before => document.querySelector('.scale').innerText !== before", arg=before
+    )
+    page.keyboard.press("t")
+    assert page.get_by_role("button", name="From above").get_attribute("aria-pressed") == "true"
+
+
+def test_two_maps_are_aligned_merged_and_the_merge_is_undone(page: "Page", address: str) -> None:
+    show(page, address, "hall", "yard")
+    page.get_by_role("button", name="Align and merge").click()
+    page.get_by_role("button", name="Align", exact=True).click()
+    page.get_by_text("hall fits").wait_for()
+    page.get_by_role("button", name="Best").wait_for()
+    page.get_by_label("Merge into map").fill("site")
+    page.get_by_role("button", name="Try the merge").click()
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_text("You can undo the merge").wait_for()
+    dialog.get_by_role("button", name="Merge").click()
+    page.get_by_role("checkbox", name="Show map site").wait_for()
+    with Client(address) as client:
+        assert {each.name for each in client.maps().maps} == {"hall", "site", "yard"}
+    page.get_by_role("button", name="Undo the merge").click()
+    page.get_by_role("checkbox", name="Show map site").wait_for(state="detached")
+
+
+def test_version_is_restored_after_a_confirmation_that_says_what_it_undoes(
+    page: "Page", address: str, two_robots: TwoRobots
+) -> None:
+    with Client(address) as client:
+        client.put_map("trail", two_robots.yard)
+        client.age("trail", float(two_robots.yard.frame_times[20]))
+        pruned = client.map("trail").segments
+    show(page, address, "trail")
+    page.get_by_role("button", name="Versions").click()
+    page.get_by_text("Version 1", exact=True).wait_for()
+    page.get_by_role("button", name="Restore").click()
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_text("version 2, pruned by anyone").wait_for()
+    dialog.get_by_role("button", name="Restore").click()
+    page.get_by_text("Version 3", exact=True).wait_for()
+    with Client(address) as client:
+        assert client.map("trail").segments == len(two_robots.yard) > pruned
+        client.delete_map("trail")
+
+
+def test_dropped_scan_is_located_in_the_map(
+    page: "Page", address: str, two_robots: TwoRobots, tmp_path: Path
+) -> None:
+    page.goto(address)
+    page.get_by_role("button", name="Locate a scan").click()
+    page.get_by_label("Choose a scan").set_input_files(two_robots.scan_file(tmp_path))
+    page.get_by_text("segments.").wait_for()
+    page.locator(".answer").first.wait_for()
+    answer = page.locator(".answer").filter(has_text="yard").first.inner_text()
+    if "Not localized" in answer:
+        assert "meters" in answer or "Drive" in answer
+    else:
+        x, y, _ = two_robots.position
+        assert f"x {x:.0f}"[:4] in answer
+        assert f"y {y:.0f}"[:4] in answer
+
+
+def test_garbage_gives_a_clear_error(page: "Page", address: str, tmp_path: Path) -> None:
+    file = tmp_path / "holiday.pcd"
+    file.write_bytes(bytes(range(256)) * 10)
+    page.goto(address)
+    page.get_by_role("button", name="Locate a scan").click()
+    page.get_by_label("Choose a scan").set_input_files(file)
+    page.get_by_role("alert").filter(has_text="holiday.pcd").wait_for()
+
+
+def test_map_file_is_stored_under_a_chosen_name(
+    page: "Page", address: str, two_robots: TwoRobots, tmp_path: Path
+) -> None:
+    from placecell_client import encode
+
+    file = tmp_path / "new yard.map"
+    file.write_bytes(encode(two_robots.yard))
+    page.goto(address)
+    page.get_by_label("Add a file").set_input_files(file)
+    dialog = page.get_by_role("dialog", name="Store this map")
+    assert dialog.get_by_label("Name").input_value() == "new-yard"
+    dialog.get_by_label("Name").fill("hall")
+    dialog.get_by_role("button", name="Store").click()
+    dialog.get_by_role("alert").filter(has_text="Choose another name").wait_for()
+    dialog.get_by_label("Name").fill("new-yard")
+    dialog.get_by_role("button", name="Store").click()
+    page.get_by_role("heading", name="new-yard", exact=True).wait_for()
+    with Client(address) as client:
+        client.delete_map("new-yard")
+
+
+def test_names_that_hold_scripts_are_shown_as_text(page: "Page", address: str) -> None:
+    evil = "<img src=x onerror=alert(1)>"
+    small = random_map(100)
+    with Client(address) as client:
+        client.put_map("evil", CompactMap(**{**vars_of(small), "robots": (evil,), "frame": evil}))
+    page.on("dialog", lambda dialog: pytest.fail(f"a script ran: {dialog.message}"))
+    show(page, address, "evil")
+    assert page.get_by_text(evil).count() >= 2
+    assert page.locator("img").count() == 0
+    with Client(address) as client:
+        client.delete_map("evil")
+
+
+def vars_of(content: CompactMap) -> dict[str, object]:
+    return {name: getattr(content, name) for name in content.__dataclass_fields__}
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+def test_nothing_is_cut_or_overlaps(page: "Page", address: str, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 800})
+    show(page, address, "yard")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    page.wait_for_function(f"({COLORED})() > 100")
+    boxes = [page.locator(each).bounding_box() for each in (".tools", ".compass", ".scale")]
+    for index, one in enumerate(boxes):
+        assert one is not None
+        assert one["x"] >= 0
+        assert one["x"] + one["width"] <= width
+        for other in boxes[:index]:
+            assert other is not None
+            apart = (
+                one["x"] + one["width"] <= other["x"]
+                or other["x"] + other["width"] <= one["x"]
+                or one["y"] + one["height"] <= other["y"]
+                or other["y"] + other["height"] <= one["y"]
+            )
+            assert apart, (one, other)
