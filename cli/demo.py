@@ -1,6 +1,7 @@
 """`placecell demo`: two robots share a map through a real service."""
 
 import json
+import shutil
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -37,10 +38,9 @@ def demo(
     maps of both robots. The command ends with status 0 only if all results are right. On a drive
     shorter than 24 m only the matches must be right; the command reports the other results.
     """
-    from demo.meeting import in_own_frame
     from demo.run import is_short, run_demo
     from evaluation.poses.queries import random_frame
-    from evaluation.poses.robots import robots_of_drive, robots_of_town
+    from evaluation.poses.robots import in_own_frame, robots_of_drive, robots_of_town
     from placecell.descriptors.manifest import Manifest
     from placecell.descriptors.shipped_models import BASELINE, DEFAULT_MODEL, MODELS_FOLDER
 
@@ -65,13 +65,20 @@ def demo(
                 typer.echo(f"The model {DEFAULT_MODEL} was trained on scans of this drive.")
         # Only the segments show how robot B's frame lies relative to robot A's.
         asker = in_own_frame(asker, random_frame(seed))
-        outcome = run_demo(mapper, asker, Path(scratch) / "service", DEFAULT_MODEL, output)
+        data = output / "service"
+        shutil.rmtree(data, ignore_errors=True)  # of an earlier demo
+        outcome = run_demo(mapper, asker, data, DEFAULT_MODEL, output)
         baseline = run_demo(mapper, asker, Path(scratch) / "baseline", BASELINE)
     figures = outcome.figures | {BASELINE: baseline.figures}
     (output / "figures.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
     write_json(figures, json_file)
     print_outcome(outcome.figures, baseline.figures)
-    typer.echo(f"The pictures are {output / 'matches.png'} and {output / 'site.png'}.")
+    names = [name for name in ("matches.png", "site.png", "page.png") if (output / name).exists()]
+    typer.echo(f"The pictures are in {output}: {', '.join(names)}.")
+    typer.echo(
+        f"To see the maps, run 'placecell serve --data-dir {data}' and open "
+        "http://127.0.0.1:8000/#map=site in a browser."
+    )
     if not outcome.score.findable:
         fail("No segment of robot B lies in robot A's map, so nothing can be recognized.")
     if not outcome.score.recognized:

@@ -2,8 +2,7 @@
 
 import time
 from collections.abc import Sequence
-from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,6 @@ from evaluation.poses.robot import Robot, clouds
 from placecell.core.segments import Segments
 from placecell.core.types import Float64
 from placecell.localization import Pose
-from placecell.segmentation.recording import Recording
 
 SITE = "site"
 """Name of the merged map."""
@@ -146,34 +144,6 @@ def _localize(
     pose = Pose.of_matrix(answer.best.pose.matrix)
     meters, angle = pose.difference(truth, sensor)
     return PoseAnswer(here, pose.apply(sensor), meters, float(np.degrees(angle)), milliseconds)
-
-
-def in_own_frame(robot: Robot, frame: Pose) -> Robot:
-    """Return the robot with its drive and segments moved into another frame.
-
-    The service then knows nothing about the transform between the frames of the robots.
-
-    Args:
-        robot: the robot.
-        frame: transform from the robot's frame into the other frame.
-    """
-    drive = copy(robot.drive)
-    drive.poses = frame.matrix @ robot.drive.poses
-    return replace(
-        robot,
-        drive=drive,
-        recordings=[_moved(recording, frame) for recording in robot.recordings],
-        to_common=robot.to_common @ frame.inverse().matrix,
-    )
-
-
-def _moved(recording: Recording, frame: Pose) -> Recording:
-    segments = recording.segments
-    points, sensors = (
-        frame.apply(each.astype(np.float64)).astype(np.float32)
-        for each in (segments.points, segments.sensors)
-    )
-    return replace(recording, segments=Segments(points, segments.ends, sensors))
 
 
 def _median(values: Sequence[float]) -> float | None:

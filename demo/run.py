@@ -8,6 +8,7 @@ import numpy as np
 from placecell_client import Client, encode
 
 from demo.meeting import Meeting, localize_and_merge
+from demo.page_picture import draw_page
 from demo.score import Score, score
 from evaluation.poses.robot import DrivePath, Robot, ask
 from service.child_process import running_service
@@ -66,6 +67,8 @@ def run_demo(
         meeting = (
             None if pictures is None else localize_and_merge(mapper, asker, client, MAP, asked)
         )
+        if pictures is not None:
+            draw_page(pictures / "page.png", address)
     result = score(answers, compact.centroids, mapper.to_common)
     p50, p99 = np.percentile(milliseconds, [50, 99])
     figures = {

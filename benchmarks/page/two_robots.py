@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 from placecell_client import Client, CompactMap
 
-from demo.meeting import in_own_frame
 from evaluation.poses.queries import random_frame
-from evaluation.poses.robots import robots_of_town
+from evaluation.poses.robots import in_own_frame, robots_of_town
 from placecell.core.types import Float32, Float64
 from placecell.datasets import open_drive
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER

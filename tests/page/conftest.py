@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import pytest
@@ -11,9 +12,8 @@ from benchmarks.page.two_robots import TwoRobots
 from placecell.segmentation.pipeline import silent
 from service.child_process import running_service
 
-sync_api = pytest.importorskip(
-    "playwright.sync_api", reason="needs Playwright: pip install 'placecell[page]'"
-)
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, ConsoleMessage, Page, Request
 
 SEED = 7
 SCANS = 70
@@ -27,18 +27,18 @@ class Watch:
     errors: list[str] = field(default_factory=list)
     foreign: list[str] = field(default_factory=list)
 
-    def follow(self, page: "sync_api.Page") -> None:
+    def follow(self, page: "Page") -> None:
         """Listen to a page."""
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", self._said)
         page.on("request", self._asked)
 
-    def _said(self, message: "sync_api.ConsoleMessage") -> None:
+    def _said(self, message: "ConsoleMessage") -> None:
         # The browser writes a line of its own for each answer that is not a success.
         if message.type == "error" and "Failed to load resource" not in message.text:
             self.errors.append(message.text)
 
-    def _asked(self, request: "sync_api.Request") -> None:
+    def _asked(self, request: "Request") -> None:
         parts = urlsplit(request.url)
         if parts.scheme not in {"data", "blob"} and parts.netloc != self.host:
             self.foreign.append(request.url)
@@ -59,7 +59,7 @@ def address(tmp_path_factory: pytest.TempPathFactory, two_robots: TwoRobots) -> 
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator["sync_api.Browser"]:
+def browser() -> Iterator["Browser"]:
     """Chromium of the system."""
     try:
         program()
@@ -70,7 +70,7 @@ def browser() -> Iterator["sync_api.Browser"]:
 
 
 @pytest.fixture
-def page(browser: "sync_api.Browser", address: str) -> Iterator["sync_api.Page"]:
+def page(browser: "Browser", address: str) -> Iterator["Page"]:
     """An empty page; it must end without an error and without a request to another host."""
     with browser.new_context(viewport={"width": 1280, "height": 800}) as context:
         made = context.new_page()

@@ -1,0 +1,40 @@
+"""Picture of the operator's page, taken with the browser of the system where there is one."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+from demo.meeting import SITE
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+SECONDS = 60
+
+
+def draw_page(file: Path, address: str) -> bool:
+    """Take a picture of the page with the merged map; return whether there is one.
+
+    Args:
+        file: PNG file to write.
+        address: address of the service.
+    """
+    file.unlink(missing_ok=True)
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None:
+        return False
+    command = [
+        browser,
+        "--headless",
+        "--no-sandbox",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--hide-scrollbars",
+        "--window-size=1280,800",
+        "--timeout=8000",
+        f"--screenshot={file.resolve()}",
+        f"{address}/#map={SITE}",
+    ]
+    try:
+        subprocess.run(command, capture_output=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        return False
+    return file.exists()
