@@ -155,7 +155,7 @@ def test_version_is_restored_after_a_confirmation_that_says_what_it_undoes(
 ) -> None:
     with Client(address) as client:
         client.put_map("trail", two_robots.yard)
-        client.age("trail", float(two_robots.yard.frame_times[20]))
+        client.prune_map("trail", float(two_robots.yard.frame_times[20]))
         pruned = segments_of(client, "trail")
     show(page, address, "trail")
     page.get_by_role("button", name="Versions").click()

@@ -169,9 +169,12 @@ export interface RobotState {
   position: Vector | null;
   orientation: [number, number, number, number] | null;
   covariance: number[][] | null;
+  probability: number | null;
   state: string;
-  reason: string | null;
+  reason: string;
   age: number;
+  /** Seconds since the report of the pose; later reports may have none. */
+  pose_age: number | null;
 }
 
 export interface Anchor {

@@ -5,7 +5,7 @@ import type { RobotState } from "../api/types";
 import { css, GRAY, kindColor } from "../scene/colors";
 import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
 import { connected, current, events, open, openMap, robots, scene, tab, trails } from "../state/store";
-import { ago, Button, meters } from "./parts";
+import { ago, Button, meters, percent } from "./parts";
 import { Swatch } from "./stage";
 
 const colorOf = (name: string) => kindColor([...robots.value].map((each) => each.robot).sort().indexOf(name));
@@ -57,6 +57,7 @@ function describe(data: Record<string, unknown>): string {
 function Entry(props: { robot: RobotState }) {
   const { robot } = props;
   const spread = robot.covariance ? Math.sqrt(Math.max(robot.covariance[0]?.[0] ?? 0, robot.covariance[1]?.[1] ?? 0)) : null;
+  const old = robot.pose_age === null || robot.pose_age > robot.age + 2;
   const show = async (): Promise<void> => {
     if (!robot.map || !robot.position) return;
     if (!open.value.has(robot.map)) await openMap(robot.map, false);
@@ -71,8 +72,9 @@ function Entry(props: { robot: RobotState }) {
       <div>
         <b>{robot.robot}</b> <em>{robot.state}</em>
         <span class="facts">
-          {robot.map && robot.position ? `in ${robot.map} at x ${robot.position[0].toFixed(1)}, y ${robot.position[1].toFixed(1)}` : "not localized"}
-          {spread !== null && `, within ${meters(2 * spread)}`}, {ago(robot.age)}
+          {robot.map && robot.position ? `${old ? "last seen in" : "in"} ${robot.map} at x ${robot.position[0].toFixed(1)}, y ${robot.position[1].toFixed(1)}` : "no pose yet"}
+          {spread !== null && !old && `, within ${meters(2 * spread)}`}
+          {robot.probability !== null && !old && `, ${percent(robot.probability)} sure`}, {ago(robot.pose_age ?? robot.age)}
         </span>
         {robot.reason && <span class="facts warning">{robot.reason}</span>}
       </div>
