@@ -14,7 +14,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-lo
 # Tests and the services that they start load compiled modules instead of compiling them again.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo serve test test-fast lint format docs reference install lock peers clean help
+.PHONY: demo serve test test-fast lint format docs reference page install lock peers clean help
 
 help:  ## Show this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -49,6 +49,12 @@ docs: .venv-docs/stamp  ## Build the documentation into site/; every warning is 
 
 reference: install  ## Write the generated parts of docs/reference
 	$(BIN)/python -m cli.reference
+
+page: page/node_modules/.package-lock.json  ## Build the operator's page into service/page; needs Node
+	cd page && npm run --silent check && npm run --silent build
+
+page/node_modules/.package-lock.json: page/package.json page/package-lock.json
+	cd page && npm ci --silent
 
 install: .venv/development.stamp  ## Install all that the tests need, torch included
 
