@@ -1,5 +1,8 @@
 """What an operator does on the page, in a real browser."""
 
+import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,9 +15,10 @@ from benchmarks.page.two_robots import TwoRobots
 from benchmarks.synthetic_maps.road_map import road_map
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from service.child_process import running_service
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Page
 
 pytestmark = [pytest.mark.slow, pytest.mark.integration]
 
@@ -179,12 +183,24 @@ def test_dropped_scan_is_located_in_the_map(
     page.get_by_text("segments.").wait_for()
     page.locator(".answer").first.wait_for()
     answer = page.locator(".answer").filter(has_text="yard").first.inner_text()
-    if "Not localized" in answer:
-        assert "meters" in answer or "Drive" in answer
-    else:
-        x, y, _ = two_robots.position
-        assert f"x {x:.0f}"[:4] in answer
-        assert f"y {y:.0f}"[:4] in answer
+    found = re.search(r"x (-?[\d.]+) m, y (-?[\d.]+) m", answer)
+    assert found, answer
+    np.testing.assert_allclose(
+        [float(found[1]), float(found[2])], two_robots.position[:2], atol=0.3
+    )
+
+
+def test_pose_of_a_robot_moves_as_it_reports(page: "Page", address: str) -> None:
+    show(page, address, "yard")
+    page.get_by_role("button", name="Robots").click()
+    with Client(address) as client:
+        client.report_pose("carol", map="yard", position=(1.0, 2.0, 0.0))
+        page.get_by_text("in yard at x 1.0, y 2.0").wait_for()
+        client.report_pose("carol", map="yard", position=(9.0, 2.0, 0.0))
+        page.get_by_text("in yard at x 9.0, y 2.0").wait_for()
+        client.report_pose("carol", state="lost", reason="too few segments")
+        page.get_by_text("last seen in yard at x 9.0, y 2.0").wait_for()
+        page.get_by_text("too few segments").wait_for()
 
 
 def test_garbage_gives_a_clear_error(page: "Page", address: str, tmp_path: Path) -> None:
@@ -250,3 +266,55 @@ def test_nothing_is_cut_or_overlaps(page: "Page", address: str, width: int) -> N
                 or other["y"] + other["height"] <= one["y"]
             )
             assert apart, (one, other)
+
+
+def test_key_is_asked_for_once_and_decides_what_can_be_done(
+    browser: "Browser", tmp_path: Path, two_robots: TwoRobots
+) -> None:
+    file = tmp_path / "keys.toml"
+    keys = {}
+    for name, options in {"writer": ["--write"], "reader": []}.items():
+        command = [sys.executable, "-m", "cli", "keys", name, "--file", str(file), *options]
+        shown = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        found = re.search(r"placecell_\S+", shown)
+        assert found
+        keys[name] = found[0]
+    with (
+        running_service(tmp_path / "service", "--keys-file", str(file)) as address,
+        Client(address, key=keys["writer"]) as client,
+        browser.new_context() as context,
+    ):
+        client.put_map("yard", two_robots.yard)
+        page = context.new_page()
+        page.goto(address)
+        page.get_by_label("Key", exact=True).fill("placecell_wrong")
+        page.get_by_role("button", name="Sign in").click()
+        page.get_by_role("alert").filter(has_text="does not know this key").wait_for()
+        page.get_by_label("Key", exact=True).fill(keys["reader"])
+        page.get_by_role("button", name="Sign in").click()
+        page.get_by_role("heading", name="yard", exact=True).wait_for()
+        page.get_by_role("button", name="Versions").click()
+        page.get_by_text("Version 1", exact=True).wait_for()
+        for name in ("Add a file", "Prune", "Restore", "Merge"):
+            assert page.get_by_role("button", name=name, exact=True).count() == 0
+        page.reload()
+        page.get_by_role("heading", name="yard", exact=True).wait_for()
+        page.get_by_role("button", name="Sign out").click()
+        page.get_by_label("Key", exact=True).wait_for()
+
+
+def test_service_that_restarts_is_found_again(
+    browser: "Browser", tmp_path: Path, two_robots: TwoRobots
+) -> None:
+    with running_service(tmp_path) as address:
+        two_robots.store(address)
+        page = browser.new_page()
+        page.goto(address)
+        page.get_by_text("connected", exact=True).wait_for()
+    page.get_by_text("not connected", exact=True).wait_for()
+    port = address.rsplit(":", 1)[1]
+    with running_service(tmp_path, "--port", port):
+        page.get_by_text("connected", exact=True).wait_for()
+        page.get_by_role("checkbox", name="Show map yard").check()
+        page.get_by_role("heading", name="yard", exact=True).wait_for()
+    page.close()

@@ -33,6 +33,7 @@ export interface MapList {
 export interface KeyInfo {
   name: string;
   role: "read" | "write" | "admin";
+  may_write: boolean;
   maps: string[];
   robot: string | null;
   open: boolean;

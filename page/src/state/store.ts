@@ -91,11 +91,11 @@ export async function attempt<Result>(work: () => Promise<Result>): Promise<Resu
 /** Whether the key may write a map. A key of one robot may not change whole maps. */
 export function mayWrite(map: string): boolean {
   const mine = key.value;
-  if (!mine || mine.role === "read" || mine.robot !== null) return false;
+  if (!mine?.may_write || mine.robot !== null) return false;
   return mine.maps.some((pattern) => matches(pattern, map));
 }
 
-export const mayWriteAny = computed(() => key.value !== null && key.value.role !== "read" && key.value.robot === null);
+export const mayWriteAny = computed(() => key.value !== null && key.value.may_write && key.value.robot === null);
 
 export function matches(pattern: string, name: string): boolean {
   const expression = pattern.replace(/[.+^${}()|\\]/g, "\\$&").replace(/\*/g, ".*").replace(/\?/g, ".").replace(/\[!/g, "[^");

@@ -9,7 +9,7 @@ import {
   attempt, closeMap, current, currentSummary, list, loading, mayWrite, mayWriteAny, open, openMap, refresh, say, scene, tab,
 } from "../state/store";
 import { locate } from "./locate";
-import { Merge } from "./merge";
+import { Merge, UndoMerge } from "./merge";
 import { ago, Button, bytes, count, Dialog, FileButton } from "./parts";
 import { Versions } from "./versions";
 
@@ -41,6 +41,7 @@ export function Maps() {
         {mayWriteAny.value && <FileButton label="Add a file" onFile={(file) => void takeFile(file)} />}
       </div>
       {list.value && !maps.length && <p>There are no maps yet. Robots upload them, or drop a map file here.</p>}
+      <UndoMerge />
       <ul class="maps">
         {shown.slice(0, 200).map((each) => <Entry key={each.name} map={each} />)}
         {(list.value?.damaged ?? []).map((name) => (

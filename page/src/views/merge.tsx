@@ -1,11 +1,15 @@
 // Align another map with this one, look at the proposal, then merge both; a merge can be undone.
+import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
-import { api, ApiError } from "../api/client";
+import { api } from "../api/client";
 import type { Alignment, MapSummary, Merged, Pose } from "../api/types";
 import { FIX, GRAY } from "../scene/colors";
 import { matrixOf, type Line } from "../scene/scene";
 import { attempt, list, mayWrite, mayWriteAny, open, openMap, refresh, say, scene } from "../state/store";
 import { Button, count, degrees, Dialog, meters, percent } from "./parts";
+
+/** The last merge that was written, until it is undone. */
+const lastMerge = signal<Merged | null>(null);
 
 interface Proposal {
   label: string;
@@ -22,7 +26,6 @@ export function Merge(props: { map: MapSummary }) {
   const [chosen, setChosen] = useState(0);
   const [target, setTarget] = useState(map.name);
   const [plan, setPlan] = useState<Merged | null>(null);
-  const [done, setDone] = useState<Merged | null>(null);
   useEffect(() => () => scene().overlay("pairs", []), []);
 
   const align = async (): Promise<void> => {
@@ -55,21 +58,10 @@ export function Merge(props: { map: MapSummary }) {
       return;
     }
     setPlan(null);
-    setDone(answer);
+    lastMerge.value = answer;
     say("done", `${other} is merged into ${target}`, `${count(answer.changed)} segments added.`);
     await refresh();
     await openMap(target);
-  };
-  const undo = async (): Promise<void> => {
-    const merged = done!;
-    setDone(null);
-    const gone = await attempt(async () => {
-      if (merged.previous === null) await api.deleteMap(merged.map, merged.etag!);
-      else await api.restore(merged.map, merged.previous, merged.etag!);
-      return true;
-    });
-    if (gone) say("done", `The merge into ${merged.map} is undone`);
-    await refresh();
   };
   if (!others.length) return <p>There is no other map to align with.</p>;
   const proposals = found ? proposalsOf(found) : [];
@@ -124,13 +116,29 @@ export function Merge(props: { map: MapSummary }) {
           </div>
         </Dialog>
       )}
-      {done && (
-        <div class="row" role="status">
-          <span class="grow">{done.map} has {count(done.segments)} segments now.</span>
-          <Button kind="danger" onClick={() => void undo()}>Undo the merge</Button>
-        </div>
-      )}
     </>
+  );
+}
+
+/** Offers to undo the last merge, whichever map is shown. */
+export function UndoMerge() {
+  const merged = lastMerge.value;
+  if (!merged) return null;
+  const undo = async (): Promise<void> => {
+    lastMerge.value = null;
+    const gone = await attempt(async () => {
+      if (merged.previous === null) await api.deleteMap(merged.map, merged.etag!);
+      else await api.restore(merged.map, merged.previous, merged.etag!);
+      return true;
+    });
+    if (gone) say("done", `The merge into ${merged.map} is undone`);
+    await refresh();
+  };
+  return (
+    <div class="row answer good" role="status">
+      <span class="grow">{merged.map} has {count(merged.segments)} segments after the merge.</span>
+      <Button kind="danger" onClick={() => void undo()}>Undo the merge</Button>
+    </div>
   );
 }
 
@@ -162,5 +170,3 @@ function draw(found: Alignment, pose: Pose): void {
   scene().overlay("pairs", lines);
   scene().fit();
 }
-
-export const isConflict = (error: unknown): boolean => error instanceof ApiError && error.status === 412;

@@ -1,6 +1,5 @@
 // The picture with what lies on it: tools, legend, compass, scale, position, selected segment.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { FIX } from "../scene/colors";
 import { COLOR_NAMES, type ColorBy } from "../scene/coloring";
 import { View } from "../scene/scene";
 import {
@@ -191,5 +190,3 @@ function Scale(props: { pointer: [number, number] | null }) {
     </div>
   );
 }
-
-export const FIX_COLOR = FIX;
