@@ -79,6 +79,7 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
 
     def locate(page: "Page") -> None:
         page.get_by_role("button", name="Locate a scan").click()
+        page.get_by_label("Search in").select_option("yard")
         page.get_by_label("Choose a scan").set_input_files(scan)
         page.locator(".answer").first.wait_for()
 

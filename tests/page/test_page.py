@@ -179,6 +179,7 @@ def test_dropped_scan_is_located_in_the_map(
 ) -> None:
     page.goto(address)
     page.get_by_role("button", name="Locate a scan").click()
+    page.get_by_label("Search in").select_option("yard")
     page.get_by_label("Choose a scan").set_input_files(two_robots.scan_file(tmp_path))
     page.get_by_text("segments.").wait_for()
     page.locator(".answer").first.wait_for()
@@ -194,9 +195,9 @@ def test_pose_of_a_robot_moves_as_it_reports(page: "Page", address: str) -> None
     show(page, address, "yard")
     page.get_by_role("button", name="Robots").click()
     with Client(address) as client:
-        client.report_pose("carol", map="yard", position=(1.0, 2.0, 0.0))
+        client.report_pose("carol", "yard", position=(1.0, 2.0, 0.0))
         page.get_by_text("in yard at x 1.0, y 2.0").wait_for()
-        client.report_pose("carol", map="yard", position=(9.0, 2.0, 0.0))
+        client.report_pose("carol", "yard", position=(9.0, 2.0, 0.0))
         page.get_by_text("in yard at x 9.0, y 2.0").wait_for()
         client.report_pose("carol", state="lost", reason="too few segments")
         page.get_by_text("last seen in yard at x 9.0, y 2.0").wait_for()
@@ -287,10 +288,10 @@ def test_key_is_asked_for_once_and_decides_what_can_be_done(
         client.put_map("yard", two_robots.yard)
         page = context.new_page()
         page.goto(address)
-        page.get_by_label("Key", exact=True).fill("placecell_wrong")
+        page.get_by_role("textbox", name="Key").fill("placecell_wrong")
         page.get_by_role("button", name="Sign in").click()
         page.get_by_role("alert").filter(has_text="does not know this key").wait_for()
-        page.get_by_label("Key", exact=True).fill(keys["reader"])
+        page.get_by_role("textbox", name="Key").fill(keys["reader"])
         page.get_by_role("button", name="Sign in").click()
         page.get_by_role("heading", name="yard", exact=True).wait_for()
         page.get_by_role("button", name="Versions").click()
@@ -300,7 +301,7 @@ def test_key_is_asked_for_once_and_decides_what_can_be_done(
         page.reload()
         page.get_by_role("heading", name="yard", exact=True).wait_for()
         page.get_by_role("button", name="Sign out").click()
-        page.get_by_label("Key", exact=True).wait_for()
+        page.get_by_role("textbox", name="Key").wait_for()
 
 
 def test_service_that_restarts_is_found_again(

@@ -17,6 +17,8 @@ interface Located {
 
 const located = signal<Located | null>(null);
 const busy = signal("");
+/** Map to search; empty: all. Two maps of one place are rivals: only one of them can be meant. */
+const searched = signal("");
 
 /** Segment a scan, find its pose, and draw both. */
 export async function locate(file: File): Promise<void> {
@@ -26,19 +28,22 @@ export async function locate(file: File): Promise<void> {
   if (scan) {
     located.value = { file, scan, answers: null };
     draw(located.value, null);
-    if (scan.segments.length && list.value?.maps.length) {
-      busy.value = "Searching the maps.";
-      const answer = await attempt(() => api.localize({
-        segments: scan.segments.map(({ points }) => ({ points, sensor: [0, 0, 0] })), motion: "yaw",
-      }));
-      if (answer) {
-        located.value = { file, scan, answers: answer.localizations };
-        const best = answer.localizations[0];
-        if (best?.localized) await showIn(best);
-      }
-    }
+    if (scan.segments.length && list.value?.maps.length) await search(located.value);
   }
   busy.value = "";
+}
+
+async function search(found: Located): Promise<void> {
+  busy.value = "Searching the maps.";
+  const answer = await attempt(() => api.localize({
+    segments: found.scan.segments.map(({ points }) => ({ points, sensor: [0, 0, 0] })),
+    ...(searched.value ? { maps: [searched.value] } : {}),
+  }));
+  busy.value = "";
+  if (!answer) return;
+  located.value = { ...found, answers: answer.localizations };
+  const best = answer.localizations[0];
+  if (best?.localized) await showIn(best);
 }
 
 async function showIn(answer: Localization): Promise<void> {
@@ -102,7 +107,22 @@ export function Locate() {
   return (
     <>
       <p>Drop one LiDAR scan on this page to see its segments and where it was taken. PCD, PLY, LAS, KITTI .bin, NumPy and CSV files work; z must point up.</p>
-      <FileButton label="Choose a scan" onFile={(file) => void locate(file)} />
+      <div class="row">
+        <label class="grow">
+          Search in{" "}
+          <select
+            value={searched.value}
+            onChange={(event) => {
+              searched.value = event.currentTarget.value;
+              if (found?.scan.segments.length) void search(found);
+            }}
+          >
+            <option value="">all maps</option>
+            {(list.value?.maps ?? []).map((each) => <option key={each.name} value={each.name}>{each.name}</option>)}
+          </select>
+        </label>
+        <FileButton label="Choose a scan" onFile={(file) => void locate(file)} />
+      </div>
       {busy.value && <p role="status">{busy.value}</p>}
       {found && (
         <section aria-label="Result" aria-live="polite">
