@@ -1,4 +1,4 @@
-"""What an operator does on the page, in a real browser."""
+"""The operator's page in use, in a real browser."""
 
 import re
 import subprocess
