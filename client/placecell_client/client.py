@@ -160,8 +160,8 @@ class Client(BaseClient):
             k: Largest number of candidates per query.
             rerank: Order the candidates by the other segments that support them, and return the
                 best k of 25. All segments must be from one scan. A description without centroids
-                (NaN) is not re-ranked. A service that is older than this option needs False for a
-                description.
+                (NaN) is not re-ranked, and a service that is older than this option does not
+                re-rank.
 
         Returns:
             Candidates of each query, best first.

@@ -76,6 +76,46 @@ def test_match_skips_segments_without_descriptor() -> None:
     assert matches.skipped[0].model_id == "n"
 
 
+@pytest.mark.parametrize("rerank", [True, False])
+def test_match_leaves_out_fields_that_an_older_service_refuses(rerank: bool) -> None:
+    asked: list[set[str]] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(set(json.loads(request.content)))
+        for unknown in ("centroids", "rerank"):
+            if unknown in asked[-1]:
+                detail = f"/{unknown}: Extra inputs are not permitted."
+                return httpx.Response(422, json={"title": "Invalid request", "detail": detail})
+        return httpx.Response(
+            200,
+            json={"model_id": "m", "queries": [{"candidates": []}], "searched": [], "skipped": []},
+        )
+
+    described = Description(
+        "m", np.zeros((1, 32), np.int8), np.zeros((1, 32), np.float32), np.zeros((1, 3)), {}
+    )
+    with client_of(answer) as client:
+        client.match(described, rerank=rerank)
+        client.match(segments=[CLOUD], sensors=np.zeros(3), rerank=rerank)
+    assert len(asked) == 3  # one of the two calls has such a field
+    assert {"centroids", "rerank"}.isdisjoint(asked[-1] | (asked[1] if rerank else asked[0]))
+
+
+def test_match_tells_other_invalid_fields_at_once() -> None:
+    asked = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(request)
+        return httpx.Response(422, json={"detail": "/k: Input should be greater than 0."})
+
+    described = Description(
+        "m", np.zeros((1, 32), np.int8), np.zeros((1, 32), np.float32), np.zeros((1, 3)), {}
+    )
+    with client_of(answer) as client, pytest.raises(ServiceError, match="/k"):
+        client.match(described)
+    assert len(asked) == 1
+
+
 def test_match_refuses_both_or_no_kinds_of_query() -> None:
     with client_of(lambda _: httpx.Response(500)) as client:
         with pytest.raises(ValueError, match="either"):

@@ -147,6 +147,9 @@ class Attempts(Generic[T]):
             return None
         asked = None
         if isinstance(error, ServiceError):
+            if self._call.older is not None and refuses_a_field(error):
+                self._call = self._call.older()
+                return 0.0
             if error.status not in RETRIED:
                 return None
             asked = error.retry_after
@@ -157,3 +160,8 @@ class Attempts(Generic[T]):
         if self._made >= retries.attempts or wait >= self._deadline.remaining():
             return None
         return wait
+
+
+def refuses_a_field(error: ServiceError) -> bool:
+    """Return whether the service does not know a field of the request."""
+    return error.status == 422 and "Extra inputs are not permitted" in error.detail

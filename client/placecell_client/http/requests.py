@@ -67,6 +67,8 @@ class Call(Generic[T]):
         repeatable: Whether the request may be sent again although it may have been carried out. A
             repeatable request never undoes later writes of other clients.
         timeout: Time limit of the call and of each attempt, seconds; None for the client's.
+        older: Builds the same call without the fields that earlier services do not know; it is
+            sent if the service refuses such a field. None if there is no such field.
     """
 
     method: str
@@ -76,6 +78,7 @@ class Call(Generic[T]):
     content: bytes | None = None
     repeatable: bool = True
     timeout: float | None = None
+    older: "Callable[[], Call[T]] | None" = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,18 +119,20 @@ class Calls:
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
-            if rerank and _has_centroids(description, rows):
-                body |= self._centroids(description, rows)
-            return self._post(
-                "/match", body, lambda answer: parsing.matches_of(answer, description, rows)
+            added = (
+                self._centroids(description, rows)
+                if rerank and _has_centroids(description, rows)
+                else {}
+            )
+            return self._with_older(
+                "/match", body, added, lambda answer: parsing.matches_of(answer, description, rows)
             )
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
             count = len(segments)
-            if not rerank:  # older services have no such field
-                body["rerank"] = False
-            return self._post(
-                "/match", body | own, lambda answer: parsing.matches(answer, count, dropped)
+            added = {} if rerank else {"rerank": False}
+            return self._with_older(
+                "/match", body | own, added, lambda answer: parsing.matches(answer, count, dropped)
             )
         raise ValueError("Give either a description, or segments and sensors.")
 
@@ -405,6 +410,19 @@ class Calls:
         media_type = MEDIA_TYPES[self.encoding]
         headers = {"Content-Type": media_type, "Accept": media_type}
         return Call("POST", path, read, headers, dumps(body, self.encoding))
+
+    def _with_older(
+        self,
+        path: str,
+        body: dict[str, Any],
+        added: dict[str, Any],
+        read: Callable[[HttpResponse], T],
+    ) -> Call[T]:
+        """Build a POST with added fields, which earlier services do not know."""
+        call = self._post(path, body | added, read)
+        if not added:
+            return call
+        return replace(call, older=lambda: self._post(path, body, read))
 
 
 def _search(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
