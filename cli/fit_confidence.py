@@ -49,7 +49,11 @@ TOWNS = {61: 1.0, 62: 1.0, 63: 1.0}
 
 
 def two_drives(
-    folder: Path, seed: int, scans: int, look_alikes: float, sensor: str = DEFAULT_SENSOR
+    folder: Path,
+    seed: int,
+    scans: int,
+    look_alikes: float,
+    sensors: tuple[str, str] = (DEFAULT_SENSOR, DEFAULT_SENSOR),
 ) -> tuple[Path, Path]:
     """Simulate two robots that drive the same streets of a large town in opposite directions."""
     import town
@@ -57,8 +61,9 @@ def two_drives(
 
     city = town.City.build(seed, 1.6 * scans, look_alikes)
     route = fitted(city.route(city.planner.every_street()), scans)
+    lidar, other_lidar = map(town.sensor, sensors)
     one, other = town.several_robots(
-        folder, city, route, 2, scans=scans, lidar=town.sensor(sensor), progress=show
+        folder, city, route, 2, scans=scans, lidar=lidar, other_lidar=other_lidar, progress=show
     )
     return one, other
 

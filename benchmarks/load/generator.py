@@ -87,7 +87,7 @@ async def send_load(load: Load) -> LoadResult:
         if not load.rate:
             for first in range(load.clients):
                 group.create_task(send_repeatedly(first))
-        for number in range(int(load.rate * load.seconds)):
+        for number in range(round(load.rate * load.seconds)):
             due = started + number / load.rate
             await asyncio.sleep(due - time.perf_counter())
             group.create_task(send_one(number, due))

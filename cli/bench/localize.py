@@ -43,7 +43,8 @@ def localize(
     """Measure /localize with 50 and with 120 descriptors, one request at a time, on a real server.
 
     The descriptors come from segmented scans. Two views of one segment differ as two segments of
-    one group do.
+    one group do. Ten requests a second are sent, or fewer if the service would be busy for more
+    than half of the time.
     """
     from benchmarks.load.localize import LocalizePlan, measure_localize
     from benchmarks.localization.steps import measure_steps
@@ -80,6 +81,7 @@ def print_rows(report: dict[str, Any]) -> None:
         "segments",
         "descriptors",
         "right",
+        "a second",
         *names,
         "search p50",
         "verify p50",
@@ -91,7 +93,7 @@ def print_rows(report: dict[str, Any]) -> None:
         spent = (row["milliseconds"][name] for name in names)
         times = (f"{each:.1f}" for each in (*spent, *steps))
         right = f"{row['localised_right']:.1%}"
-        table.add_row(_title(row), str(row["descriptors"]), right, *times)
+        table.add_row(_title(row), str(row["descriptors"]), right, f"{row['rate']:.2g}", *times)
     print_tables(table)
 
 

@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.load import localize
+from benchmarks.load.generator import Load, LoadResult
 from benchmarks.load.localize import LocalizePlan, road_with_queries
 from benchmarks.localization import hard_queries
 from benchmarks.localization.hard_queries import HARD_QUERIES
@@ -40,6 +41,7 @@ def test_command_writes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     for row in report["rows"]:
         assert row["segments"] == 2000
         assert row["requests"] == 5
+        assert 0 < row["rate"] <= 5
         assert row["milliseconds"]["p50"] > 0
         assert {"search", "verify"} <= set(row["stages"])
         assert 0 <= row["localised_right"] <= 1
@@ -47,6 +49,33 @@ def test_command_writes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert {tuple(row["steps"]) for row in report["steps"]} == {STEPS}
     assert "verify" in result.output
     assert "fine-grid" in result.output
+
+
+@pytest.mark.parametrize(
+    ("refused", "rate"), [(0, 8.0), (2, 2.0), (5, None)], ids=["none", "twice", "always"]
+)
+def test_rate_is_halved_until_no_request_is_refused(
+    refused: int, rate: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loads: list[Load] = []
+
+    async def send(load: Load, folder: Path) -> LoadResult:
+        del folder
+        loads.append(load)
+        return LoadResult([200] * 19 + [429 if len(loads) <= refused else 200], [1.0] * 20)
+
+    monkeypatch.setattr(localize, "send_from_process", send)
+    plan = LocalizePlan(rate=10.0, seconds=2.0)
+    address = "http://127.0.0.1:8080"
+    if rate is None:
+        with pytest.raises(RuntimeError, match=r"429.* at 0\.5 requests per second"):
+            localize._answered([b""], address, plan, 8.0, tmp_path)
+    else:
+        outcome, found = localize._answered([b""], address, plan, 8.0, tmp_path)
+        assert found == rate
+        assert localize._figures(outcome, found, 1.0)["rate"] == rate
+    # As many requests at each rate.
+    assert {load.rate * load.seconds for load in loads} == {20.0}
 
 
 def test_queries_hold_objects_of_the_map() -> None:

@@ -26,6 +26,7 @@ def two_robots(
     floor: int = 0,
     differing: float = DIFFERING,
     lidar: Lidar = HDL_64E,
+    other_lidar: Lidar | None = None,
     mount: float | None = None,
     columns: int | None = None,
     speed: float | None = None,
@@ -44,6 +45,7 @@ def two_robots(
         floor: number of the floor of an indoor place.
         differing: share of the furniture that differs between floor 0 and another floor, 0 to 1.
         lidar: simulated sensor.
+        other_lidar: sensor of robot B; None for that of robot A.
         mount: height of the sensor above the ground, meters; None for the lower one of the sensor's
             own and the usual one of the place.
         columns: number of azimuth steps; None for the sensor's own.
@@ -70,11 +72,14 @@ def two_robots(
     town, route = build_place(place, seed, 1.08 * scans * spacing + 4.0, floor, differing)
     if place != STREETS:
         route = fitted(route, scans * spacing)
-    lidar = replace(
-        lidar,
-        columns=lidar.columns if columns is None else columns,
-        height=min(lidar.height, kind.sensor_height) if mount is None else mount,
-    )
+    lidars = [
+        replace(
+            each,
+            columns=each.columns if columns is None else columns,
+            height=min(each.height, kind.sensor_height) if mount is None else mount,
+        )
+        for each in (lidar, other_lidar or lidar)
+    ]
     drives = []
     for number, (name, way) in enumerate([("robot_a", route), ("robot_b", route.reversed())]):
         drive = write_drive(
@@ -85,7 +90,7 @@ def two_robots(
             noise_seed=2 * seed + number,
             scans=scans,
             spacing=spacing,
-            lidar=lidar,
+            lidar=lidars[number],
             speed=speed,
             distortion=distortion,
             overwrite=overwrite,
@@ -121,6 +126,7 @@ def several_robots(
     scans: int | None = None,
     spacing: float = 1.0,
     lidar: Lidar = HDL_64E,
+    other_lidar: Lidar | None = None,
     odometry: Odometry | None = None,
     oncoming: float = 0.0,
     speed: float | None = None,
@@ -141,6 +147,8 @@ def several_robots(
         start: start of each robot on its path, meters along the center line.
         scans: number of scans of each drive; None for the rest of the route.
         spacing: distance between scans, meters.
+        lidar: simulated sensor.
+        other_lidar: sensor of every second robot; None for that of the others.
         odometry: errors of the odometry; None for no odometry.
         oncoming: number of oncoming cars per kilometer.
         speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
@@ -173,7 +181,7 @@ def several_robots(
             noise_seed=len(ascii_lowercase) * city.seed + number,
             scans=count,
             spacing=spacing,
-            lidar=lidar,
+            lidar=(other_lidar or lidar) if number % 2 else lidar,
             odometry=odometry,
             oncoming=oncoming,
             speed=speed,
