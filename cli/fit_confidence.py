@@ -36,9 +36,25 @@ DRIVES = (
     "town:502:os1-32:look-alikes",
     "town:503:hdl-32e:look-alikes",
     "town:504:os1-64:look-alikes",
+    "town:601:hdl-64e+os0-32",
+    "town:602:hdl-32e+os0-64",
+    "town:603:vlp-16+os0-128",
+    "town:604:os0-32+os1-32",
+    "town:605:os0-64+os1-64",
+    "town:606:os0-128+os1-128",
+    "town:607:os1-32+solid-state",
+    "town:608:os1-64+hdl-64e",
+    "town:609:os1-128+hdl-32e",
+    "town:610:solid-state+vlp-16",
+    "town:611:hdl-64e+os0-128:look-alikes",
+    "town:612:hdl-32e+os1-32:look-alikes",
+    "town:613:vlp-16+os1-64:campus",
+    "town:614:os0-32+os1-128:garden",
+    "town:615:os0-64+solid-state:car-park",
 )
 """Default pairs: all sensors, all places, and towns of identical houses with seeds that nothing
-else uses."""
+else uses. The pairs of two sensors follow a rule: in the order of `town.SENSORS`, each sensor meets
+the third one after it in streets, and the fifth one after it in other places."""
 
 SCANS, LOOK_ALIKE_SCANS, CITY_SCANS = 150, 400, 600
 """Default numbers of scans of each robot: in a place, in a town of identical houses, and of --town.
@@ -69,7 +85,7 @@ def two_drives(
 
 
 def prepared_pairs(folders: list[Path]) -> "list[FitPair]":
-    """Read the pairs SEED-SENSOR-PLACE of some folders, in the order of their names.
+    """Read the pairs of some folders (`FitPair.of_folder`), in the order of their names.
 
     Raises:
         ValueError: a folder has no pairs, or a pair's name or recordings do not fit.
@@ -81,15 +97,16 @@ def prepared_pairs(folders: list[Path]) -> "list[FitPair]":
         found = sorted(each for each in folder.glob("*-*") if (each / "robot_b").is_dir())
         if not found:
             raise ValueError(
-                f"{folder} has no pairs: expected folders SEED-SENSOR-PLACE, each with the drives "
-                "robot_a and robot_b of 'placecell town'."
+                f"{folder} has no pairs: expected folders SEED-SENSOR-PLACE or "
+                "SEED-SENSOR+OTHER-PLACE, each with the drives robot_a and robot_b of 'placecell "
+                "town'."
             )
         pairs += [FitPair.of_folder(each, show) for each in found]
     return pairs
 
 
 def simulated_pairs(folder: Path, drives: Sequence[str], scans: int | None) -> "list[FitPair]":
-    """Simulate and segment the pairs of town:SEED:SENSOR:PLACE.
+    """Simulate and segment the pairs of town:SEED:SENSOR:PLACE or town:SEED:SENSOR+OTHER:PLACE.
 
     Raises:
         ValueError: a name has another form, or its sensor or place is unknown.
@@ -103,19 +120,40 @@ def _simulated(folder: Path, name: str, scans: int | None) -> "FitPair":
     from evaluation.poses.queries import Pair
 
     alike = name.endswith(f":{LOOK_ALIKES}")
-    seed, sensor, place = parse_town(name.removesuffix(f":{LOOK_ALIKES}"))
+    seed, sensors, place = parse_pair(name.removesuffix(f":{LOOK_ALIKES}"))
+    sensor, other = sensors
     if alike:
-        drives = two_drives(folder, seed, scans or LOOK_ALIKE_SCANS, 1.0, sensor)
-        return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, LOOK_ALIKES, 1.0)
+        drives = two_drives(folder, seed, scans or LOOK_ALIKE_SCANS, 1.0, sensors)
+        return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, LOOK_ALIKES, 1.0, other)
     drives = town.two_robots(
         folder,
         seed=seed,
         scans=scans or SCANS,
         place=place,
         lidar=town.sensor(sensor),
+        other_lidar=town.sensor(other),
         progress=show,
     )
-    return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, place)
+    return FitPair(Pair.of(*drives, 2, progress=show), seed, sensor, place, other_sensor=other)
+
+
+def parse_pair(text: str) -> tuple[int, tuple[str, str], str]:
+    """Parse town:SEED:SENSOR:PLACE or town:SEED:SENSOR+OTHER:PLACE; the place may be omitted.
+
+    Returns:
+        The seed, the names of both robots' sensors, and the name of the place.
+
+    Raises:
+        ValueError: the text has another form, or a sensor or the place is unknown.
+    """
+    first, plus, rest = text.partition("+")
+    if not plus:
+        seed, sensor, place = parse_town(text)
+        return seed, (sensor, sensor), place
+    other, colon, place = rest.partition(":")
+    seed, sensor, place = parse_town(f"{first}{colon}{place}")
+    _, other, _ = parse_town(f"town:{seed}:{other}")
+    return seed, (sensor, other), place
 
 
 def look_alike_pairs(
@@ -152,18 +190,18 @@ def fit_confidence(
         list[Path] | None,
         typer.Option(
             metavar="FOLDER",
-            help="Folder of prepared pairs SEED-SENSOR-PLACE: drives robot_a and robot_b of "
-            "'placecell town', with the recordings robot_a.safetensors and robot_b.safetensors of "
-            "'placecell prepare --every 2'; repeatable.",
+            help="Folder of prepared pairs SEED-SENSOR-PLACE or SEED-SENSOR+OTHER-PLACE: drives "
+            "robot_a and robot_b of 'placecell town', with the recordings robot_a.safetensors and "
+            "robot_b.safetensors of 'placecell prepare --every 2'; repeatable.",
         ),
     ] = None,
     drive: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="town:SEED:SENSOR:PLACE",
-            help="Pair to simulate, such as town:101:vlp-16:campus; repeatable. The place "
-            "look-alikes is a town of identical houses. (default: 20 pairs of all sensors and "
-            "places, if neither --pairs nor --town is given)",
+            metavar="town:SEED:SENSOR[+OTHER]:PLACE",
+            help="Pair to simulate, such as town:101:vlp-16:campus, or town:601:vlp-16+os1-64 "
+            "with two sensors; repeatable. The place look-alikes is a town of identical houses. "
+            "(default: 35 pairs of all sensors and places, if neither --pairs nor --town is given)",
         ),
     ] = None,
     scans: Annotated[
@@ -198,8 +236,9 @@ def fit_confidence(
     """Fit the probability that a pose is right, on simulated drives of several sensors and places.
 
     Each model has its own constants. The command writes them into the model's folder. Each sensor
-    is left out of the fit once, to calibrate the acceptance of poses and to measure how reliable
-    the probabilities are on a new sensor. With one sensor, each town is left out once.
+    is left out of the fit once, and the two sensors of a pair together, to calibrate the acceptance
+    of poses and to measure how reliable the probabilities are on a new sensor. With one sensor,
+    each town is left out once.
     """
     from evaluation.poses.confidence import fit
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
@@ -234,7 +273,13 @@ def print_held_out(held_out: dict[str, Any]) -> None:
         "brier": "Brier score",
     }
     table = new_table("left out", "cases", *columns.values())
-    rows = {"all": held_out["all"], **held_out["sensors"], **held_out["places"]}
+    rows = {
+        "all": held_out["all"],
+        "same sensor": held_out["same_sensor"],
+        "cross sensor": held_out["cross_sensor"],
+        **held_out["sensors"],
+        **held_out["places"],
+    }
     for name, row in rows.items():
         values = ("-" if row[key] is None else f"{row[key]:.4f}" for key in columns)
         table.add_row(name, f"{row['cases']:,}", *values)

@@ -6,8 +6,9 @@ It is also localized where no answer is right: in the map of another place, and 
 without the segments near the robot, where at best a similar street is found.
 """
 
+import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 
@@ -58,9 +59,10 @@ class FitPair:
     Attributes:
         pair: the robots.
         town: seed of the place; pairs of one seed show the same place.
-        sensor: name of the sensor.
+        sensor: name of the first robot's sensor.
         place: kind of the place: one of the town's, or `LOOK_ALIKES`.
         look_alikes: share of streets with identical houses; None for the default.
+        other_sensor: name of the second robot's sensor; None for that of the first.
     """
 
     pair: Pair
@@ -68,29 +70,44 @@ class FitPair:
     sensor: str = "hdl-64e"
     place: str = "streets"
     look_alikes: float | None = None
+    other_sensor: str | None = None
+
+    @property
+    def sensors(self) -> tuple[str, str]:
+        """Names of the map's sensor and of the queries' sensor."""
+        return self.sensor, self.other_sensor or self.sensor
+
+    def swapped(self) -> Self:
+        """Return the pair with the roles of the robots swapped."""
+        sensor, other = reversed(self.sensors)
+        return replace(self, pair=self.pair.swapped(), sensor=sensor, other_sensor=other)
 
     @classmethod
     def of_folder(cls, folder: Path, progress: Progress) -> Self:
         """Read SEED-SENSOR-PLACE/robot_a and robot_b, with the recordings beside them.
+
+        SEED-SENSOR+OTHER-PLACE has the sensors of both robots.
 
         Raises:
             ValueError: the folder has another name, or its recordings are of other drives.
         """
         from town import SENSORS
 
-        seed, _, rest = folder.name.partition("-")
-        sensor = next((name for name in SENSORS if rest.startswith(f"{name}-")), None)
-        if sensor is None or not seed.isdigit():
+        names = "|".join(map(re.escape, SENSORS))
+        match = re.fullmatch(rf"(\d+)-({names})(?:\+({names}))?-(.+)", folder.name)
+        if match is None:
             raise ValueError(
                 f"Invalid folder name {folder.name!r}: expected SEED-SENSOR-PLACE, such as "
-                f"101-vlp-16-streets. Sensors: {', '.join(SENSORS)}."
+                "101-vlp-16-streets, or SEED-SENSOR+OTHER-PLACE for two sensors. Sensors: "
+                f"{', '.join(SENSORS)}."
             )
+        seed, sensor, other, place = match.groups()
         drives = [folder / "robot_a", folder / "robot_b"]
         files = [drive.with_suffix(".safetensors") for drive in drives]
         prepared = [file if file.is_file() else None for file in files]
         pair = Pair.of(drives[0], drives[1], 2, (prepared[0], prepared[1]), progress)
-        place = rest.removeprefix(f"{sensor}-")
-        return cls(pair, int(seed), sensor, place, 1.0 if place == LOOK_ALIKES else None)
+        share = 1.0 if place == LOOK_ALIKES else None
+        return cls(pair, int(seed), sensor, place, share, other)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,7 +126,7 @@ class Cases:
         answerable: bool (n,), whether the query is in the mapped area of one place's map.
         whole: bool (n,), whether the query has all segments of its capture.
         towns: int64 (n,), seed of the place.
-        sensors: (n,), name of the sensor.
+        sensors: (n, 2), names of the map's sensor and of the query's sensor.
         places: (n,), kind of the place.
         growth: float64 (robots,), segments that each robot's first meters add, per meter.
     """
@@ -123,7 +140,7 @@ class Cases:
     answerable: Bool
     whole: Bool
     towns: Int64
-    sensors: "np.ndarray[tuple[int], np.dtype[np.str_]]"
+    sensors: "np.ndarray[tuple[int, int], np.dtype[np.str_]]"
     places: "np.ndarray[tuple[int], np.dtype[np.str_]]"
     growth: Float64
 
@@ -161,8 +178,8 @@ def ask(
         progress: wraps the loop.
     """
     random, frame = np.random.default_rng(seed), random_frame(seed)
-    both = [*(each.pair for each in pairs), *(each.pair.swapped() for each in pairs)]
-    maps = [pair.mapper.build_map(engine, "town") for pair in both]
+    both = [*pairs, *(each.swapped() for each in pairs)]
+    maps = [each.pair.mapper.build_map(engine, "town") for each in both]
     names = [f"map-{index}" for index in range(len(both))]
     for name, compact in zip(names, maps, strict=True):
         engine.put_map(name, compact)
@@ -176,8 +193,8 @@ def ask(
     for index in progress(range(len(both)), len(both), "localizing"):
         number, way = index % len(pairs), index // len(pairs)
         elsewhere = names[way * len(pairs) + (number + 1) % len(pairs)]
-        growth.append(_growth(both[index], engine))
-        for query in both[index].queries(engine, frame, most):
+        growth.append(_growth(both[index].pair, engine))
+        for query in both[index].pair.queries(engine, frame, most):
             there = Pose(np.eye(3), shifts[number]).after(query.truth)
             _put_without(engine, maps[index], query)
             asked = [
@@ -195,7 +212,7 @@ def ask(
             ]
             for each in asked:
                 found, _ = localize_query(engine, each.query, each.name, K, PARAMETERS)
-                rows.append((found, query, each, pairs[number]))
+                rows.append((found, query, each, both[index]))
     return _cases(rows, np.array(growth))
 
 
@@ -261,7 +278,7 @@ def _cases(rows: Sequence[tuple[Localization, PoseQuery, Ask, FitPair]], growth:
         answerable=np.array([asked.own for _, _, asked, _ in rows]),
         whole=np.array([asked.query is query for _, query, asked, _ in rows]),
         towns=np.array([pair.town for *_, pair in rows]),
-        sensors=np.array([pair.sensor for *_, pair in rows]),
+        sensors=np.array([pair.sensors for *_, pair in rows]),
         places=np.array([pair.place for *_, pair in rows]),
         growth=growth,
     )

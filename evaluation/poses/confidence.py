@@ -2,10 +2,11 @@
 
 The probability is a logistic model of the best hypothesis' features, fitted on the cases of several
 sensors and places (`cases`). Each sensor is left out of the fit once: the probabilities of its
-cases then calibrate the acceptance of poses, and show how well the model carries over.
+cases then calibrate the acceptance of poses, and show how well the model carries over. A case whose
+map and query are of two sensors has the probability of a fit without both.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -25,10 +26,10 @@ from placecell.localization.confidence import DEFAULT_RISK, FEATURES, SegmentNee
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
-FITTED = ("score", "margin", "spread", "surprise", "explained")
+FITTED = ("score", "margin", "spread", "surprise", "explained_in_plan")
 """Features of the model. `share`, `majority` and `residual` depend on the sensor: unmatched
-segments and centroid noise are more frequent on real sensors than in the town. `explained` tells a
-street from a similar one."""
+segments and centroid noise are more frequent on real sensors than in the town.
+`explained_in_plan` tells a street from a similar one."""
 
 PENALTY = 1.0
 """Factor of the squared weights in the loss."""
@@ -68,7 +69,7 @@ def fit(
     content = fit_cases(cases)
     content["fitted_on"] = {
         "towns": [pair.town for pair in pairs],
-        "sensors": [pair.sensor for pair in pairs],
+        "sensors": ["+".join(dict.fromkeys(pair.sensors)) for pair in pairs],
         "places": [pair.place for pair in pairs],
         "look_alikes": [pair.look_alikes for pair in pairs],
         "scans": [len(pair.pair.mapper.drive) for pair in pairs],
@@ -87,10 +88,11 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
     """Fit the logistic model to cases; return the content of `confidence.json` about it.
 
     The calibration of the acceptance uses probabilities of models that were fitted without the
-    sensor of a case, or without its town if there is only one sensor.
+    sensors of a case, or without its town if no case would be left.
     """
-    left_out: NDArray[Any] = cases.sensors if len(np.unique(cases.sensors)) > 1 else cases.towns
-    held_out = _held_out(cases, left_out)
+    towns = cases.towns[:, None]
+    by_sensor = all(rest.any() for _, rest in _left_out(cases.sensors))
+    held_out = _held_out(cases, cases.sensors if by_sensor else towns)
     # Laplace's rule of succession limits the highest probability by the wrong sure cases.
     sure = held_out >= 0.99
     highest = 1 - (float((~cases.right[sure]).sum()) + 1) / (float(sure.sum()) + 2)
@@ -100,7 +102,8 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
     fitted = logistic(cases.features, cases.right, highest)
     threshold = acceptance.threshold(max(DEFAULT_RISK, acceptance.smallest_risk))
     told = (stated > threshold) & ~cases.rejected
-    by_town = np.minimum(highest * _held_out(cases, cases.towns), cases.limits)
+    by_town = np.minimum(highest * _held_out(cases, towns), cases.limits)
+    is_cross = cases.sensors[:, 0] != cases.sensors[:, 1]
     return {
         "features": list(FITTED),
         "model": {
@@ -115,8 +118,10 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
             "brier": calibration_figures(stated, cases.right)["brier"],
             "threshold": threshold,
             "all": figures(cases, stated, threshold, np.ones(len(cases), dtype=bool)),
+            "same_sensor": figures(cases, stated, threshold, ~is_cross),
+            "cross_sensor": figures(cases, stated, threshold, is_cross),
             "sensors": {
-                name: figures(cases, stated, threshold, cases.sensors == name)
+                name: figures(cases, stated, threshold, (cases.sensors == name).any(axis=1))
                 for name in np.unique(cases.sensors).tolist()
             },
             "places": {
@@ -128,15 +133,26 @@ def fit_cases(cases: Cases) -> dict[str, Any]:
     }
 
 
+def _left_out(groups: NDArray[Any]) -> Iterator[tuple[Bool, Bool]]:
+    """Yield the cases of the same groups, bool (n,), and the cases that share no group with them.
+
+    Args:
+        groups: (n, m), groups of each case.
+    """
+    ordered = np.sort(groups, axis=1)
+    for own in np.unique(ordered, axis=0):
+        alike, shared = (ordered == own).all(axis=1), np.isin(groups, own).any(axis=1)
+        yield np.asarray(alike), ~np.asarray(shared)
+
+
 def _held_out(cases: Cases, groups: NDArray[Any]) -> Float64:
-    """Return each case's probability by a model that was fitted without the case's group."""
+    """Return each case's probability by a model that was fitted without the case's groups."""
     found = np.isfinite(cases.features).all(axis=1)
     held_out = np.zeros(len(cases))
-    for group in np.unique(groups):
-        rest, here = found & (groups != group), found & (groups == group)
-        if here.any():
+    for here, rest in _left_out(groups):
+        if (here & found).any():
             model = logistic(cases.features[rest], cases.right[rest], 1.0)
-            held_out[here] = model.probabilities(cases.features[here])
+            held_out[here & found] = model.probabilities(cases.features[here & found])
     return held_out
 
 
@@ -178,8 +194,8 @@ def needs_of(cases: Cases, told: Bool) -> SegmentNeeds:
     """
     localized = told & cases.right
     counts = []
-    for sensor in np.unique(cases.sensors):
-        own = cases.answerable & (cases.sensors == sensor)
+    for sensor in np.unique(cases.sensors[:, 1]):
+        own = cases.answerable & (cases.sensors[:, 1] == sensor)
         for count in range(4, MOST_NEEDED):
             near = own & (cases.usable >= count) & (cases.usable < 1.5 * count)
             if near.any() and localized[near].mean() >= LOCALIZED:

@@ -64,7 +64,7 @@ class Acceptance:
         Args:
             probabilities: float64 (n,).
             false: bool (n,), which poses are false.
-            sensors: (n,), name of the sensor.
+            sensors: (n,) or (n, m), names of the query's sensors: those of query and map.
             places: (n,), kind of the place.
         """
         return replace(
@@ -128,9 +128,12 @@ def _alone(
     probabilities: Float64, false: Bool, groups: NDArray[Any]
 ) -> tuple[tuple[str, Acceptance], ...]:
     """Return the queries of each group by themselves."""
-    return tuple(
-        (name, Acceptance.of(probabilities[groups == name], false[groups == name]))
+    members = {
+        name: (groups.reshape(len(probabilities), -1) == name).any(axis=1)
         for name in np.unique(groups).tolist()
+    }
+    return tuple(
+        (name, Acceptance.of(probabilities[own], false[own])) for name, own in members.items()
     )
 
 

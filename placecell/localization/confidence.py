@@ -20,6 +20,7 @@ from placecell.localization.acceptance import Acceptance, check_risk
 from placecell.localization.candidates import Candidates
 from placecell.localization.chance import surprise
 from placecell.localization.hypothesis import Hypothesis
+from placecell.localization.overlap import ExplainedShares
 
 NAME = "confidence.json"
 
@@ -42,9 +43,10 @@ FEATURES = (
     "surprise",
     "majority",
     "explained",
+    "explained_in_plan",
 )
 """Names of all features. A file names those that its model uses: earlier versions used the first
-six, or five of the first eight."""
+six, five of the first eight, or `explained`, whose distances are in space."""
 
 
 MAJORITY = 0.5
@@ -52,7 +54,7 @@ MAJORITY = 0.5
 more. It depends on the sensor, and on what has changed since the map was made."""
 
 FEW = 8
-"""Number of segments with which the explained share counts half: few segments of similar streets
+"""Number of segments with which an explained share counts half: few segments of similar streets
 are all explained now and then."""
 
 
@@ -62,7 +64,7 @@ def features_of(
     rival: float,
     usable: int,
     candidates: Candidates,
-    explained: float,
+    explained: ExplainedShares,
 ) -> Float64:
     """Return all features of a hypothesis, float64 (features,), in the order of `FEATURES`.
 
@@ -72,7 +74,7 @@ def features_of(
         rival: score of the best hypothesis at another place, divided by `score`; 0 without one.
         usable: number of queries that have candidates.
         candidates: candidates of all queries.
-        explained: share of the robot's segments that the map explains (`explained_share`).
+        explained: shares of the robot's segments that the map explains (`overlap`).
     """
     plan = best.source[:, :2] - best.source[:, :2].mean(axis=0)
     # The smaller horizontal extent: segments in a row determine less than segments all around.
@@ -87,7 +89,8 @@ def features_of(
             np.log1p(spread),
             np.arcsinh(surprise(best.pose, candidates)),
             min(len(best) / usable, MAJORITY),
-            explained * usable / (usable + FEW),
+            explained.in_space * usable / (usable + FEW),
+            explained.in_plan * usable / (usable + FEW),
         ]
     )
 

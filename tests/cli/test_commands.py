@@ -13,6 +13,7 @@ from typer.testing import CliRunner, Result
 
 import town
 from cli import app
+from cli.fit_confidence import DRIVES, parse_pair, simulated_pairs
 from cli.sources import TOWN_SCANS, town_recordings
 from placecell.datasets import open_drive
 from placecell.descriptors.manifest import Manifest
@@ -510,6 +511,47 @@ def test_fit_confidence_refuses_a_folder_without_pairs_and_an_unknown_sensor(
     file = tmp_path / "confidence.json"
     empty = run("fit-confidence", "--pairs", tmp_path, "-o", file, status=1)
     assert "SEED-SENSOR-PLACE" in empty.output
-    strange = run("fit-confidence", "--drive", "town:1:sonar", "-o", file, status=1)
-    assert "sonar" in strange.output
+    for name in ("town:1:sonar", "town:1:vlp-16+sonar", "town:1:sonar+vlp-16:campus"):
+        strange = run("fit-confidence", "--drive", name, "-o", file, status=1)
+        assert "sonar" in strange.output
     assert not file.exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "parsed"),
+    [
+        ("town:3", (3, ("hdl-64e", "hdl-64e"), "streets")),
+        ("town:3:os0-32:campus", (3, ("os0-32", "os0-32"), "campus")),
+        ("town:3:os0-32+vlp-16", (3, ("os0-32", "vlp-16"), "streets")),
+        ("town:3:os0-32+vlp-16:campus", (3, ("os0-32", "vlp-16"), "campus")),
+    ],
+)
+def test_pair_of_a_fit_has_one_sensor_or_two(
+    text: str, parsed: tuple[int, tuple[str, str], str]
+) -> None:
+    assert parse_pair(text) == parsed
+
+
+@pytest.mark.parametrize("text", ["town:3:os0-32+", "town:3:+vlp-16", "town:3:a+b+c", "town:x"])
+def test_pair_of_a_fit_with_another_form_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"expected|Invalid"):
+        parse_pair(text)
+
+
+def test_default_pairs_of_a_fit_have_each_sensor_in_towns_of_their_own() -> None:
+    pairs = [parse_pair(text.removesuffix(":look-alikes")) for text in DRIVES]
+    assert len({seed for seed, _, _ in pairs}) == len(pairs)
+    crossed = [sensors for _, sensors, _ in pairs if sensors[0] != sensors[1]]
+    assert {one for one, _ in crossed} == {other for _, other in crossed} == set(town.SENSORS)
+    assert len({frozenset(sensors) for sensors in crossed}) == len(crossed)
+
+
+def test_fit_confidence_simulates_a_pair_of_two_sensors(tmp_path: Path) -> None:
+    small = {name: replace(town.sensor(name), columns=60) for name in ("vlp-16", "os1-32")}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("town.sensor", lambda name: small[name])
+        (pair,) = simulated_pairs(tmp_path, ["town:3:vlp-16+os1-32"], 4)
+    assert pair.sensors == ("vlp-16", "os1-32")
+    counts = [len(robot.drive.scan(0)) for robot in (pair.pair.mapper, pair.pair.asker)]  # type: ignore[attr-defined]
+    assert counts[0] < 60 * 16
+    assert counts[1] > counts[0]

@@ -6,11 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from evaluation.poses import confidence
 from evaluation.poses.cases import Cases, FitPair
-from evaluation.poses.confidence import figures, fit_cases, needs_of
+from evaluation.poses.confidence import figures, fit_cases, logistic, needs_of
+from placecell.core.types import Bool, Float64
+from placecell.localization import Confidence
 from placecell.localization.confidence import FEATURES
 from placecell.segmentation.pipeline import silent
-from town import two_robots
+from town import sensor, two_robots
 
 
 def cases_of(count: int = 600, seed: int = 0) -> Cases:
@@ -31,7 +34,9 @@ def cases_of(count: int = 600, seed: int = 0) -> Cases:
         answerable=np.ones(count, dtype=bool),
         whole=np.ones(count, dtype=bool),
         towns=random.integers(1, 5, count),
-        sensors=np.array(["hdl-64e", "vlp-16", "os1-64"])[random.integers(0, 3, count)],
+        sensors=np.array(["hdl-64e", "vlp-16", "os1-64"])[random.integers(0, 3, (count, 1))][
+            :, [0, 0]
+        ],
         places=np.full(count, "streets"),
         growth=np.array([1.0, 2.0, np.nan, 9.0]),
     )
@@ -52,6 +57,39 @@ def test_fit_has_figures_of_each_sensor_that_was_left_out() -> None:
     assert content["needs"]["per_meter"] == 2.0  # the median of 1, 2 and 9
 
 
+def test_case_of_two_sensors_is_left_out_with_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    cases = cases_of()
+    sensors = cases.sensors.copy()
+    sensors[:100] = ["os1-64", "vlp-16"]
+    sensors[100:200] = ["vlp-16", "os1-64"]
+    cases = replace(cases, sensors=sensors)
+    fitted_on = []
+
+    def spy(features: Float64, right: Bool, highest: float) -> Confidence:
+        fitted_on.append(len(features))
+        return logistic(features, right, highest)
+
+    monkeypatch.setattr(confidence, "logistic", spy)
+    content = fit_cases(cases)
+    # Both directions are one group, and only the cases with the third sensor are apart from it.
+    only_third = int((sensors == "hdl-64e").all(axis=1).sum())
+    assert only_third in fitted_on
+    held_out = content["held_out"]
+    assert held_out["cross_sensor"]["cases"] == 200
+    assert held_out["same_sensor"]["cases"] == len(cases) - 200
+    vlp = (sensors == "vlp-16").any(axis=1)
+    assert held_out["sensors"]["vlp-16"]["cases"] == vlp.sum()
+    assert content["acceptance"]["sensors"]["vlp-16"]["queries"] == vlp.sum()
+
+
+def test_two_sensors_that_always_meet_leave_each_town_out() -> None:
+    cases = cases_of()
+    both = replace(cases, sensors=np.full((len(cases), 2), ["vlp-16", "os1-64"]))
+    held_out = fit_cases(both)["held_out"]
+    assert held_out["all"] == held_out["by_town"]
+    assert held_out["same_sensor"]["cases"] == 0
+
+
 def test_rejected_poses_do_not_count_as_accepted() -> None:
     cases = cases_of()
     content = fit_cases(replace(cases, rejected=cases.false))
@@ -62,7 +100,7 @@ def test_rejected_poses_do_not_count_as_accepted() -> None:
 
 def test_one_sensor_leaves_each_town_out() -> None:
     cases = cases_of()
-    one = replace(cases, sensors=np.full(len(cases), "vlp-16"))
+    one = replace(cases, sensors=np.full((len(cases), 2), "vlp-16"))
     held_out = fit_cases(one)["held_out"]
     assert held_out["all"] == held_out["by_town"]
 
@@ -85,7 +123,7 @@ def test_figures_by_hand() -> None:
 
 def test_segments_needed_by_hand() -> None:
     cases = cases_of()
-    cases = replace(cases, sensors=np.full(len(cases), "vlp-16"))
+    cases = replace(cases, sensors=np.full((len(cases), 2), "vlp-16"))
     told = cases.usable >= 20
     found = needs_of(replace(cases, right=np.ones(len(cases), dtype=bool)), told)
     # From 20 segments on, all robots are localized; from 17 to 25, not 95 of 100.
@@ -96,11 +134,31 @@ def test_pair_of_a_folder_has_the_sensor_and_the_place_of_its_name(tmp_path: Pat
     folder = tmp_path / "7-os1-32-car-park"
     two_robots(folder, seed=7, scans=3, columns=64)
     pair = FitPair.of_folder(folder, silent)
-    assert (pair.town, pair.sensor, pair.place) == (7, "os1-32", "car-park")
+    assert (pair.town, pair.place) == (7, "car-park")
+    assert pair.sensors == pair.swapped().sensors == ("os1-32", "os1-32")
     assert len(pair.pair.mapper.drive) == len(pair.pair.asker.drive) == 3
 
 
-@pytest.mark.parametrize("name", ["7-sonar-streets", "vlp-16-streets", "x-vlp-16-streets"])
+def test_pair_of_a_folder_has_two_sensors(tmp_path: Path) -> None:
+    folder = tmp_path / "7-vlp-16+os1-32-look-alikes"
+    lidars = [replace(sensor(name), columns=64) for name in ("vlp-16", "os1-32")]
+    two_robots(folder, seed=7, scans=3, lidar=lidars[0], other_lidar=lidars[1])
+    pair = FitPair.of_folder(folder, silent)
+    assert (pair.sensors, pair.place, pair.look_alikes) == (
+        ("vlp-16", "os1-32"),
+        "look-alikes",
+        1.0,
+    )
+    swapped = pair.swapped()
+    assert swapped.sensors == ("os1-32", "vlp-16")
+    assert swapped.pair.mapper is pair.pair.asker
+    assert swapped.swapped().sensors == pair.sensors
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["7-sonar-streets", "vlp-16-streets", "x-vlp-16-streets", "7-vlp-16+sonar-streets"],
+)
 def test_folder_with_another_name_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="expected SEED-SENSOR-PLACE, such as 101-vlp-16-streets"):
         FitPair.of_folder(tmp_path / name, silent)

@@ -19,6 +19,7 @@ from placecell.localization.confidence import (
     with_rival,
 )
 from placecell.localization.hypothesis import Hypothesis
+from placecell.localization.overlap import ExplainedShares
 from placecell.localization.pose import Pose
 
 MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99, ("score", "inliers"))
@@ -57,7 +58,7 @@ def test_features_by_hand() -> None:
     candidates = Candidates(
         source, numbers[:, None], source[:, None] + (100.0, 0, 0), np.full((4, 1), 0.5)
     )
-    row = features_of(best, 10.0, 0.25, 16, candidates, 0.8).tolist()
+    row = features_of(best, 10.0, 0.25, 16, candidates, ExplainedShares(0.6, 0.8)).tolist()
     # No candidate is near: no p-value, and 72 yaws at 64 m2 (one cell, or two) for 7 thresholds.
     alarms = 72 * area_of(candidates) * 7
     assert dict(zip(FEATURES, row, strict=True)) == pytest.approx(
@@ -71,6 +72,7 @@ def test_features_by_hand() -> None:
             "surprise": -np.arcsinh(np.log(alarms)),
             "majority": 0.25,
             "explained": 0.8 * 16 / (16 + 8),
+            "explained_in_plan": 0.6 * 16 / (16 + 8),
         }
     )
 
@@ -93,7 +95,7 @@ def test_majority_grows_up_to_one_half_of_the_segments() -> None:
     candidates = Candidates(points, numbers[:, None], points[:, None], np.full((4, 1), 0.5))
     shares = {}
     for usable in (4, 6, 8, 16):
-        row = features_of(best, 8.0, 0.0, usable, candidates, 1.0)
+        row = features_of(best, 8.0, 0.0, usable, candidates, ExplainedShares())
         shares[usable] = row[FEATURES.index("majority")]
     assert shares == {4: 0.5, 6: 0.5, 8: 0.5, 16: 0.25}
 

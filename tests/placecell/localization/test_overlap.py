@@ -3,7 +3,7 @@ import pytest
 
 from placecell.core.types import Float64, Int64
 from placecell.localization.candidates import Candidates
-from placecell.localization.overlap import MOST_ROWS, explained_share
+from placecell.localization.overlap import MOST_ROWS, ExplainedShares, explained_shares
 from placecell.localization.pose import Pose
 
 SEEN = np.array([[0.0, 0, 0], [10, 0, 0], [20, 0, 0], [30, 0, 0]])
@@ -26,27 +26,35 @@ class Everything:
         raise AssertionError("positions only")
 
 
-def share(seen: Float64, there: Float64) -> float:
+def shares(seen: Float64, there: Float64) -> ExplainedShares:
     none = np.zeros((len(seen), 0))
     candidates = Candidates(seen, none.astype(np.int64), np.zeros((len(seen), 0, 3)), none)
-    return explained_share(Pose.of_yaw(0.0, SHIFT), candidates, Everything(there))
+    return explained_shares(Pose.of_yaw(0.0, SHIFT), candidates, Everything(there))
+
+
+def share(seen: Float64, there: Float64) -> float:
+    found = shares(seen, there)
+    assert found.in_plan == found.in_space
+    return found.in_plan
 
 
 def test_map_with_all_segments_explains_them() -> None:
     assert share(SEEN, SEEN + SHIFT) == 1.0
 
 
-def test_share_by_hand() -> None:
+def test_shares_by_hand() -> None:
     there = np.array(
         [
             [0.5, 0, 0],  # the first segment, from another viewpoint
             [0.0, 0.9, 0],  # a second view of it
             [10, 1.1, 0],  # too far from the second segment to be the same
-            [20, 0, 3],  # above the third one
-            [30, 0, 0.2],  # the fourth one
+            [20, 0, 3],  # the third one, which the map's sensor saw up to its top
+            [30, 0.8, 0.2],  # the fourth one in space, but too far in plan
         ]
     )
-    assert share(SEEN, there + SHIFT) == 2 / 4
+    assert shares(SEEN, there + SHIFT) == ExplainedShares(in_plan=2 / 4, in_space=2 / 4)
+    assert shares(SEEN[2:3], there + SHIFT) == ExplainedShares(in_plan=1.0, in_space=0.0)
+    assert shares(SEEN[3:], there + SHIFT) == ExplainedShares(in_plan=0.0, in_space=1.0)
 
 
 def test_share_of_poses_beside_is_subtracted() -> None:
