@@ -3,12 +3,13 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { render } from "preact";
 import { useEffect } from "preact/hooks";
-import { connected, dismiss, key, messages, needsKey, signOut, tab, type Tab } from "./state/store";
+import { connected, dismiss, key, messages, needsKey, selection, signOut, tab, type Tab } from "./state/store";
 import { KeyDialog } from "./views/key";
 import { Locate } from "./views/locate";
 import { Maps, takeFile, upload, UploadDialog } from "./views/maps";
 import { Button } from "./views/parts";
 import { RobotDrawer, Robots } from "./views/robots";
+import { SegmentCard } from "./views/segment";
 import { Service } from "./views/service";
 import { Stage } from "./views/stage";
 
@@ -45,6 +46,7 @@ function App() {
       </nav>
       <main class="panel"><Panel /></main>
       <Stage />
+      {selection.value && <SegmentCard />}
       <RobotDrawer />
       <div class="messages" aria-live="assertive">
         {messages.value.map((message) => (

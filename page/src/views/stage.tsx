@@ -4,10 +4,9 @@ import { COLOR_NAMES, type ColorBy } from "../scene/coloring";
 import { View } from "../scene/scene";
 import {
   above, anchors, colorBy, current, hiddenKinds, legend, measured, measuring, open, picture, recolor, scene,
-  select, selectId, selection, showPaths, start,
+  select, selectId, showPaths, start,
 } from "../state/store";
 import { Button, count, meters } from "./parts";
-import { SegmentCard } from "./segment";
 import { toWgs84 } from "./geo";
 
 export function Stage() {
@@ -44,7 +43,6 @@ export function Stage() {
       <Legend />
       <Compass />
       <Scale pointer={pointer} />
-      {selection.value && <SegmentCard />}
       {!open.value.size && <p class="empty">Open a map to see it here, or drop a map file or a scan on this page.</p>}
     </section>
   );
