@@ -1,13 +1,12 @@
 """Local map: accumulated scans in a voxel grid (paper III-A, as in SegMatch)."""
 
-from collections import OrderedDict
-
 import numpy as np
 
 from placecell.core.parameters import Parameters
 from placecell.core.segments import means_by_key
 from placecell.core.types import Float32, Float64
 from placecell.datasets import Drive
+from placecell.segmentation.voxel_map import VoxelMap
 
 
 def in_range(points: Float32, parameters: Parameters) -> Float32:
@@ -39,14 +38,18 @@ def voxel_means(points: Float32, voxel: float) -> Float32:
 class Accumulator:
     """Accumulator of scans into local maps of a drive's captures.
 
-    Each scan is read and transformed to the world frame once. Scans before `first` are not used.
+    Each scan is read and transformed to the world frame once, if captures ascend. Scans before
+    `first` are not used.
     """
 
     def __init__(self, drive: Drive, parameters: Parameters, first: int = 0) -> None:
         self.drive = drive
         self.parameters = parameters
         self.first = first
-        self._moved: OrderedDict[int, Float32] = OrderedDict()
+        self._map = VoxelMap(
+            parameters.map_voxel, parameters.local_map_radius, parameters.accumulated_scans
+        )
+        self._next = first
 
     def local_map(self, capture: int) -> Float32:
         """Return the local map at a capture, float32 (n, 3), meters, world frame.
@@ -55,20 +58,15 @@ class Accumulator:
             capture: index of the capture's scan.
         """
         first = max(self.first, capture - self.parameters.accumulated_scans + 1)
-        scans = [self._in_world(index) for index in range(first, capture + 1)]
-        points = np.concatenate(scans)
-        sensor = self.drive.poses[capture, :3, 3]
-        offset = points[:, :2] - sensor[:2].astype(np.float32)
-        near = np.einsum("ij,ij->i", offset, offset) <= self.parameters.local_map_radius**2
-        return voxel_means(points[near], self.parameters.map_voxel)
-
-    def _in_world(self, index: int) -> Float32:
-        if index not in self._moved:
-            points = in_range(self.drive.scan(index), self.parameters)
-            self._moved[index] = transform(self.drive.poses[index], points)
-            while len(self._moved) > self.parameters.accumulated_scans:
-                self._moved.popitem(last=False)
-        return self._moved[index]
+        if not first <= self._next <= capture + 1:
+            self._map.clear()
+            self._next = first
+        while self._next <= capture:
+            pose = self.drive.poses[self._next]
+            points = in_range(self.drive.scan(self._next), self.parameters)
+            self._map.add(transform(pose, points), pose[:3, 3])
+            self._next += 1
+        return self._map.means.copy()
 
 
 def transform(pose: Float64, points: Float32) -> Float32:

@@ -12,7 +12,7 @@ from placecell.datasets import Drive
 from placecell.descriptors.voxels import voxelize
 from placecell.segmentation.ceiling import is_overhead
 from placecell.segmentation.deduplication import keep_distinct
-from placecell.segmentation.ground import is_ground
+from placecell.segmentation.ground import HeightGrid, is_ground
 from placecell.segmentation.grouping import Grouper
 from placecell.segmentation.local_map import Accumulator
 from placecell.segmentation.recording import Recording
@@ -46,10 +46,21 @@ def segment_rows(local_map: Float32, parameters: Parameters) -> tuple[list[Int64
         local_map: float32 (n, 3), meters, world frame.
         parameters: parameters of ground removal, ceiling removal and region growing.
     """
-    ground = is_ground(local_map, parameters)
-    objects = np.flatnonzero(~(ground | is_overhead(local_map, parameters)))
+    ground, overhead = ground_and_overhead(local_map, parameters)
+    objects = np.flatnonzero(~(ground | overhead))
     regions = segment_indices(local_map[objects], parameters)
     return [objects[indices] for indices in regions], ground
+
+
+def ground_and_overhead(local_map: Float32, parameters: Parameters) -> tuple[Bool, Bool]:
+    """Return whether each point of a local map is ground, and whether it is overhead, bool (n,).
+
+    Args:
+        local_map: float32 (n, 3), meters, world frame.
+        parameters: parameters of ground removal and ceiling removal.
+    """
+    grid = HeightGrid.of(local_map, parameters) if len(local_map) else None
+    return is_ground(local_map, parameters, grid), is_overhead(local_map, parameters, grid)
 
 
 def segment_captures(

@@ -1,6 +1,13 @@
 """Incremental segmentation of a robot's local map, scan by scan.
 
-The segments are those of the batch pipeline (`placecell.segmentation.pipeline`) on the same scans.
+Tolerance: the segments equal those of the batch pipeline on the same scans, bit for bit, because
+both run the same steps (`placecell.segmentation.pipeline`). There are two exceptions. The local map
+begins anew where the odometry jumps by 1 km or more, and the coordinates are computed relative to
+the first position if that is 10 km or more from the origin: float32 would be too coarse.
+
+What is updated and what is computed anew: the voxel map is updated by each scan. The ground and the
+regions are computed from all of its voxels, because a scan of a turning LiDAR changes nearly all
+surfaces around, and finding what did not change takes longer than the computation.
 """
 
 from collections import deque
@@ -11,25 +18,39 @@ from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Float64, Int64
 from placecell.segmentation.incremental.live_segments import LiveSegments
-from placecell.segmentation.incremental.tracks import Track, persistent_ids
-from placecell.segmentation.local_map import in_range, transform, voxel_means
-from placecell.segmentation.pipeline import segment_map
+from placecell.segmentation.incremental.tracks import (
+    Track,
+    label_voxels,
+    persistent_ids,
+    shared_voxels,
+)
+from placecell.segmentation.local_map import in_range, transform
+from placecell.segmentation.pipeline import ground_and_overhead
+from placecell.segmentation.region_growing import Regions, find_regions
+from placecell.segmentation.voxel_map import JUMP, VoxelMap
 
 LARGEST_WAITING = 1000
 """Largest number of ended segments whose best views wait for `take_final_views`."""
+
+FAR = 10_000.0
+"""Distance of the first position from the origin, meters, from which coordinates are shifted."""
 
 
 class IncrementalSegmentation:
     """Segments of a local map that is updated scan by scan.
 
     The local map holds the points of the last `accumulated_scans` scans within `local_map_radius`
-    of the sensor.
+    of the sensor. The memory depends on these scans only, not on the length of the drive.
     """
 
     def __init__(self, parameters: Parameters = PROTOCOL_V1) -> None:
         self.parameters = parameters
+        self._map = VoxelMap(
+            parameters.map_voxel, parameters.local_map_radius, parameters.accumulated_scans
+        )
         self._next_id = 0
         self._scan = -1
+        self._final = deque[tuple[int, Track, bool]](maxlen=LARGEST_WAITING)
         self.reset()
 
     def reset(self) -> None:
@@ -37,12 +58,17 @@ class IncrementalSegmentation:
 
         Ids and scan numbers continue, so an id stays unique.
         """
-        self._moved: deque[Float32] = deque(maxlen=self.parameters.accumulated_scans)
+        self._map.clear()
+        self._shift: Float64 | None = None
         self._sensor = np.zeros(3)
         self._tracks: dict[int, Track] = {}
-        self._keys = np.zeros(0, dtype=np.int64)
-        self._owners = np.zeros(0, dtype=np.int64)
-        self._final = deque[tuple[int, Track]](maxlen=LARGEST_WAITING)
+        self._ids = np.zeros(0, dtype=np.int64)  # of the voxels' labels
+        self._final.clear()
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the local map, bytes."""
+        return self._map.nbytes
 
     def add(self, points: Float32, pose: Float64) -> None:
         """Add the next scan to the local map.
@@ -50,100 +76,136 @@ class IncrementalSegmentation:
         Args:
             points: float32 (n, 3), meters, finite, sensor frame, deskewed.
             pose: float64 (4, 4), sensor to odometry frame (z up).
+
+        Raises:
+            ValueError: The pose is not a finite matrix of 4 by 4.
         """
+        if np.shape(pose) != (4, 4) or not np.isfinite(pose).all():
+            raise ValueError(
+                f"Invalid pose of shape {np.shape(pose)}: expected a finite 4 x 4 matrix. "
+                "Skip the scan, or repeat the last pose"
+            )
+        sensor = np.asarray(pose[:3, 3], dtype=np.float64)
+        if self._shift is None or np.abs(sensor - self._sensor).max() > JUMP:
+            self._shift = np.round(sensor) if np.abs(sensor).max() > FAR else np.zeros(3)
+            self._map.clear()
         self._scan += 1
-        self._moved.append(transform(pose, in_range(points, self.parameters)))
-        self._sensor = np.asarray(pose[:3, 3], dtype=np.float64)
+        self._sensor = sensor
+        near = np.array(pose, dtype=np.float64)
+        near[:3, 3] -= self._shift
+        self._map.add(transform(near, in_range(points, self.parameters)), near[:3, 3])
 
     def segments(self) -> LiveSegments:
         """Return the segments of the local map at the last scan."""
-        local_map = self._local_map()
-        clouds = segment_map(local_map, self.parameters)
-        segments = Segments.of(clouds, np.tile(self._sensor, (len(clouds), 1)))
-        ids = self._track(segments)
-        clear = self._is_clear(segments)
-        self._keep_best(segments, ids, clear)
-        settled = np.array([self._is_settled(self._tracks[each]) for each in ids.tolist()], bool)
-        scans = np.full(len(ids), self._scan, dtype=np.int64)
-        return LiveSegments(segments, ids, clear & settled, scans)
+        rows = self.objects()
+        return self.follow(rows, self.regions(rows))
 
-    def _local_map(self) -> Float32:
-        if not self._moved:
-            return np.zeros((0, 3), dtype=np.float32)
-        points = np.concatenate(list(self._moved))
-        offset = points[:, :2] - self._sensor[:2].astype(np.float32)
-        near = np.einsum("ij,ij->i", offset, offset) <= self.parameters.local_map_radius**2
-        return voxel_means(points[near], self.parameters.map_voxel)
+    def objects(self) -> Int64:
+        """Return the voxels of the local map that are neither ground nor overhead, int64 (n,)."""
+        ground, overhead = ground_and_overhead(self._map.means, self.parameters)
+        return np.flatnonzero(~(ground | overhead))
 
-    def _track(self, segments: Segments) -> Int64:
-        cells = np.floor(segments.points / self.parameters.map_voxel).astype(np.int64)
-        keys = ((cells[:, 0] << 42) ^ (cells[:, 1] << 21)) ^ (cells[:, 2] & ((1 << 21) - 1))
-        place = np.searchsorted(self._keys, keys)
-        known = place < len(self._keys)
-        known[known] = self._keys[place[known]] == keys[known]
-        pairs = np.stack([segments.owners[known], self._owners[place[known]]], axis=1)
-        distinct, shared = np.unique(pairs.reshape(-1, 2), axis=0, return_counts=True)
+    def regions(self, objects: Int64) -> Regions:
+        """Return the regions of these voxels of the local map."""
+        return find_regions(self._map.means[objects], self.parameters.growing_radius)
+
+    def follow(self, objects: Int64, regions: Regions) -> LiveSegments:
+        """Assign ids to regions and return those within the size limits.
+
+        Args:
+            objects: int64 (n,), voxels of the local map (see `objects`).
+            regions: regions of these voxels.
+        """
+        # Smaller regions have ids too: a segment keeps its id while it is too small for a moment.
+        followed = np.flatnonzero(regions.counts >= max(1, self.parameters.min_points // 2))
+        voxels = regions.take(followed)
+        rows, counts = objects[voxels], regions.counts[followed]
+        ends = np.cumsum(counts)
         ids, self._next_id = persistent_ids(
-            shared, distinct[:, 0], distinct[:, 1], len(segments), self._next_id
+            *shared_voxels(self._map.labels[rows], ends, len(self._ids)),
+            self._ids,
+            len(followed),
+            self._next_id,
         )
-        order = np.argsort(keys, kind="stable")
-        self._keys, self._owners = keys[order], ids[segments.owners][order]
-        return ids
-
-    def _is_clear(self, segments: Segments) -> Bool:
-        """Return whether each segment is clear of the local map's border, bool (segments,)."""
-        if not len(segments):
-            return np.zeros(0, dtype=bool)
-        offset = segments.points[:, :2] - self._sensor[:2].astype(np.float32)
-        farthest = np.maximum.reduceat(np.hypot(offset[:, 0], offset[:, 1]), segments.starts)
-        margin = self.parameters.growing_radius + self.parameters.map_voxel
-        return np.asarray(farthest < self.parameters.local_map_radius - margin)
-
-    def _keep_best(self, segments: Segments, ids: Int64, clear: Bool) -> None:
-        kept = {}
-        for index, (identity, is_clear) in enumerate(
-            zip(ids.tolist(), clear.tolist(), strict=True)
-        ):
-            track = self._tracks.get(identity)
-            voxels = int(segments.counts[index])
-            if track is None or track.is_improved_by(voxels, is_clear):
-                track = Track(
-                    voxels,
-                    is_clear,
-                    self._scan,
-                    self._sensor.astype(np.float32),
-                    segments.cloud(index).copy(),
-                )
-            kept[identity] = track
-        for identity, track in self._tracks.items():
-            if identity not in kept and not track.reported:
-                self._final.append((identity, track))
-        self._tracks = kept
-
-    def _is_settled(self, track: Track) -> bool:
-        return self._scan - track.scan >= self.parameters.accumulated_scans
+        label_voxels(self._map.labels, rows, ends)
+        self._ids = ids
+        wanted = counts <= self.parameters.max_points
+        wanted &= counts >= self.parameters.min_points
+        chosen = np.flatnonzero(wanted)
+        points = self._map.means[rows[np.repeat(wanted, counts)]]
+        clear = self._is_clear(points, counts[chosen])
+        if self._shift is not None and self._shift.any():
+            points = (points + self._shift).astype(np.float32)
+        segments = Segments(
+            points,
+            np.cumsum(counts[chosen], dtype=np.int64),
+            np.tile(self._sensor.astype(np.float32), (len(chosen), 1)),
+        )
+        self._keep_best(segments, ids[chosen], clear)
+        return LiveSegments(
+            segments,
+            ids[chosen],
+            clear & self._are_complete(ids[chosen]),
+            np.full(len(chosen), self._scan, dtype=np.int64),
+        )
 
     def take_final_views(self) -> LiveSegments:
         """Return each best view that became final since the last call.
 
         The best view of a segment is the one with the most voxels, among those that are clear of
         the local map's border if there are any. It is final when it was not replaced for
-        `accumulated_scans` scans (then it is complete if it is clear of the border), or when its
+        `accumulated_scans` scans and is clear of the border (then it is complete), or when its
         segment was not found again. If a segment grows later, its next best view is returned under
-        the same id, in place of the former one.
+        the same id, in place of the former one. At most the last 1,000 views wait for the call.
         """
         final = list(self._final)
         self._final.clear()
         for identity, track in self._tracks.items():
-            if not track.reported and track.clear and self._is_settled(track):
+            if not track.reported and self._is_complete(track):
                 track.reported = True
-                final.append((identity, track))
+                final.append((identity, track, True))
         return LiveSegments(
             Segments.of(
-                [track.points for _, track in final],
-                np.array([track.sensor for _, track in final]),
+                [track.points for _, track, _ in final],
+                np.array([track.sensor for _, track, _ in final]),
             ),
-            np.array([identity for identity, _ in final], dtype=np.int64),
-            np.array([track.clear and self._is_settled(track) for _, track in final], dtype=bool),
-            np.array([track.scan for _, track in final], dtype=np.int64),
+            np.array([identity for identity, _, _ in final], dtype=np.int64),
+            np.array([complete for _, _, complete in final], dtype=bool),
+            np.array([track.scan for _, track, _ in final], dtype=np.int64),
         )
+
+    def _is_clear(self, points: Float32, counts: Int64) -> Bool:
+        """Return whether each segment is clear of the local map's border, bool (segments,)."""
+        if not len(counts):
+            return np.zeros(0, dtype=bool)
+        shift = np.zeros(3) if self._shift is None else self._shift
+        offset = points[:, :2] - (self._sensor - shift)[:2].astype(np.float32)
+        squared = np.einsum("ij,ij->i", offset, offset)
+        farthest = np.maximum.reduceat(squared, np.cumsum(counts) - counts)
+        margin = self.parameters.growing_radius + self.parameters.map_voxel
+        return np.asarray(farthest < (self.parameters.local_map_radius - margin) ** 2)
+
+    def _keep_best(self, segments: Segments, ids: Int64, clear: Bool) -> None:
+        """Replace the best views by better ones, and end the tracks whose ids ended."""
+        sensor = self._sensor.astype(np.float32)
+        for index, (identity, is_clear) in enumerate(
+            zip(ids.tolist(), clear.tolist(), strict=True)
+        ):
+            track = self._tracks.get(identity)
+            voxels = int(segments.counts[index])
+            if track is None or track.is_improved_by(voxels, is_clear):
+                self._tracks[identity] = Track(
+                    voxels, is_clear, self._scan, sensor, segments.cloud(index).copy()
+                )
+        alive = set(self._ids.tolist())
+        for identity in [each for each in self._tracks if each not in alive]:
+            track = self._tracks.pop(identity)
+            if not track.reported:
+                self._final.append((identity, track, self._is_complete(track)))
+
+    def _are_complete(self, ids: Int64) -> Bool:
+        return np.array([self._is_complete(self._tracks[each]) for each in ids.tolist()], bool)
+
+    def _is_complete(self, track: Track) -> bool:
+        """Return whether a best view is final: clear of the border, and not replaced for long."""
+        return track.clear and self._scan - track.scan >= self.parameters.accumulated_scans
