@@ -18,6 +18,14 @@ Every = Annotated[
         min=1, help="Scans per capture. (default: 2; 1 for drives of fewer than 100 scans)"
     ),
 ]
+Segmentation = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME",
+        help="Segmentation protocol: v1, or sparse for few points in a local map (16 beams and few "
+        "scans, or a narrow view).",
+    ),
+]
 Model = Annotated[
     str | None,
     typer.Option(help="Model name or folder. (default: the service's default model)"),

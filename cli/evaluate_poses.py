@@ -2,17 +2,20 @@
 
 import json
 import tempfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from cli.common_options import Every, Model
-from cli.sources import clear_errors, parse_town, show
+from cli.sources import clear_errors, parse_town, protocol_named, show
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
 if TYPE_CHECKING:
     from evaluation.poses.queries import Pair
+    from placecell.core.parameters import Parameters
 
 TOWN = "Simulated drives (town:SEED)"
 
@@ -34,6 +37,15 @@ def evaluate_poses(
     ] = None,
     model: Model = None,
     every: Every = None,
+    segmentation: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Segmentation protocol of both drives: v1; sparse, for few points in a local map; "
+            "or auto: sparse if a capture has fewer than 30 segments by v1 (median of either "
+            "drive); v1 with recordings and with town:SEED.",
+        ),
+    ] = "auto",
     k: Annotated[int, typer.Option(min=1, help="Number of candidates per segment.")] = 25,
     motion: Annotated[
         str,
@@ -143,20 +155,22 @@ def evaluate_poses(
             raise ValueError(f"Invalid --motion {motion!r}: expected yaw or se3.")
         recordings = (map_recording, query_recording)
         simulated = (map_sensor, query_sensor, place, scans, cache)
-        if str(map_drive).startswith("town:"):
+        is_town = str(map_drive).startswith("town:")
+        if is_town:
             if query_drive or any(recordings):
                 raise ValueError(
                     f"{map_drive} is both drives. Omit QUERY_DRIVE, --map-recording and "
                     "--query-recording."
                 )
-            pair = pair_of_town(str(map_drive), every, *simulated)
+            made = partial(pair_of_town, str(map_drive), every, *simulated)
         elif any(value is not None for value in simulated):
             raise ValueError(
                 "--map-sensor, --query-sensor, --place, --scans and --cache need a simulated "
                 "drive. Give town:SEED as MAP_DRIVE."
             )
         else:
-            pair = Pair.of(map_drive, query_drive, every, recordings, show)
+            made = partial(Pair.of, map_drive, query_drive, every, recordings, show)
+        pair = segmented(made, segmentation, can_change=not (is_town or any(recordings)))
         parameters = LocalizationParameters(
             model="se3" if motion == "se3" else "yaw", max_false_acceptance=max_false_acceptance
         )
@@ -171,6 +185,32 @@ def evaluate_poses(
     print_report(report)
 
 
+def segmented(made: "Callable[..., Pair]", name: str, can_change: bool) -> "Pair":
+    """Return a pair of drives that are segmented by a protocol.
+
+    Args:
+        made: function of the keyword `protocol` that makes the pair.
+        name: name of the protocol; `auto` for the one that suits both drives.
+        can_change: whether `auto` may select another protocol than v1.
+
+    Raises:
+        ValueError: there is no such protocol.
+    """
+    from placecell.core.parameters import PROTOCOL_SPARSE, PROTOCOL_V1
+    from placecell.segmentation.protocol_choice import is_sparse
+
+    if name != "auto":
+        return made(protocol=protocol_named(name))
+    pair = made(protocol=PROTOCOL_V1)
+    if can_change and any(is_sparse(robot.recordings) for robot in (pair.mapper, pair.asker)):
+        typer.echo(
+            "A capture has few segments by protocol v1, so protocol sparse is used. "
+            "'--segmentation v1' keeps v1."
+        )
+        return made(protocol=PROTOCOL_SPARSE)
+    return pair
+
+
 def pair_of_town(
     text: str,
     every: int | None,
@@ -179,6 +219,7 @@ def pair_of_town(
     place: str | None,
     scans: int | None,
     cache: Path | None,
+    protocol: "Parameters",
 ) -> "Pair":
     """Simulate the robots of town:SEED:SENSOR:PLACE, or read them from the cache.
 
@@ -190,7 +231,9 @@ def pair_of_town(
     seed, sensor, named = parse_town(text)
     mapping = map_sensor or sensor
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drives = TownDrives(cache or Path(folder), seed, place or named, scans or SCANS, every)
+        drives = TownDrives(
+            cache or Path(folder), seed, place or named, scans or SCANS, every, protocol
+        )
         return drives.pair(mapping, query_sensor or mapping, show)
 
 

@@ -5,8 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
-from cli.common_options import Every
-from cli.sources import clear_errors, load
+from cli.common_options import Every, Segmentation
+from cli.sources import clear_errors, load, protocol_named
 from cli.tables import JsonFile, write_json
 
 
@@ -23,18 +23,21 @@ def prepare(
         typer.Option("--output", "-o", help="Folder for the recordings, NAME.safetensors each."),
     ] = Path("data"),
     every: Every = None,
+    segmentation: Segmentation = "v1",
     json_file: JsonFile = None,
 ) -> None:
     """Segment drives, group the segments over time, and write one recording per drive."""
     rows: list[dict[str, Any]] = []
     with clear_errors():
+        protocol = protocol_named(segmentation)
         for folder in drives:
-            recording = load(folder, every)
+            recording = load(folder, every, protocol)
             file = output / f"{recording.name}.safetensors"
             recording.save(file)
             row: dict[str, Any] = {
                 "file": str(file),
                 "drive": recording.name,
+                "protocol": recording.parameters.protocol,
                 "scans": recording.scans,
                 "skipped_scans": len(recording.skipped_scans),
                 "dropped_points": recording.dropped_points,

@@ -13,6 +13,7 @@ from cli.tables import show
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from placecell.core.parameters import Parameters
     from placecell.datasets import Drive
     from placecell.segmentation.recording import Recording
     from training.data.training_set import Source
@@ -51,8 +52,30 @@ def parse_scans(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def load(path: Path, every: int | None = None) -> "Recording":
-    """Load a recording file, or segment a drive: a folder or a file, told by its content."""
+def protocol_named(name: str) -> "Parameters":
+    """Return the parameters of a segmentation protocol.
+
+    Raises:
+        ValueError: there is no such protocol.
+    """
+    from placecell.core.parameters import PROTOCOLS
+
+    if name not in PROTOCOLS:
+        raise ValueError(f"Invalid --segmentation {name!r}: expected {' or '.join(PROTOCOLS)}.")
+    return PROTOCOLS[name]
+
+
+def load(path: Path, every: int | None = None, protocol: "Parameters | None" = None) -> "Recording":
+    """Load a recording file, or segment a drive: a folder or a file, told by its content.
+
+    Args:
+        path: the file or the folder.
+        every: scans from one capture to the next, as `Parameters.for_drive`.
+        protocol: parameters of the segmentation; None for protocol v1, or those of the recording.
+
+    Raises:
+        ValueError: the recording has other parameters, or the drive has no segments.
+    """
     from placecell.core.parameters import PROTOCOL_V1
     from placecell.datasets import open_drive
     from placecell.segmentation.pipeline import record
@@ -65,9 +88,16 @@ def load(path: Path, every: int | None = None) -> "Recording":
             raise ValueError(
                 f"{path} was prepared with --every {step}, not {every}; prepare the drive again"
             )
+        own = recording.parameters.protocol
+        if protocol is not None and protocol.protocol != own:
+            raise ValueError(
+                f"{path} was prepared with --segmentation {own}, not {protocol.protocol}. Prepare "
+                "the drive again."
+            )
         return recording
     drive = open_drive(path)
-    recording = record(drive, PROTOCOL_V1.for_drive(len(drive), every), progress=show)
+    parameters = (protocol or PROTOCOL_V1).for_drive(len(drive), every)
+    recording = record(drive, parameters, progress=show)
     refuse_nothing(drive, [recording])
     return recording
 

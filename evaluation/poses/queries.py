@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from evaluation.poses.recordings import recording_of
 from evaluation.poses.robot import Robot, clouds
 from evaluation.poses.robots import robots_of_drive
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
 from placecell.datasets import Drive, open_drive
@@ -99,6 +100,7 @@ class Pair:
         every: int | None = None,
         prepared: tuple[Path | None, Path | None] = (None, None),
         progress: Progress = silent,
+        protocol: Parameters = PROTOCOL_V1,
     ) -> Self:
         """Make the robots from two drives of a town, or from alternate blocks of one drive.
 
@@ -108,6 +110,7 @@ class Pair:
             every: scans from one capture to the next, as `Parameters.for_drive`.
             prepared: recording of each drive; None: segment the drive.
             progress: wraps the loops.
+            protocol: parameters of the segmentation.
 
         Raises:
             ValueError: the drives have no common frame, a drive is too short for a second block,
@@ -119,13 +122,13 @@ class Pair:
                     "A recording holds a whole drive, but this drive is split into blocks. Omit "
                     "the recording."
                 )
-            mapper, asker = robots_of_drive(map_folder, progress, every)
+            mapper, asker = robots_of_drive(map_folder, progress, every, protocol)
             return cls(mapper, asker, blocks=True)
         drives = [open_drive(folder) for folder in (map_folder, query_folder)]
         frames = [to_common(drive) for drive in drives]
         robots = []
         for drive, frame, file in zip(drives, frames, prepared, strict=True):
-            recording = recording_of(drive, every, file, progress)
+            recording = recording_of(drive, every, file, progress, protocol)
             robots.append(Robot(drive.title, drive, [recording], frame))
         return cls(robots[0], robots[1], blocks=False)
 

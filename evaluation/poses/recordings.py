@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.datasets import Drive
 from placecell.segmentation.pipeline import Progress, record, silent
 from placecell.segmentation.recording import Recording
@@ -15,28 +15,32 @@ def recording_of(
     every: int | None = None,
     prepared: Path | None = None,
     progress: Progress = silent,
+    protocol: Parameters = PROTOCOL_V1,
 ) -> Recording:
-    """Return the segments of a drive by protocol v1.
+    """Return the segments of a drive by a protocol.
 
     Args:
         drive: the drive.
         every: scans from one capture to the next, as `Parameters.for_drive`.
         prepared: file of `placecell prepare`; None: segment the drive now.
         progress: wraps the loop.
+        protocol: parameters of the segmentation.
 
     Raises:
         ValueError: the prepared file is of another drive or has other parameters.
     """
-    parameters = PROTOCOL_V1.for_drive(len(drive), every)
+    parameters = protocol.for_drive(len(drive), every)
     if prepared is None:
         return record(drive, parameters, progress=progress)
     recording = Recording.load(prepared)
     if not is_of(recording, drive):
         raise ValueError(f"{prepared} is not a recording of {drive.folder}. Prepare this drive.")
     if recording.parameters != parameters:
+        own = recording.parameters
         raise ValueError(
-            f"{prepared} has other parameters than protocol {parameters.protocol} with --every "
-            f"{parameters.frame_step}. Prepare the drive again."
+            f"{prepared} has other parameters (protocol {own.protocol}, --every {own.frame_step}) "
+            f"than protocol {parameters.protocol} with --every {parameters.frame_step}. Prepare "
+            "the drive again, or give its protocol with --segmentation."
         )
     return recording
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from evaluation.poses.robot import Robot
-from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.datasets import open_drive
 from placecell.localization import Pose
@@ -31,7 +31,10 @@ def robots_of_town(folder: Path, seed: int, scans: int, progress: Progress) -> t
 
 
 def robots_of_drive(
-    folder: Path, progress: Progress, every: int | None = None
+    folder: Path,
+    progress: Progress,
+    every: int | None = None,
+    protocol: Parameters = PROTOCOL_V1,
 ) -> tuple[Robot, Robot]:
     """Split one drive into two robots: odd blocks make the map, even blocks the queries.
 
@@ -39,6 +42,7 @@ def robots_of_drive(
         folder: folder of the drive.
         progress: wraps the loops.
         every: scans from one capture to the next, as `Parameters.for_drive`.
+        protocol: parameters of the segmentation.
 
     Raises:
         ValueError: the drive is too short for a second block.
@@ -49,7 +53,7 @@ def robots_of_drive(
         raise ValueError(
             f"{folder}: the drive is too short for a second block. Use a longer drive."
         )
-    parameters = parameters_of(odd + even, PROTOCOL_V1.for_drive(len(drive), every))
+    parameters = parameters_of(odd + even, protocol.for_drive(len(drive), every))
 
     def robot(name: str, blocks: Sequence[range]) -> Robot:
         recordings = [record(drive, parameters, block, progress) for block in blocks]

@@ -12,7 +12,7 @@ import numpy as np
 
 from evaluation.poses.queries import Pair
 from evaluation.poses.robot import Robot
-from placecell.core.parameters import PROTOCOL_V1
+from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.types import Float64
 from placecell.datasets import open_drive
 from placecell.segmentation.pipeline import Progress, record, silent
@@ -66,6 +66,7 @@ class TownDrives:
         place: name of the place.
         scans: number of scans of each drive.
         every: scans from one capture to the next, as `Parameters.for_drive`.
+        protocol: parameters of the segmentation.
     """
 
     cache: Path
@@ -73,6 +74,7 @@ class TownDrives:
     place: str = "streets"
     scans: int = SCANS
     every: int | None = None
+    protocol: Parameters = PROTOCOL_V1
 
     def pair(self, map_sensor: str, query_sensor: str, progress: Progress = silent) -> Pair:
         """Return robot A with the map's sensor, and robot B with the queries' sensor.
@@ -146,7 +148,9 @@ class TownDrives:
         from town import read_origin
 
         drive = open_drive(folder)
-        recording = record(drive, PROTOCOL_V1.for_drive(len(drive), self.every), progress=progress)
+        recording = record(
+            drive, self.protocol.for_drive(len(drive), self.every), progress=progress
+        )
         to = self._folder(name, sensor)
         to.parent.mkdir(parents=True, exist_ok=True)
         # Each file appears whole, and the path last, so that a stopped run leaves no half drive.
@@ -162,10 +166,12 @@ class TownDrives:
     @property
     def step(self) -> int:
         """Scans from one capture to the next."""
-        return PROTOCOL_V1.for_drive(self.scans, self.every).frame_step
+        return self.protocol.for_drive(self.scans, self.every).frame_step
 
     def _folder(self, name: Name, sensor: str) -> Path:
         drives = f"{self.place}-{self.seed}-{self.scans}-every-{self.step}"
+        if self.protocol != PROTOCOL_V1:
+            drives += f"-{self.protocol.protocol}"
         return self.cache / drives / f"{sensor}-{name}"
 
     def _recording_file(self, name: Name, sensor: str) -> Path:

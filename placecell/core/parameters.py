@@ -1,7 +1,8 @@
 """Parameters of the pipeline from scans to the network's input, named as in the paper.
 
 The defaults are protocol v1, the protocol under which recognition is measured. A result carries the
-protocol's name, so results of different protocols are not compared by mistake.
+protocol's name, so results of different protocols are not compared by mistake. Protocol `sparse` is
+for drives in which v1 finds few segments.
 """
 
 from dataclasses import asdict, dataclass, replace
@@ -120,6 +121,14 @@ class Parameters:
 
 
 PROTOCOL_V1 = Parameters()
+
+PROTOCOL_SPARSE = Parameters(protocol="sparse", growing_radius=0.5, min_points=20)
+"""Parameters for local maps of few points: a few scans of 16 beams, or a narrow view. A wider
+growing radius links the returns of neighboring beams, and few points make a segment. Chosen on
+simulated drives (docs/results/localization.md)."""
+
+PROTOCOLS = {each.protocol: each for each in (PROTOCOL_V1, PROTOCOL_SPARSE)}
+"""Protocols by name."""
 
 
 @dataclass(frozen=True, slots=True)
