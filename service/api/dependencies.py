@@ -94,10 +94,12 @@ class MapWrite:
     timing: Timing
 
     @asynccontextmanager
-    async def receive(self, lane: Lane, media_types: Collection[str]) -> AsyncIterator[bytes]:
-        """Check the key's scope, enter a lane and receive the body."""
+    async def receive(
+        self, lane: Lane, media_types: Collection[str], body_bytes: int | None = None
+    ) -> AsyncIterator[bytes]:
+        """Check the key's scope, enter a lane and receive the body; see `Lane.admit`."""
         self.principal.check_write(self.name)
-        async with lane.admit(self.request, media_types, self.timing) as body:
+        async with lane.admit(self.request, media_types, self.timing, body_bytes) as body:
             yield body.content
 
     @asynccontextmanager

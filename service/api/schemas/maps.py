@@ -99,6 +99,14 @@ class IdsOut(BaseModel):
     count: int
 
 
+class AddedScanOut(WrittenOut):
+    """Result of adding a scan to a map."""
+
+    ids: list[int] = Field(description="Ids of the added segments, in the order of the scan.")
+    unusable: int = Field(description="Number of segments that the model cannot describe.")
+    problems: list[str] = Field(description="Oddities of the scan, and the assumptions made.")
+
+
 class VersionOut(BaseModel):
     """Version of a map."""
 
