@@ -115,6 +115,12 @@ def rows(found: "Inspection", facts: dict[str, object]) -> "list[tuple[str, str]
         else:
             listed.append(("sensor height", f"{ground.height:.2f} m above the ground"))
             listed.append(("tilt", f"{ground.tilt_deg:.1f} degrees"))
+    if found.imu is not None:
+        gravity = found.imu.gravity
+        told = found.imu.reason if gravity is None else f"tilt of {gravity.tilt_deg:.1f} degrees"
+        listed.append(("IMU", f"{found.imu.samples.topic}: {told}"))
+    if found.leveled_by:
+        listed.append(("odometry is leveled by", found.leveled_by))
     poses = found.subject.trajectory
     if poses is None:
         listed.append(("poses", "none"))

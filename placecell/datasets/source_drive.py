@@ -106,7 +106,7 @@ class SourceDrive(Drive):
             f"{self.folder}: the ground is tilted by {ground.tilt_deg:.0f} degrees in the world of "
             "the poses; the world is leveled by it"
         )
-        self.poses = leveling_of(ground) @ self.poses
+        self.poses = leveling_of(ground.up) @ self.poses
 
     def find_times(self) -> Float64:
         """Return the time of each scan, seconds; 0.1 s apart if nothing tells it."""

@@ -9,6 +9,7 @@ import numpy as np
 from placecell.inspection import pose_problems, scan_problems
 from placecell.inspection.clocks import Clock, read_clock
 from placecell.inspection.ground import SensorMount, find_mount
+from placecell.inspection.imu import SourceImu, imu_problems, read_source_imu
 from placecell.inspection.problem import Severity, SourceProblem
 from placecell.inspection.samples import RANGES, Progress, Samples, sample
 from placecell.inspection.subject import CLOUDS, Subject, open_subject
@@ -28,6 +29,7 @@ class Inspection:
         samples: facts on some scans.
         clock: times of the scans.
         mount: the sensor's height and tilt.
+        imu: the IMU of the source; None if it has none.
         problems: all problems, the worst first.
     """
 
@@ -35,12 +37,20 @@ class Inspection:
     samples: Samples
     clock: Clock
     mount: SensorMount
+    imu: SourceImu | None
     problems: tuple[SourceProblem, ...]
 
     @property
     def usable(self) -> bool:
         """Return whether Placecell can use the source."""
         return all(problem.severity != "error" for problem in self.problems)
+
+    @property
+    def leveled_by(self) -> str | None:
+        """What odometry is leveled by: `imu`, `ground`, or None."""
+        if self.imu is not None and self.imu.gravity is not None:
+            return "imu"
+        return None if self.mount.ground is None else "ground"
 
     def as_dict(self) -> dict[str, Any]:
         """Return the report as JSON values."""
@@ -67,6 +77,8 @@ class Inspection:
             "sensor_height_m": None if ground is None else round(ground.height, 3),
             "tilt_deg": None if ground is None else round(ground.tilt_deg, 2),
             "ground": self.mount.reason or None,
+            "imu": None if self.imu is None else self.imu.as_dict(),
+            "leveled_by": self.leveled_by,
             "up_axis": self.mount.up_axis or None,
             "view_deg": round(float(np.median([s.view_deg for s in scans])), 1) if scans else None,
             "ranges": ranges(self.samples),
@@ -158,6 +170,8 @@ def inspect_source(path: Path, scans: int = SCANS, progress: Progress = silent) 
     found += pose_problems.no_poses(subject)
     poses, odd = pose_problems.matched(subject)
     found += odd
+    imu = read_source_imu(subject, poses)
+    found += imu_problems(imu, mount)
     found += pose_problems.standing_poses(subject.trajectory)
     found += pose_problems.jumping_poses(subject.trajectory)
     found += pose_problems.world_not_level(mount, poses)
@@ -166,4 +180,4 @@ def inspect_source(path: Path, scans: int = SCANS, progress: Progress = silent) 
         severity: Severity = "warning" if "expected" in note.lower() else "info"
         found.append(SourceProblem.of(severity, note, "No action is needed if this is right."))
     found.sort(key=lambda problem: ORDER.index(problem.severity))
-    return Inspection(subject, samples, clock, mount, tuple(dict.fromkeys(found)))
+    return Inspection(subject, samples, clock, mount, imu, tuple(dict.fromkeys(found)))

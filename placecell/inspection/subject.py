@@ -13,6 +13,7 @@ from placecell.datasets.source_poses import given_poses
 from placecell.inspection.problem import SourceProblem
 from placecell.sources.catalog import open_source, source_class
 from placecell.sources.errors import DriveError
+from placecell.sources.imu import ImuSamples
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import (
     NO_ODOMETRY,
@@ -45,6 +46,7 @@ class Subject:
         transform: pose of the sensor on the robot, as text; "" if it does not matter.
         problems: what went wrong while the path was opened.
         notes: function that returns the reader's remarks.
+        imu: function that returns what an IMU measured between two stamps, or None.
         about: facts on a file that is no source, such as a recording.
     """
 
@@ -60,6 +62,7 @@ class Subject:
     transform: str = ""
     problems: Sequence[SourceProblem] = ()
     notes: Callable[[], Sequence[str]] = tuple
+    imu: Callable[[float, float], ImuSamples | None] = lambda first, last: None  # noqa: ARG005
     about: str = ""
 
 
@@ -193,6 +196,7 @@ def of_source(source: ScanSource) -> Subject:
         transform,
         problems,
         source.notes,
+        source.imu,
     )
 
 

@@ -75,13 +75,6 @@ class GroundPlane:
         """Angle between the sensor's z axis and up, degrees."""
         return float(np.degrees(np.arccos(np.clip(self.up[2], -1.0, 1.0))))
 
-    def leveling(self) -> Float64:
-        """Return the smallest rotation that turns `up` into the z axis, float64 (3, 3).
-
-        It leaves the heading of the sensor's x axis as it is, as far as a rotation can.
-        """
-        return rotation_between(self.up, np.array(UP))
-
 
 def find_ground(points: Float32, expected_up: Sequence[float] = UP) -> GroundPlane:
     """Find the ground in one scan.
@@ -244,7 +237,7 @@ def refine(cells: Float64, up: Float64, height: float) -> GroundPlane | str:
     if below > LARGEST_BELOW * count:
         return "many points lie below each plane"
     up, height = fit_plane(cells[free])
-    spread = np.sqrt(np.linalg.eigvalsh(np.cov(cells[free].T)))
+    spread = np.sqrt(np.maximum(np.linalg.eigvalsh(np.cov(cells[free].T)), 0.0))
     if spread[1] < NARROWEST:
         return "its points lie in one line"
     deviation = float(np.std(cells[free] @ up + height))

@@ -5,7 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from placecell.core.types import Float64
-from placecell.odometry.ground_plane import GroundPlane, NoGroundError, find_common_ground
+from placecell.odometry.ground_plane import (
+    UP,
+    GroundPlane,
+    NoGroundError,
+    find_common_ground,
+    rotation_between,
+)
 from placecell.odometry.scan_odometry import read, rotated
 from placecell.sources.source import ScanSource
 
@@ -14,26 +20,35 @@ FIRST_SECONDS = 20.0
 MOST_SCANS = 12
 
 
-def ground_in_world(source: ScanSource, scans: Sequence[int], poses: Float64) -> GroundPlane | None:
+def ground_in_world(
+    source: ScanSource,
+    scans: Sequence[int],
+    poses: Float64,
+    expected_up: Sequence[float] = UP,
+) -> GroundPlane | None:
     """Return the ground that most of the scans agree on, with `up` in the poses' world, or None.
 
     Args:
         source: the source.
         scans: indices of the scans.
         poses: pose of each of these scans, float64 (scans, 4, 4).
+        expected_up: direction in the world near which up is sought.
     """
     chosen = np.unique(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(int))
     clouds = [rotated(read(source, int(scans[at])).points, poses[at]) for at in chosen]
     try:
-        return find_common_ground([cloud for cloud in clouds if len(cloud)])
+        return find_common_ground([cloud for cloud in clouds if len(cloud)], expected_up)
     except NoGroundError:
         return None
 
 
-def leveling_of(ground: GroundPlane) -> Float64:
-    """Return the transform (4, 4) that turns a world so that the ground's up is its z."""
+def leveling_of(up: Float64) -> Float64:
+    """Return the transform (4, 4) that turns a world so that a direction of it is its z.
+
+    The turn is the smallest one, so headings change as little as possible.
+    """
     level = np.eye(4)
-    level[:3, :3] = ground.leveling()
+    level[:3, :3] = rotation_between(up, np.array(UP))
     return level
 
 

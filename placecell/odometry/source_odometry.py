@@ -10,8 +10,10 @@ from placecell.core.progress import Progress
 from placecell.core.types import Float64
 from placecell.odometry import cache
 from placecell.odometry.cache import CachedOdometry
+from placecell.odometry.deskew import SensorMotion
 from placecell.odometry.drift import estimate_drift
-from placecell.odometry.ground_plane import GroundPlane
+from placecell.odometry.gravity import Gravity, NotLevelError, find_gravity
+from placecell.odometry.ground_plane import UP, GroundPlane
 from placecell.odometry.leveling import first_scans, ground_in_world, leveling_of
 from placecell.odometry.scan_odometry import INSTALL, OdometrySettings, run
 from placecell.sources.errors import DriveError
@@ -75,18 +77,68 @@ def odometry_of(
     tell(f"{source.path}: odometry by kiss-icp {version}, {where}")
     tell(f"{source.path}: {describe_drift(found.drift_percent)}")
     until = first_scans(source.stamps)
-    ground = ground_in_world(source, range(until), found.poses[:until])
+    up, ground = level(source, found.poses[:until], tell)
+    return SourceOdometry(leveling_of(up) @ found.poses, ground, found.drift_percent)
+
+
+def level(
+    source: ScanSource, poses: Float64, tell: Callable[[str], None]
+) -> tuple[Float64, GroundPlane | None]:
+    """Return up in the world of the first scan, and the ground there; tell how up was found.
+
+    An IMU comes first, then the ground. Without both, up is the z axis of the first scan.
+
+    Args:
+        source: the source.
+        poses: poses of its first scans, float64 (scans, 4, 4).
+        tell: receives what was found.
+    """
+    gravity = gravity_of(source, poses, tell)
+    expected = np.array(UP) if gravity is None else gravity.up
+    ground = ground_in_world(source, range(len(poses)), poses, expected.tolist())
+    if gravity is not None and ground is None:
+        above = ground_in_world(source, range(len(poses)), poses, (-expected).tolist())
+        if above is not None:
+            tell(
+                f"{source.path}: the IMU points up into the ground; expected accelerations that "
+                "point up at rest, as REP 145 states. The ground is used instead"
+            )
+            gravity, ground = None, above
+    height = "" if ground is None else f"{ground.height:.2f} m above the ground and "
+    if gravity is not None:
+        tell(
+            f"{source.path}: leveled by imu: {gravity.how}; the sensor is {height}tilted by "
+            f"{gravity.tilt_deg:.1f} degrees at the first scan"
+        )
+        return gravity.up, ground
     if ground is None:
         tell(
             f"{source.path}: no ground was found below the sensor, so the world is not leveled; "
             "its z is the sensor's z at the first scan"
         )
-        return SourceOdometry(found.poses, None, found.drift_percent)
+        return expected, None
     tell(
-        f"{source.path}: leveled by the ground: the sensor is {ground.height:.2f} m above it and "
-        f"tilted by {ground.tilt_deg:.1f} degrees at the first scan"
+        f"{source.path}: leveled by the ground: the sensor is {height}tilted by "
+        f"{ground.tilt_deg:.1f} degrees at the first scan"
     )
-    return SourceOdometry(leveling_of(ground) @ found.poses, ground, found.drift_percent)
+    return ground.up, ground
+
+
+def gravity_of(source: ScanSource, poses: Float64, tell: Callable[[str], None]) -> Gravity | None:
+    """Return up by the source's IMU; None if there is none of use, which is told."""
+    stamps = source.stamps[: len(poses)]
+    motion = SensorMotion.of(stamps, poses) if np.isfinite(stamps).all() else None
+    if motion is None:
+        return None
+    imu = source.imu(float(stamps[0]), float(stamps[-1]))
+    if imu is None:
+        return None
+    try:
+        gravity = find_gravity(imu, motion)
+    except NotLevelError as error:
+        tell(f"{source.path}: the IMU is not used to level the world: {error}")
+        return None
+    return Gravity(gravity.up, f"{gravity.how}, mounted by {imu.how}")
 
 
 def compute(source: ScanSource, settings: OdometrySettings, progress: Progress) -> CachedOdometry:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from placecell.core.types import Float64
+from placecell.sources.imu import ImuSamples
 from placecell.sources.scan import LidarScan
 from placecell.trajectories.trajectory import Trajectory
 
@@ -61,6 +62,14 @@ class ScanSource(ABC):
 
         Raises:
             DriveError: the poses are damaged.
+        """
+        return None
+
+    def imu(self, first: float, last: float) -> ImuSamples | None:  # noqa: ARG002
+        """Return what an IMU measured between two stamps, seconds; None if there is none.
+
+        Raises:
+            DriveError: the measurements are damaged.
         """
         return None
 

@@ -11,12 +11,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from placecell.core.types import Int64
+from placecell.core.types import Float64, Int64
 from placecell.sources.bags.bag_poses import BagPoses, Extrinsic, read_poses
 from placecell.sources.bags.cloud_messages import is_cloud, read_cloud
 from placecell.sources.bags.containers import mcap_file, ros1_file, sqlite_file
 from placecell.sources.bags.containers.bag import METADATA, Bag, bag_files, kind_of
 from placecell.sources.bags.containers.container import BagTopic, Container
+from placecell.sources.bags.imu import read_imu
 from placecell.sources.bags.pointcloud2 import (
     PointCloud2,
     TimeField,
@@ -28,6 +29,7 @@ from placecell.sources.bags.pointcloud2 import (
 )
 from placecell.sources.bags.wire import CDR_ORDERS
 from placecell.sources.errors import DriveError
+from placecell.sources.imu import ImuSamples
 from placecell.sources.point_clock import PointClock
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import METERS, current_scan_options
@@ -323,8 +325,15 @@ class BagSource(ScanSource):
         Raises:
             DriveError: the topic that was stated has no poses, or the transforms form a loop.
         """
-        recorded = self.cloud_topic.times[self.order].astype(np.float64) * 1e-9
-        return read_poses(self.bag, self.frame, self.odometry_topic, (self.stamps, recorded))
+        return read_poses(self.bag, self.frame, self.odometry_topic, self.clocks)
+
+    @property
+    def clocks(self) -> tuple[Float64, Float64]:
+        """Stamps and times of recording of the scans, float64 (scans,), seconds."""
+        return self.stamps, self.cloud_topic.times[self.order].astype(np.float64) * 1e-9
+
+    def imu(self, first: float, last: float) -> ImuSamples | None:
+        return read_imu(self.bag, self.frame, self.clocks, (first, last))
 
     def trajectory(self) -> Trajectory | None:
         """Return the sensor's poses; those of the robot if the bag has no transform to the sensor.

@@ -212,6 +212,30 @@ def odometry_message(
     )
 
 
+def imu_message(
+    acceleration: NDArray[np.float64],
+    rate: NDArray[np.float64],
+    stamp_ns: int,
+    encoding: str,
+    frame: str = "imu",
+    orientation: Sequence[float] | None = None,
+) -> Any:
+    """Return a sensor_msgs/Imu; without an orientation, its covariance says so."""
+    store = typestore(encoding)
+    vector = store.types["geometry_msgs/msg/Vector3"]
+    unknown = np.zeros(9)
+    unknown[0] = 0.0 if orientation is not None else -1.0
+    return store.types["sensor_msgs/msg/Imu"](
+        header=header(store, stamp_ns, frame),
+        orientation=store.types["geometry_msgs/msg/Quaternion"](*(orientation or (0, 0, 0, 0))),
+        orientation_covariance=unknown,
+        angular_velocity=vector(*rate.tolist()),
+        angular_velocity_covariance=np.zeros(9),
+        linear_acceleration=vector(*acceleration.tolist()),
+        linear_acceleration_covariance=np.zeros(9),
+    )
+
+
 def transforms_message(
     edges: Sequence[tuple[str, str, NDArray[np.float64]]], stamp_ns: int, encoding: str
 ) -> Any:
