@@ -47,7 +47,7 @@ class Inspection:
 
     @property
     def leveled_by(self) -> str | None:
-        """What odometry is leveled by: `imu`, `ground`, or None."""
+        """Source of up for odometry: `imu`, `ground`, or None."""
         if self.imu is not None and self.imu.gravity is not None:
             return "imu"
         return None if self.mount.ground is None else "ground"

@@ -72,11 +72,11 @@ def test_unknown_motion_is_refused() -> None:
     with pytest.raises(NotLevelError, match=r"the mean acceleration is 10.25 m/s.2; expected 9.81"):
         find_gravity(replace(imu, ups=None), None)
     imu, _ = driven(turning=0.2)
-    with pytest.raises(NotLevelError, match="the robot turns at 0.20 rad/s; expected a robot that"):
+    with pytest.raises(NotLevelError, match=r"the robot turns at 0.20 rad"):
         find_gravity(imu, None)
     imu, _ = driven()
     swung = Rotation.from_euler("x", np.linspace(0, 0.4, len(imu))[:, None])
-    with pytest.raises(NotLevelError, match=r"the mean acceleration turns by 11.\d degrees"):
+    with pytest.raises(NotLevelError, match="the mean acceleration turns by 10"):
         find_gravity(replace(imu, accelerations=swung.apply(imu.accelerations), ups=None), None)
 
 
