@@ -104,7 +104,7 @@ def level_of(scans: list[PosedScan]) -> Float64:
     """Return the transform (4, 4) that turns z of the odometry up, by the ground in some scans."""
     clouds = [rotated(each.points, each.pose) for each in scans if len(each.points)]
     try:
-        return leveling_of(find_common_ground(clouds))
+        return leveling_of(find_common_ground(clouds).up)
     except NoGroundError:
         return np.eye(4)
 
