@@ -21,6 +21,7 @@ from cli.keys import keys
 from cli.maps import maps
 from cli.prepare import prepare
 from cli.robot import robot
+from cli.robots import robots
 from cli.serve import serve
 from cli.study import study
 from cli.town import town
@@ -81,6 +82,7 @@ app.command(rich_help_panel=RUN)(takes_drives(robot))
 app.command(rich_help_panel=RUN)(config)
 app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)
+app.command(rich_help_panel=MAP)(robots)
 app.command(rich_help_panel=MAP)(town)
 app.command(rich_help_panel=MAP)(takes_drives(inspect))
 app.command(rich_help_panel=MAP)(export)

@@ -15,6 +15,8 @@ from service.api.middleware.request_log import RequestLog
 from service.api.pages import docs_pages, page
 from service.api.routes import (
     align,
+    anchors,
+    coverage,
     describe,
     health,
     localize,
@@ -51,11 +53,13 @@ ROUTES = (
     match,
     localize,
     scans,
+    coverage,
     maps,
     uploads,
     segments,
     versions,
     align,
+    anchors,
     robots,
     models,
     health,
@@ -67,8 +71,9 @@ DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D se
 Send the segments of a scan. The answer holds their descriptors, the nearest segments of stored
 maps, or the robot's pose in a map. Coordinates are meters in a z-up frame.
 
-`/describe`, `/match` and `/localize` accept JSON and `application/msgpack`. Both have the same
-fields; msgpack holds arrays as blobs. Every error is `application/problem+json` (RFC 9457).
+`/describe`, `/match`, `/localize` and `/coverage` accept JSON and `application/msgpack`. Both have
+the same fields; msgpack holds arrays as blobs. Every error is `application/problem+json`
+(RFC 9457).
 
 If the service has API keys, routes with a lock need `Authorization: Bearer KEY`. All other routes,
 and this description, need no key.

@@ -19,6 +19,7 @@ and serializes the result. The engine needs no HTTP library.
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -35,6 +36,8 @@ from placecell.descriptors.manifest import Manifest, ModelError
 from placecell.descriptors.site_calibration import CalibrationState, SiteCalibration
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
+from service.annotations.annotations import Annotations
+from service.annotations.writer import AnnotationWriter
 from service.core.auth import ANYONE, Principal
 from service.core.cost import check_cost, cost_of_aligning
 from service.core.metrics import Metrics
@@ -58,6 +61,7 @@ from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
 from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
+from service.merging.carrying import carry_anchors
 from service.merging.merge import Merger, MergeResult
 from service.search.hints import ResolvedHints, resolve, sensor_of_codes
 from service.search.localization import LocalizationResult, localize
@@ -88,6 +92,7 @@ class Engine:
         metrics: counters and times.
         models: loaded models.
         maps: stored maps.
+        annotations: tags and anchors of the maps.
         partial_uploads: map files that are uploaded in parts and are not complete.
         sync: incremental transfers of maps, for robots that keep a copy.
         sessions: results of robots' last requests.
@@ -124,6 +129,11 @@ class Engine:
                 raise StartError(f"data directory: {error}") from error
             except OSError as error:
                 raise StartError(f"data directory {settings.data_dir}: {error}") from error
+            try:
+                self.annotations = Annotations(store, limits)
+            except StoreError as error:
+                raise StartError(f"data directory: {error}") from error
+            self.maps.on_delete = self.annotations.forget
             self.sync = MapSync(store)
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
@@ -298,21 +308,35 @@ class Engine:
         principal: Principal,
         timing: Timing,
         rerank: bool = False,
+        tags: Sequence[str] | None = None,
     ) -> Query:
         """Select the maps to search and prepare the segments: the first step of a search.
 
         The second step is `Query.describe`, the third `matches` or `poses`.
+
+        Args:
+            seen: descriptors or a scan.
+            maps: names of maps; all maps unless given.
+            k: largest number of candidates of a segment.
+            principal: principal, whose scope may not cover all maps.
+            timing: stopwatch of the request.
+            rerank: re-rank the candidates.
+            tags: tags that the maps must have.
 
         Raises:
             Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist,
                 409 if its model is not loaded or not that of the descriptors, 413 if the request is
                 too much work, 422 if no segment can be described.
         """
+
+        def is_tagged(snapshot: MapSnapshot) -> bool:
+            return tags is None or {*tags} <= {*self.annotations.tags(snapshot)}
+
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)
-            selection = select_maps(self.maps, self.models, maps, only, principal)
+            selection = select_maps(self.maps, self.models, maps, only, principal, is_tagged)
             return query_of_codes(seen, selection, k, self.settings.limits, timing, rerank)
-        selection = select_maps(self.maps, self.models, maps, None, principal)
+        selection = select_maps(self.maps, self.models, maps, None, principal, is_tagged)
         return query_of_scan(seen, self.models.default, selection, k, timing, rerank)
 
     def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
@@ -362,8 +386,8 @@ class Engine:
             searched=query.selection.maps,
             sensor=sensor,
             known=lambda name: self.maps.find(name) is not None,
-            tags_of=lambda _: (),
-            anchor_of=lambda _: None,
+            tags_of=self.annotations.tags,
+            anchor_of=self.annotations.geo_anchor,
             principal=principal,
         )
 
@@ -419,6 +443,15 @@ class Engine:
         The caller checks that the key may write the map (`Principal.check_write`).
         """
         return MapWriter(self.maps, self.models, principal, conditions)
+
+    def annotation_writer(
+        self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
+    ) -> AnnotationWriter:
+        """Return a writer of tags and anchors, with the rights of a key.
+
+        The caller checks that the key may write the map (`Principal.check_write`).
+        """
+        return AnnotationWriter(self.maps, self.annotations, principal, conditions)
 
     def put_map(
         self,
@@ -529,7 +562,9 @@ class Engine:
             dry_run=dry_run,
             check=current().check,
         )
-        return merger.merge(name, maps)
+        merged = merger.merge(name, maps)
+        carried = carry_anchors(merged, name, self.maps, self.annotations, principal.name)
+        return replace(merged, anchors=carried)
 
     def check_alignments(
         self, names: Sequence[str], remedy: str, parameters: AlignmentParameters | None = None

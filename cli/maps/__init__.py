@@ -3,6 +3,7 @@
 import typer
 
 from cli.maps.align import align
+from cli.maps.anchor import anchor
 from cli.maps.compact import compact
 from cli.maps.delete import delete
 from cli.maps.diff import diff
@@ -14,6 +15,7 @@ from cli.maps.push import push
 from cli.maps.reset_ids import reset_ids
 from cli.maps.restore import restore
 from cli.maps.show import show
+from cli.maps.tag import tag
 from cli.maps.uploads import uploads
 from cli.maps.verify import verify
 
@@ -34,6 +36,8 @@ maps.command(rich_help_panel=WRITE)(push)
 maps.command(rich_help_panel=WRITE)(uploads)
 maps.command(rich_help_panel=WRITE)(restore)
 maps.command(rich_help_panel=WRITE)(delete)
+maps.command(rich_help_panel=WRITE)(tag)
+maps.add_typer(anchor, name="anchor", rich_help_panel=WRITE)
 maps.command(rich_help_panel=COMBINE)(align)
 maps.command(rich_help_panel=COMBINE)(merge)
 maps.command(rich_help_panel=MAINTAIN)(verify)

@@ -21,6 +21,7 @@ from placecell_client.maps.map_file import CompactMap, MapFileError, decode, enc
 from placecell_client.maps.move import moved, originated
 from placecell_client.replica import ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
+from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
 from placecell_client.results.core import (
     Candidate,
     Description,
@@ -43,15 +44,17 @@ from placecell_client.results.localization import (
     PossiblePlace,
     Rival,
 )
-from placecell_client.results.merge import MapLoop, Merge, MergedPart, MergePair
+from placecell_client.results.merge import MapLoop, Merge, MergedAnchor, MergedPart, MergePair
 from placecell_client.results.robots import RobotState
 
 __all__ = [
+    "AnchorPose",
     "AsyncClient",
     "Candidate",
     "ChangesPage",
     "Client",
     "CompactMap",
+    "Coverage",
     "Delta",
     "Description",
     "GeoHint",
@@ -64,6 +67,8 @@ __all__ = [
     "Localization",
     "Localizations",
     "MapAlignment",
+    "MapAnchor",
+    "MapAnchorFit",
     "MapCopy",
     "MapFileError",
     "MapHypothesis",
@@ -75,6 +80,7 @@ __all__ = [
     "Matches",
     "Merge",
     "MergePair",
+    "MergedAnchor",
     "MergedPart",
     "NearHint",
     "OutsidePlace",

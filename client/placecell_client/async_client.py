@@ -25,6 +25,7 @@ from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
 from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
+from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
 from placecell_client.results.core import (
     Description,
     Info,
@@ -107,9 +108,12 @@ class AsyncClient(BaseClient):
         maps: Sequence[str] | None = None,
         k: int = 10,
         rerank: bool = True,
+        tags: Sequence[str] | None = None,
     ) -> Matches:
         """See `Client.match`."""
-        return await self._send(self._calls.match(description, segments, sensors, maps, k, rerank))
+        return await self._send(
+            self._calls.match(description, segments, sensors, maps, k, rerank, tags)
+        )
 
     async def localize(
         self,
@@ -124,6 +128,7 @@ class AsyncClient(BaseClient):
         max_false_acceptance: float | None = None,
         hints: Hints | None = None,
         robot: str | None = None,
+        tags: Sequence[str] | None = None,
     ) -> Localizations:
         """See `Client.localize`."""
         return await self._send(
@@ -138,6 +143,7 @@ class AsyncClient(BaseClient):
                 max_false_acceptance,
                 hints,
                 robot,
+                tags,
             )
         )
 
@@ -266,6 +272,91 @@ class AsyncClient(BaseClient):
     async def delete_map(self, name: str, if_match: str | None = None) -> None:
         """See `Client.delete_map`."""
         await self._send(self._calls.delete_map(name, if_match))
+
+    async def coverage(
+        self,
+        description: Description | None = None,
+        *,
+        segments: Sequence[ArrayLike] | None = None,
+        sensors: ArrayLike | None = None,
+        maps: Sequence[str] | None = None,
+        tags: Sequence[str] | None = None,
+    ) -> tuple[Coverage, ...]:
+        """See `Client.coverage`."""
+        return await self._send(self._calls.coverage(description, segments, sensors, maps, tags))
+
+    async def tags(self, name: str) -> tuple[str, ...]:
+        """See `Client.tags`."""
+        return await self._send(self._calls.tags(name))
+
+    async def set_tags(self, name: str, tags: Sequence[str]) -> tuple[str, ...]:
+        """See `Client.set_tags`."""
+        return await self._send(self._calls.set_tags(name, tags))
+
+    async def anchor(self, name: str) -> MapAnchor:
+        """See `Client.anchor`."""
+        return await self._send(self._calls.anchor(name))
+
+    async def set_anchor(
+        self,
+        name: str,
+        lat: float,
+        lon: float,
+        *,
+        height: float = 0.0,
+        yaw_deg: float = 0.0,
+        accuracy: float = 0.0,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+    ) -> MapAnchor:
+        """See `Client.set_anchor`."""
+        call = self._calls.set_anchor(name, lat, lon, height, yaw_deg, accuracy, position)
+        return await self._send(call)
+
+    async def delete_anchor(self, name: str) -> None:
+        """See `Client.delete_anchor`."""
+        await self._send(self._calls.delete_anchor(name))
+
+    async def fit_anchor(
+        self,
+        name: str,
+        positions: ArrayLike,
+        lats: ArrayLike,
+        lons: ArrayLike,
+        *,
+        accuracies: ArrayLike,
+        heights: ArrayLike | None = None,
+        dry_run: bool = False,
+    ) -> MapAnchorFit:
+        """See `Client.fit_anchor`."""
+        return await self._send(
+            self._calls.fit_anchor(name, positions, lats, lons, heights, accuracies, dry_run)
+        )
+
+    async def anchors(self, name: str) -> tuple[AnchorPose, ...]:
+        """See `Client.anchors`."""
+        found, after = await self._send(self._calls.anchors(name))
+        while after is not None:
+            more, after = await self._send(self._calls.anchors(name, after))
+            found += more
+        return found
+
+    async def named_anchor(self, name: str, anchor: str) -> AnchorPose:
+        """See `Client.named_anchor`."""
+        return await self._send(self._calls.named_anchor(name, anchor))
+
+    async def set_named_anchor(
+        self,
+        name: str,
+        anchor: str,
+        position: ArrayLike,
+        orientation: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+    ) -> AnchorPose:
+        """See `Client.set_named_anchor`."""
+        return await self._send(self._calls.set_named_anchor(name, anchor, position, orientation))
+
+    async def delete_named_anchor(self, name: str, anchor: str) -> None:
+        """See `Client.delete_named_anchor`."""
+        await self._send(self._calls.delete_named_anchor(name, anchor))
 
     async def report_pose(
         self,

@@ -23,6 +23,7 @@ from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
 from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
+from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
 from placecell_client.results.core import (
     Description,
     Info,
@@ -147,6 +148,7 @@ class Client(BaseClient):
         maps: Sequence[str] | None = None,
         k: int = 10,
         rerank: bool = True,
+        tags: Sequence[str] | None = None,
     ) -> Matches:
         """Find the k nearest map segments of each query segment.
 
@@ -162,6 +164,7 @@ class Client(BaseClient):
                 best k of 25. All segments must be from one scan. A description without centroids
                 (NaN) is not re-ranked, and a service that is older than this option does not
                 re-rank.
+            tags: Search only maps that have all of these tags.
 
         Returns:
             Candidates of each query, best first.
@@ -169,7 +172,7 @@ class Client(BaseClient):
         Raises:
             ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
-        return self._send(self._calls.match(description, segments, sensors, maps, k, rerank))
+        return self._send(self._calls.match(description, segments, sensors, maps, k, rerank, tags))
 
     def localize(
         self,
@@ -184,6 +187,7 @@ class Client(BaseClient):
         max_false_acceptance: float | None = None,
         hints: Hints | None = None,
         robot: str | None = None,
+        tags: Sequence[str] | None = None,
     ) -> Localizations:
         """Localize the robot: compute the pose of its frame in each map.
 
@@ -206,6 +210,7 @@ class Client(BaseClient):
             hints: Where the robot is, as far as it knows. A pose that contradicts a hint is not
                 returned; no hint makes a pose more probable. The result's `hints` tells the effect.
             robot: Name of the robot. `robots` then shows its pose.
+            tags: Search only maps that have all of these tags.
 
         Returns:
             One result per map, most probable first: the pose with its covariance and probability,
@@ -226,6 +231,7 @@ class Client(BaseClient):
                 max_false_acceptance,
                 hints,
                 robot,
+                tags,
             )
         )
 
@@ -499,6 +505,143 @@ class Client(BaseClient):
             if_match: ETag that the newest version must have.
         """
         self._send(self._calls.delete_map(name, if_match))
+
+    def coverage(
+        self,
+        description: Description | None = None,
+        *,
+        segments: Sequence[ArrayLike] | None = None,
+        sensors: ArrayLike | None = None,
+        maps: Sequence[str] | None = None,
+        tags: Sequence[str] | None = None,
+    ) -> tuple[Coverage, ...]:
+        """Return how much of what the robot sees each map knows, the largest share first.
+
+        It is a summary of `match` and gives no pose.
+
+        Args:
+            description: Query segments, as `describe` returned them.
+            segments: Points of the query segments, as for `describe`.
+            sensors: Sensor positions, as for `describe`.
+            maps: Names of the maps to search. Default: all maps of loaded models.
+            tags: Search only maps that have all of these tags.
+
+        Raises:
+            ValueError: Neither or both kinds of query are given, or an array is invalid.
+        """
+        return self._send(self._calls.coverage(description, segments, sensors, maps, tags))
+
+    def tags(self, name: str) -> tuple[str, ...]:
+        """Return the tags of a map, sorted."""
+        return self._send(self._calls.tags(name))
+
+    def set_tags(self, name: str, tags: Sequence[str]) -> tuple[str, ...]:
+        """Replace all tags of a map; return when they are on the service's disk.
+
+        Args:
+            name: Name of the map.
+            tags: Tags of 1 to 64 letters, digits, dots, dashes or underscores.
+        """
+        return self._send(self._calls.set_tags(name, tags))
+
+    def anchor(self, name: str) -> MapAnchor:
+        """Return the place of a map on the Earth; a `ServiceError` (404) if it has none."""
+        return self._send(self._calls.anchor(name))
+
+    def set_anchor(
+        self,
+        name: str,
+        lat: float,
+        lon: float,
+        *,
+        height: float = 0.0,
+        yaw_deg: float = 0.0,
+        accuracy: float = 0.0,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+    ) -> MapAnchor:
+        """Set the place of a map on the Earth (WGS 84).
+
+        Args:
+            name: Name of the map.
+            lat: Latitude, degrees, north positive.
+            lon: Longitude, degrees, east positive.
+            height: Height above the ellipsoid, meters.
+            yaw_deg: Angle from east to the map's x axis, degrees, counter-clockwise.
+            accuracy: Standard deviation of the position along an axis, meters.
+            position: Point of the map that is at this place, in the map's frame, meters. Default:
+                the origin.
+        """
+        call = self._calls.set_anchor(name, lat, lon, height, yaw_deg, accuracy, position)
+        return self._send(call)
+
+    def delete_anchor(self, name: str) -> None:
+        """Remove the place of a map on the Earth."""
+        self._send(self._calls.delete_anchor(name))
+
+    def fit_anchor(
+        self,
+        name: str,
+        positions: ArrayLike,
+        lats: ArrayLike,
+        lons: ArrayLike,
+        *,
+        accuracies: ArrayLike,
+        heights: ArrayLike | None = None,
+        dry_run: bool = False,
+    ) -> MapAnchorFit:
+        """Fit the place of a map on the Earth to GNSS fixes of localized robots.
+
+        Fixes that contradict the others are left out. A `ServiceError` with status 422 is raised if
+        the fixes do not determine the yaw.
+
+        Args:
+            name: Name of the map.
+            positions: Positions of the antenna in the map's frame, (fixes, 3), meters.
+            lats: Latitudes, degrees, (fixes,).
+            lons: Longitudes, degrees, (fixes,).
+            accuracies: Standard deviations along an axis, meters, (fixes,) or one for all.
+            heights: Heights above the ellipsoid, meters, (fixes,). Default: not known.
+            dry_run: Write nothing.
+
+        Raises:
+            ValueError: An array has a wrong shape.
+        """
+        return self._send(
+            self._calls.fit_anchor(name, positions, lats, lons, heights, accuracies, dry_run)
+        )
+
+    def anchors(self, name: str) -> tuple[AnchorPose, ...]:
+        """Return the named anchors of a map, by name."""
+        found, after = self._send(self._calls.anchors(name))
+        while after is not None:
+            more, after = self._send(self._calls.anchors(name, after))
+            found += more
+        return found
+
+    def named_anchor(self, name: str, anchor: str) -> AnchorPose:
+        """Return a named anchor of a map."""
+        return self._send(self._calls.named_anchor(name, anchor))
+
+    def set_named_anchor(
+        self,
+        name: str,
+        anchor: str,
+        position: ArrayLike,
+        orientation: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+    ) -> AnchorPose:
+        """Add or replace a named pose in a map, such as a dock; edits and merges keep it.
+
+        Args:
+            name: Name of the map.
+            anchor: Name of the anchor.
+            position: Position in the map's frame x, y, z, meters.
+            orientation: Orientation as a quaternion x, y, z, w. Default: none.
+        """
+        return self._send(self._calls.set_named_anchor(name, anchor, position, orientation))
+
+    def delete_named_anchor(self, name: str, anchor: str) -> None:
+        """Remove a named pose of a map."""
+        self._send(self._calls.delete_named_anchor(name, anchor))
 
     def report_pose(
         self,

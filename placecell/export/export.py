@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.files import written_whole
+from placecell.core.geodesy import GeoAnchor
 from placecell.export.clouds import write_las, write_pcd, write_ply
 from placecell.export.content import ExportContent, colors, read_recording
-from placecell.export.geo import Anchor, write_geojson
+from placecell.export.geo import write_geojson
 from placecell.export.mcap_file import write_mcap
 from placecell.export.poses import write_g2o, write_tum
 from placecell.export.targets import ColorBy, Target
@@ -22,7 +23,7 @@ def export(
     target: Target,
     file: Path,
     color: ColorBy = "id",
-    anchor: Anchor | None = None,
+    anchor: GeoAnchor | None = None,
     overwrite: bool = False,
     read: Callable[[Path], ExportContent] = read_recording,
 ) -> ExportContent:

@@ -1,12 +1,14 @@
 """Answers of the routes about alignments and merges."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 
 from placecell.core.types import UInt32
 from placecell.map_alignment import MapAlignment, Overlap
 from service.api.responses import pose_of
 from service.api.schemas.alignment import (
     AlignmentOut,
+    CarriedAnchorOut,
     LaidOut,
     LoopOut,
     MergedOut,
@@ -117,6 +119,7 @@ def merged_of(merged: MergeResult, name: str, names: Sequence[str]) -> MergedOut
             )
             for loop in plan.checked.loops
         ],
+        anchors=[CarriedAnchorOut(**asdict(each)) for each in merged.anchors],
     )
 
 

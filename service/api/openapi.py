@@ -12,6 +12,13 @@ from pydantic import BaseModel
 from service.api.body.body import JSON, MSGPACK
 from service.api.body.problem_json import ProblemBody
 from service.api.schemas.alignment import MergeRequest
+from service.api.schemas.anchors import (
+    FitRequest,
+    GeoAnchorIn,
+    GeoPose,
+    NamedAnchorIn,
+    TagsIn,
+)
 from service.api.schemas.localization import LocalizeRequest
 from service.api.schemas.msgpack import (
     PackedDescribeRequest,
@@ -26,9 +33,13 @@ from service.api.schemas.scans import PackedScanResponse
 _REFERENCE = "#/components/schemas/{model}"
 _SCHEMAS: tuple[type[BaseModel], ...] = (
     DescribeRequest,
+    FitRequest,
+    GeoAnchorIn,
+    GeoPose,
     LocalizeRequest,
     MatchRequest,
     MergeRequest,
+    NamedAnchorIn,
     PackedDescribeRequest,
     PackedDescribeResponse,
     PackedLocalizeRequest,
@@ -36,6 +47,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     PackedScanResponse,
     ProblemBody,
     RobotReportIn,
+    TagsIn,
 )
 
 
@@ -57,9 +69,20 @@ def json_body(schema: type[BaseModel]) -> dict[str, Any]:
     return {"requestBody": {"required": True, "content": {JSON: {"schema": _reference(schema)}}}}
 
 
-def packed_response(schema: type[BaseModel]) -> dict[int | str, dict[str, Any]]:
-    """Describe a response in msgpack, in addition to the JSON that FastAPI describes."""
-    return {200: {"content": {MSGPACK: {"schema": _reference(schema)}}}}
+def packed_response(
+    schema: type[BaseModel], media_type: str | None = None, other: type[BaseModel] | None = None
+) -> dict[int | str, dict[str, Any]]:
+    """Describe a response in msgpack, in addition to the JSON that FastAPI describes.
+
+    Args:
+        schema: schema of the response.
+        media_type: another media type that the response may have.
+        other: its schema.
+    """
+    content = {MSGPACK: {"schema": _reference(schema)}}
+    if media_type is not None and other is not None:
+        content[media_type] = {"schema": _reference(other)}
+    return {200: {"content": content}}
 
 
 def file_body(*media_types: str) -> dict[str, Any]:

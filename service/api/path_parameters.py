@@ -45,13 +45,25 @@ async def checked_robot(
     robot: Annotated[str, _path("robot", "Name of the robot", "ann")],
 ) -> str:
     """Return the robot's name in the path; 422 if it is not a valid name."""
-    if not re.fullmatch(NAME_PATTERN, robot):
+    return _checked_name(robot, "robot")
+
+
+async def checked_anchor(
+    anchor: Annotated[str, _path("anchor", "Name of the anchor", "dock")],
+) -> str:
+    """Return the anchor's name in the path; 422 if it is not a valid name."""
+    return _checked_name(anchor, "anchor")
+
+
+def _checked_name(name: str, what: str) -> str:
+    if not re.fullmatch(NAME_PATTERN, name):
         raise Problem(
-            422, "invalid-name", f"Invalid robot name {robot!r:.200}: expected {NAME_RULE}."
+            422, "invalid-name", f"Invalid {what} name {name!r:.200}: expected {NAME_RULE}."
         )
-    return robot
+    return name
 
 
 Name = Annotated[str, Depends(checked_name)]
+AnchorName = Annotated[str, Depends(checked_anchor)]
 RobotName = Annotated[str, Depends(checked_robot)]
 OtherName = Annotated[str, Depends(checked_other)]

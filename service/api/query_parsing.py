@@ -83,7 +83,9 @@ def read_query(
     else:
         assert request.segments is not None  # as the schema has checked
         seen = read_scan(request.segments, request.origin)
-    return state.engine.query(seen, request.maps, request.k, principal, timing, rerank)
+    return state.engine.query(
+        seen, request.maps, request.k, principal, timing, rerank, request.tags
+    )
 
 
 def _read_codes(

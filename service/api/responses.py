@@ -1,5 +1,6 @@
 """Parts of responses, made from the engine's results."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from scipy.spatial.transform import Rotation
@@ -33,7 +34,7 @@ def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:
     return [{"map": each.name, "model_id": each.model_id} for each in selection.skipped]
 
 
-def summary_of(snapshot: MapSnapshot, principal: Principal) -> MapOut:
+def summary_of(snapshot: MapSnapshot, principal: Principal, tags: Sequence[str]) -> MapOut:
     """Summarize a map as a key may see it; reads the whole map, so call it in a thread."""
     head, layers = snapshot.head, snapshot.layers
     return MapOut(
@@ -48,14 +49,18 @@ def summary_of(snapshot: MapSnapshot, principal: Principal) -> MapOut:
         sources=sources_for(principal, layers.sources),
         time_span=layers.time_span,
         optional=sorted(layers.optional),
+        tags=[*tags],
     )
 
 
 def detail_of(
-    snapshot: MapSnapshot, principal: Principal, site: SiteCalibration | None
+    snapshot: MapSnapshot,
+    principal: Principal,
+    site: SiteCalibration | None,
+    tags: Sequence[str],
 ) -> MapDetailOut:
     """Return the summary of a map with its calibration; call it in a thread."""
-    summary = summary_of(snapshot, principal).model_dump()
+    summary = summary_of(snapshot, principal, tags).model_dump()
     values = None if site is None else site.as_dict()
     return MapDetailOut.model_validate(summary | {"calibration": values})
 

@@ -258,6 +258,14 @@ class Limits(BaseModel):
         description="Largest number of `/localize` sessions in memory. Beyond it, the key with "
         "the most sessions loses its longest idle one.",
     )
+    map_anchors: int = Field(
+        default=1_000, ge=1, description="Largest number of named anchors of a map."
+    )
+    annotations: int = Field(
+        default=100_000,
+        ge=1,
+        description="Largest number of tags and anchors of all maps together.",
+    )
     robots: int = Field(
         default=10_000,
         ge=1,

@@ -24,8 +24,12 @@ def match_probabilities(model: Model, one: Int8, other: Int8) -> Float64:
     quantizer = model.manifest.quantizer
     levels = quantizer.levels(one).astype(np.float64) - quantizer.levels(other)
     distances = quantizer.step * np.linalg.norm(levels, axis=1)
-    deviation = max(model.manifest.pair_threshold, quantizer.step)
-    return np.asarray(np.exp(-0.5 * (distances / deviation) ** 2))
+    return np.asarray(np.exp(-0.5 * (distances / deviation_of(model)) ** 2))
+
+
+def deviation_of(model: Model) -> float:
+    """Return the standard deviation of the distance of a matching pair, without a classifier."""
+    return max(model.manifest.pair_threshold, model.manifest.quantizer.step)
 
 
 def default_site(manifest: Manifest) -> SiteCalibration | None:

@@ -37,6 +37,7 @@ class MapRepository:
         store: the store on disk.
         shared: indexes that several small maps share.
         copied_segments: number of segments that writes have copied.
+        on_delete: is called with the uid of each map that was deleted.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class MapRepository:
         self.store = store
         self.shared = SharedIndexes()
         self.copied_segments = 0
+        self.on_delete: Callable[[str], None] = lambda _: None
         self._models = models
         self._quotas = quotas
         self._clock = clock
@@ -253,6 +255,7 @@ class MapRepository:
             self.copied_segments += len(snapshot) if snapshot is not None else 0
             self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
             self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+        self.on_delete(head.uid)
 
     def compact(self, head: MapHead, sequence: int, file: bytes) -> MapSnapshot:
         """Drop the versions before one.

@@ -6,7 +6,7 @@ commits after it. Each commit has a blob (a delta) that leads from one version t
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Literal, Protocol
@@ -121,6 +121,27 @@ class MapHead:
     def commits(self) -> int:
         """Number of commits after the base."""
         return self.sequence - self.oldest
+
+
+@dataclass(frozen=True, slots=True)
+class Annotation:
+    """Fact about a map that is no segment: a tag, its place on the Earth, or a named pose.
+
+    It belongs to the map and not to a version, so every later version keeps it.
+
+    Attributes:
+        kind: kind of the fact, such as `tag`.
+        name: name of the fact, unique among those of its kind and map.
+        value: value as JSON.
+        author: name of the key that wrote it.
+        time: time of the service's clock, Unix seconds.
+    """
+
+    kind: str
+    name: str
+    value: str
+    author: str
+    time: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,6 +271,20 @@ class MapStore(Protocol):
         Args:
             uid: uid of the map; KeyError if there is no such map.
             used: ids in use, ascending.
+        """
+
+    def annotations(self) -> dict[str, list[Annotation]]:
+        """Return the annotations of all maps, by uid; altered ones are left out."""
+
+    def annotate(
+        self, uid: str, put: Sequence[Annotation], removed: Collection[tuple[str, str]] = ()
+    ) -> None:
+        """Add or replace annotations of a map, and remove some.
+
+        Args:
+            uid: uid of the map; KeyError if there is no such map.
+            put: annotations to add or replace.
+            removed: kind and name of each annotation to remove.
         """
 
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from placecell_client import MapFileError, encode
 
@@ -24,6 +25,26 @@ from service.merging.join import (
 )
 from service.merging.plan import MergePlan, plan_merge
 
+AnchorOutcome = Literal["carried", "kept", "conflict"]
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedAnchor:
+    """AnchorOutcome of one anchor of a merged map.
+
+    Attributes:
+        map: name of the map that has the anchor.
+        anchor: name of the anchor; None for the place on the Earth.
+        outcome: `carried` into the merged map; `kept`, because the merged map has it already; or
+            `conflict`, because the merged map has another one, which stays.
+        meters: distance from the one that stays, meters; None if it was carried.
+    """
+
+    map: str
+    anchor: str | None
+    outcome: AnchorOutcome
+    meters: float | None
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MergeResult:
@@ -37,6 +58,7 @@ class MergeResult:
         previous: sequence of the merged map's version before; None: the map is new.
         changed: number of segments added or replaced.
         removed: number of segments removed.
+        anchors: outcome of each anchor of the merged maps.
     """
 
     plan: MergePlan
@@ -46,6 +68,7 @@ class MergeResult:
     previous: int | None
     changed: int
     removed: int
+    anchors: tuple[CarriedAnchor, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

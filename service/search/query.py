@@ -1,6 +1,6 @@
 """Query: the segments that a request searches for, and the maps that it searches."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -94,6 +94,7 @@ def select_maps(
     names: Sequence[str] | None,
     only: Model | None,
     principal: Principal,
+    wanted: Callable[[MapSnapshot], bool] = lambda _: True,
 ) -> MapSelection:
     """Select the maps to search.
 
@@ -103,6 +104,7 @@ def select_maps(
         names: names of the maps; None: all maps in the scope of the key.
         only: model that made the codes; None: each model describes the segments itself.
         principal: principal.
+        wanted: returns whether to search a map, such as by its tags.
 
     Raises:
         Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist, 409
@@ -114,6 +116,7 @@ def select_maps(
         for name in names:
             principal.check_map(name)
         chosen = [maps.get(name) for name in sorted(set(names))]
+    chosen = [snapshot for snapshot in chosen if wanted(snapshot)]
     groups: dict[str, list[MapSnapshot]] = {}
     skipped = []
     for snapshot in chosen:

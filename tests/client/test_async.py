@@ -64,6 +64,8 @@ def test_both_clients_have_the_same_methods() -> None:
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
         "prune_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
         "delete_upload", "reset_ids", "report_pose", "robots", "robot",
+        "coverage", "tags", "set_tags", "anchor", "set_anchor", "delete_anchor", "fit_anchor",
+        "anchors", "named_anchor", "set_named_anchor", "delete_named_anchor",
     }  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from placecell_client import Client, CompactMap, Delta, encode, encode_delta
 
+from placecell.core.geodesy import GeoAnchor, to_geodetic
 from tests.service.clouds.scan_files import files_of, yard_scan
 
 PAGE = Path(__file__).parents[2] / "docs" / "reference" / "http-api.md"
@@ -76,6 +77,13 @@ def prepare(
     (folder / "scan.json").write_text(json.dumps(scan))
     (folder / "match.json").write_text(json.dumps({"maps": ["yard"], "k": 2} | scan))
     (folder / "localize.json").write_text(json.dumps({"maps": ["yard"]} | scan))
+    steps = np.linspace(0.0, 95.0, 20)
+    places = to_geodetic(np.outer(steps, [1.0, 0.0, 0.0]), GeoAnchor(49.0112, 8.4243, 115.0, 37.0))
+    fixes = [
+        {"position": [x, 0.0, 0.0], "lat": lat, "lon": lon, "height": height, "accuracy": 1.0}
+        for x, (lat, lon, height) in zip(steps.tolist(), places.tolist(), strict=True)
+    ]
+    (folder / "fixes.json").write_text(json.dumps({"fixes": fixes}))
     client.put_map("yard", data)
     client.put_map("hall", hall)
     client.put_map("shed", hall)

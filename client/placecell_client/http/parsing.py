@@ -18,6 +18,7 @@ from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import decode_delta
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment, alignment_of
+from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
 from placecell_client.results.core import (
     Candidate,
     Description,
@@ -214,6 +215,37 @@ def alignment(answer: HttpResponse) -> MapAlignment:
 def merge(answer: HttpResponse) -> Merge:
     """Read the response of `POST /maps/{map}/merge`."""
     return merge_of(_content(answer))
+
+
+def tags(answer: HttpResponse) -> tuple[str, ...]:
+    """Read the response of `GET` and `PUT /maps/{map}/tags`."""
+    return tuple(_content(answer)["tags"])
+
+
+def anchor(answer: HttpResponse) -> MapAnchor:
+    """Read the response of `GET` and `PUT /maps/{map}/anchor`."""
+    return MapAnchor.of(_content(answer))
+
+
+def anchor_fit(answer: HttpResponse) -> MapAnchorFit:
+    """Read the response of `POST /maps/{map}/anchor/fit`."""
+    return MapAnchorFit.of(_content(answer))
+
+
+def named_anchor(answer: HttpResponse) -> AnchorPose:
+    """Read the response of `GET` and `PUT /maps/{map}/anchors/{anchor}`."""
+    return AnchorPose.of(_content(answer))
+
+
+def named_anchors(answer: HttpResponse) -> tuple[tuple[AnchorPose, ...], str | None]:
+    """Read the response of `GET /maps/{map}/anchors`: one page, and the name to continue after."""
+    content = _content(answer)
+    return tuple(map(AnchorPose.of, content["anchors"])), content["next"]
+
+
+def coverage(answer: HttpResponse) -> tuple[Coverage, ...]:
+    """Read the response of `POST /coverage`."""
+    return tuple(map(Coverage.of, _content(answer)["maps"]))
 
 
 def robot(answer: HttpResponse) -> RobotState:

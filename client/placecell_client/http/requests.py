@@ -19,12 +19,14 @@ from placecell_client.http.encoding import (
     dumps,
     segments_of,
 )
+from placecell_client.http.point_clouds import rows_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import Delta, encode_delta
 from placecell_client.maps.map_file import CompactMap, decode, encode
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment
+from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
 from placecell_client.results.core import (
     Description,
     Info,
@@ -46,6 +48,9 @@ ANY = "*"
 
 ALIGNMENT_SECONDS = 300.0
 """Default timeout of `align_maps` and `merge_maps`, seconds; the service's default is the same."""
+
+COVERAGE_K = 25
+"""Candidates of each segment in `coverage`: those that re-ranking looks at."""
 
 OCTETS = "application/octet-stream"
 
@@ -113,9 +118,10 @@ class Calls:
         maps: Sequence[str] | None,
         k: int,
         rerank: bool,
+        tags: Sequence[str] | None = None,
     ) -> Call[Matches]:
         """Build `POST /match`."""
-        body = _search(maps, k)
+        body = _search(maps, k, tags)
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
@@ -148,9 +154,10 @@ class Calls:
         max_false_acceptance: float | None,
         hints: Hints | None = None,
         robot: str | None = None,
+        tags: Sequence[str] | None = None,
     ) -> Call[Localizations]:
         """Build `POST /localize`."""
-        body = _search(maps, k) | {"motion": motion}
+        body = _search(maps, k, tags) | {"motion": motion}
         if session is not None:
             body["session"] = session
         if hints is not None:  # older services have no such fields
@@ -173,6 +180,19 @@ class Calls:
                 "/localize", body | own, lambda answer: parsing.localizations(answer, dropped)
             )
         raise ValueError("Give either a description, or segments and sensors.")
+
+    def coverage(
+        self,
+        description: Description | None,
+        segments: Sequence[ArrayLike] | None,
+        sensors: ArrayLike | None,
+        maps: Sequence[str] | None,
+        tags: Sequence[str] | None,
+    ) -> Call[tuple[Coverage, ...]]:
+        """Build `POST /coverage`."""
+        # The body is that of a match.
+        call = self.match(description, segments, sensors, maps, COVERAGE_K, True, tags)
+        return Call("POST", "/coverage", parsing.coverage, call.headers, call.content)
 
     def maps(self) -> Call[Maps]:
         """Build `GET /maps`."""
@@ -327,6 +347,94 @@ class Calls:
         """Build `DELETE /maps/{map}`."""
         return self._tied("DELETE", _path(name), parsing.gone, if_match)
 
+    def tags(self, name: str) -> Call[tuple[str, ...]]:
+        """Build `GET /maps/{map}/tags`."""
+        return Call("GET", _path(name, "/tags"), parsing.tags)
+
+    def set_tags(self, name: str, tags: Sequence[str]) -> Call[tuple[str, ...]]:
+        """Build `PUT /maps/{map}/tags`."""
+        return self._json("PUT", _path(name, "/tags"), {"tags": list(tags)}, parsing.tags)
+
+    def anchor(self, name: str) -> Call[MapAnchor]:
+        """Build `GET /maps/{map}/anchor`."""
+        return Call("GET", _path(name, "/anchor"), parsing.anchor)
+
+    def set_anchor(
+        self,
+        name: str,
+        lat: float,
+        lon: float,
+        height: float,
+        yaw_deg: float,
+        accuracy: float,
+        position: ArrayLike,
+    ) -> Call[MapAnchor]:
+        """Build `PUT /maps/{map}/anchor`."""
+        body = {
+            "lat": float(lat),
+            "lon": float(lon),
+            "height": float(height),
+            "yaw_deg": float(yaw_deg),
+            "accuracy": float(accuracy),
+            "position": np.asarray(position, np.float64).tolist(),
+        }
+        return self._json("PUT", _path(name, "/anchor"), body, parsing.anchor)
+
+    def delete_anchor(self, name: str) -> Call[None]:
+        """Build `DELETE /maps/{map}/anchor`."""
+        return Call("DELETE", _path(name, "/anchor"), parsing.gone)
+
+    def fit_anchor(
+        self,
+        name: str,
+        positions: ArrayLike,
+        lats: ArrayLike,
+        lons: ArrayLike,
+        heights: ArrayLike | None,
+        accuracies: ArrayLike,
+        dry_run: bool,
+    ) -> Call[MapAnchorFit]:
+        """Build `POST /maps/{map}/anchor/fit`."""
+        points = rows_of(positions, "positions", 3, integers=False)
+        count = len(points)
+        columns = {"lat": lats, "lon": lons, "height": heights, "accuracy": accuracies}
+        values = {
+            key: np.broadcast_to(np.asarray(each, np.float64), (count,)).tolist()
+            for key, each in columns.items()
+            if each is not None
+        }
+        fixes = [
+            {"position": point} | {key: column[row] for key, column in values.items()}
+            for row, point in enumerate(np.asarray(points, np.float64).tolist())
+        ]
+        body = {"fixes": fixes, "dry_run": dry_run}
+        return self._json("POST", _path(name, "/anchor/fit"), body, parsing.anchor_fit)
+
+    def anchors(
+        self, name: str, after: str | None = None
+    ) -> Call[tuple[tuple[AnchorPose, ...], str | None]]:
+        """Build `GET /maps/{map}/anchors`; the result is a page and the name to continue after."""
+        return Call("GET", _path(name, "/anchors", after=after), parsing.named_anchors)
+
+    def named_anchor(self, name: str, anchor: str) -> Call[AnchorPose]:
+        """Build `GET /maps/{map}/anchors/{anchor}`."""
+        return Call("GET", _path(name, f"/anchors/{_quoted(anchor)}"), parsing.named_anchor)
+
+    def set_named_anchor(
+        self, name: str, anchor: str, position: ArrayLike, orientation: ArrayLike
+    ) -> Call[AnchorPose]:
+        """Build `PUT /maps/{map}/anchors/{anchor}`."""
+        body = {
+            "position": np.asarray(position, np.float64).tolist(),
+            "orientation": np.asarray(orientation, np.float64).tolist(),
+        }
+        path = _path(name, f"/anchors/{_quoted(anchor)}")
+        return self._json("PUT", path, body, parsing.named_anchor)
+
+    def delete_named_anchor(self, name: str, anchor: str) -> Call[None]:
+        """Build `DELETE /maps/{map}/anchors/{anchor}`."""
+        return Call("DELETE", _path(name, f"/anchors/{_quoted(anchor)}"), parsing.gone)
+
     def report_pose(
         self,
         robot: str,
@@ -425,9 +533,13 @@ class Calls:
         return replace(call, older=lambda: self._post(path, body, read))
 
 
-def _search(maps: Sequence[str] | None, k: int) -> dict[str, Any]:
+def _search(
+    maps: Sequence[str] | None, k: int, tags: Sequence[str] | None = None
+) -> dict[str, Any]:
     """Return the part of a body that selects the maps."""
-    return {"k": k} if maps is None else {"k": k, "maps": list(maps)}
+    names = {} if maps is None else {"maps": list(maps)}
+    # Older services have no tags.
+    return {"k": k} | names | ({} if tags is None else {"tags": list(tags)})
 
 
 def _has_centroids(description: Description, rows: list[int]) -> bool:

@@ -133,6 +133,7 @@ class MapSummary:
         optional: Names of the map's optional columns.
         sources: Number of segments that were merged from each map. Empty if the service is older
             than this field.
+        tags: Tags of the map, sorted. Empty if the service is older than this field.
     """
 
     name: str
@@ -146,6 +147,7 @@ class MapSummary:
     time_span: tuple[float, float] | None
     optional: tuple[str, ...]
     sources: dict[str, int] = field(default_factory=dict)
+    tags: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapSummary":
@@ -162,7 +164,8 @@ class MapSummary:
             robots=dict(content["robots"]),
             time_span=(span[0], span[1]) if span is not None else None,
             optional=tuple(content["optional"]),
-            sources=dict(content.get("sources", {})),  # older services have no such field
+            sources=dict(content.get("sources", {})),  # older services have no such fields
+            tags=tuple(content.get("tags", ())),
         )
 
 

@@ -83,6 +83,24 @@ class MapLoop:
     closes: bool
 
 
+@dataclass(frozen=True, slots=True)
+class MergedAnchor:
+    """Outcome of one anchor of a merged map.
+
+    Attributes:
+        map: Name of the map that has the anchor.
+        anchor: Name of the anchor; None: the place of the map on the Earth.
+        outcome: `carried` into the merged map; `kept`, as the merged map has it already; or
+            `conflict`, as the merged map has another one, which stays.
+        meters: Distance from the one that stays, meters; None if it was carried.
+    """
+
+    map: str
+    anchor: str | None
+    outcome: str
+    meters: float | None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Merge:
     """Result of a merge, or of its dry run.
@@ -102,6 +120,7 @@ class Merge:
         parts: Outcome for each map, in the order of the request.
         alignments: Alignment of each pair of maps.
         loops: Loops of these alignments.
+        anchors: Outcome of each anchor of the maps. Empty if the service is older than this field.
     """
 
     map: str
@@ -116,6 +135,7 @@ class Merge:
     parts: tuple[MergedPart, ...]
     alignments: tuple[MergePair, ...]
     loops: tuple[MapLoop, ...]
+    anchors: tuple[MergedAnchor, ...] = ()
 
 
 def merge_of(content: dict[str, Any]) -> Merge:
@@ -135,6 +155,10 @@ def merge_of(content: dict[str, Any]) -> Merge:
         loops=tuple(
             MapLoop(tuple(item["maps"]), item["meters"], item["degrees"], item["closes"])
             for item in content["loops"]
+        ),
+        anchors=tuple(
+            MergedAnchor(item["map"], item["anchor"], item["outcome"], item["meters"])
+            for item in content.get("anchors", ())
         ),
     )
 

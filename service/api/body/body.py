@@ -92,6 +92,14 @@ def parse(
         raise invalid(error) from error
 
 
+def read_json_body(schema: type[Schema], content: bytes) -> Schema:
+    """Parse a small JSON body; 400 if it is not JSON, 422 if it does not match the schema."""
+    try:
+        return schema.model_validate_json(content)
+    except ValidationError as error:
+        raise invalid(error) from error
+
+
 def render(response: BaseModel | dict[str, Any], media_type: str) -> bytes:
     """Encode a response.
 

@@ -1,5 +1,7 @@
 """Body limit: enforces the largest size of a request's body while the body streams in."""
 
+import re
+
 import anyio
 from starlette._utils import get_route_path
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -15,8 +17,12 @@ The connection may be closed afterwards, even if the client has not read the ans
 """
 
 
-RECOGNITION = frozenset({"/describe", "/match", "/localize"})
+RECOGNITION = frozenset({"/describe", "/match", "/localize", "/coverage"})
 """Paths whose JSON bodies have the limit `json_bytes`."""
+
+
+MAP_FILES = re.compile(r"/maps/[^/]*(/uploads/[^/]*)?")
+"""Paths whose `PUT` has a map file as its body."""
 
 
 class BodyLimit:
@@ -60,7 +66,7 @@ class BodyLimit:
         await self._app(scope, counted, send)
 
     def _limit(self, scope: Scope) -> int:
-        if scope["method"] == "PUT" and get_route_path(scope).startswith("/maps/"):
+        if scope["method"] == "PUT" and MAP_FILES.fullmatch(get_route_path(scope)):
             return self._limits.map_bytes
         if scope["method"] == "POST" and is_scan(get_route_path(scope)):
             return self._limits.scan_bytes

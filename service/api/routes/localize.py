@@ -15,16 +15,21 @@ from service.api.admission.admission import client_of
 from service.api.body.body import ENCODINGS, Body, answer_type, parse, render
 from service.api.body.problem_json import documented
 from service.api.dependencies import PrincipalOf, StateOf, TimingOf
+from service.api.geoposes import MEDIA_TYPE as GEOPOSE
+from service.api.geoposes import geopose_of
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import read_query
 from service.api.responses import pose_of, segment_error, skipped_maps
+from service.api.schemas.anchors import GeoPose
 from service.api.schemas.localization import LocalizeQuery, LocalizeRequest, LocalizeResponse
 from service.api.schemas.msgpack import PackedLocalizeRequest
 from service.api.state import State
 from service.core.auth import Principal
+from service.core.problems import Problem
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.maps.snapshot import MapSnapshot
+from service.search.hints import AnchorOf
 from service.search.localization import LocalizationResult, MapLocalization, report_of
 from service.search.query import Query
 
@@ -37,7 +42,7 @@ LocalizeBody = LocalizeQuery[Any, Any, Any]
     "/localize",
     summary="Localize a robot in maps",
     response_model=LocalizeResponse,
-    responses=packed_response(LocalizeResponse)
+    responses=packed_response(LocalizeResponse, GEOPOSE, GeoPose)
     | documented(400, 401, 403, 404, 406, 408, 409, 413, 415, 422, 429, 500, 503, 504),
     openapi_extra=body_of(LocalizeRequest, PackedLocalizeRequest),
 )
@@ -53,7 +58,7 @@ async def localize(
     are one place. At most eight maps, those in which most segments agree, are searched in full;
     `detail` says where a map was not.
     """
-    answer = answer_type(request)
+    answer = answer_type(request, (*ENCODINGS, GEOPOSE))
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
         asked, query = await state.run(_read, state, principal, body, timing)
         request.state.model_id = query.model_id
@@ -98,16 +103,49 @@ def _search(
     robot = request.robot or principal.key.robot
     if robot is not None:
         state.engine.robots.report(report_of(robot, result), principal)
-    content = render(_response(result), answer)
+    anchor_of = state.engine.annotations.geo_anchor
+    content = render(
+        _geopose(result, anchor_of) if answer == GEOPOSE else _response(result, anchor_of), answer
+    )
     timing.lap("encode")
     return content
 
 
-def _response(result: LocalizationResult) -> dict[str, Any]:
+def _geopose(result: LocalizationResult, anchor_of: AnchorOf) -> dict[str, Any]:
+    """Return the most probable pose as a `GeoPose`.
+
+    Raises:
+        Problem: 409 if the robot is not localized, or in no map with a WGS 84 anchor.
+    """
+    found = [each for each in result.maps if each.localization.pose is not None]
+    for each in found:
+        assert each.localization.pose is not None
+        geopose = geopose_of(each.localization.pose, anchor_of(each.snapshot))
+        if geopose is not None:
+            return geopose
+    if found:
+        raise Problem(
+            409,
+            "no-anchor",
+            f"The robot is in map {found[0].snapshot.name!r:.80}, which has no WGS 84 anchor, or "
+            "is too far from it. Set one: PUT /maps/{map}/anchor.",
+        )
+    best = result[0] if len(result) else None
+    if best is None:
+        raise Problem(409, "not-localized", "No map was searched. GET /maps lists the maps.")
+    told = best.localization
+    raise Problem(
+        409,
+        "not-localized",
+        f"The robot is not localized ({told.reason}). {told.detail} {advice_of(told).text}",
+    )
+
+
+def _response(result: LocalizationResult, anchor_of: AnchorOf) -> dict[str, Any]:
     """Return the same as a `LocalizeResponse`, without its checks: the values are our own."""
     return {
         "model_id": result.model_id,
-        "localizations": [_localization(each) for each in result.maps],
+        "localizations": [_localization(each, anchor_of) for each in result.maps],
         "unusable": [
             {"query": index, **segment_error(error)} for index, error in result.errors.items()
         ],
@@ -117,7 +155,7 @@ def _response(result: LocalizationResult) -> dict[str, Any]:
     }
 
 
-def _localization(answer: MapLocalization) -> dict[str, Any]:
+def _localization(answer: MapLocalization, anchor_of: AnchorOf) -> dict[str, Any]:
     """Return the localization in one map, as a `LocalizationOut`."""
     found, snapshot, rival = answer.localization, answer.snapshot, answer.judged.rival
     best, pose = found.best, found.pose
@@ -143,6 +181,7 @@ def _localization(answer: MapLocalization) -> dict[str, Any]:
         "threshold": found.threshold,
         "max_false_acceptance": found.risk,
         "pose": None if pose is None else pose_of(pose),
+        "geopose": None if pose is None else geopose_of(pose, anchor_of(snapshot)),
         "covariance": None if pose is None or best is None else best.covariance.tolist(),
         "score": 0.0 if best is None else best.score,
         "inliers": inliers,

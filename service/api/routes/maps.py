@@ -156,7 +156,9 @@ async def delete_map(write: MapWriteOf) -> None:
 async def put_response(write: MapWrite, result: WriteResult) -> Response:
     """Return the answer to a map that was stored whole."""
     snapshot = result.snapshot
-    summary = await write.state.run(summary_of, snapshot, write.principal)
+    summary = await write.state.run(
+        summary_of, snapshot, write.principal, write.state.engine.annotations.tags(snapshot)
+    )
     return JSONResponse(
         summary.model_dump(mode="json"),
         status_code=201 if result.is_new else 200,
@@ -169,7 +171,9 @@ async def put_response(write: MapWrite, result: WriteResult) -> Response:
 
 def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
     site = state.engine.calibration(snapshot)
-    return render(detail_of(snapshot, principal, site), JSON)
+    return render(
+        detail_of(snapshot, principal, site, state.engine.annotations.tags(snapshot)), JSON
+    )
 
 
 def _file(
@@ -193,7 +197,7 @@ def _listed(state: State, principal: Principal) -> bytes:
     response = MapsResponse(
         model_id=state.model_id,
         maps=[
-            summary_of(each, principal)
+            summary_of(each, principal, state.engine.annotations.tags(each))
             for each in state.engine.maps.all()
             if principal.covers(each.name)
         ],

@@ -51,14 +51,15 @@ async def match(
     """
     answer = answer_type(request)
     async with state.lanes.recognition.admit(request, ENCODINGS, timing) as body:
-        query = await state.run(_read, state, principal, body, timing)
+        query = await state.run(read_match, state, principal, body, timing)
         request.state.model_id = query.model_id
         descriptors = await query.describe(timing)
         content = await state.run(_search, state, query, descriptors, answer, timing)
     return await state.answers.respond(content, client_of(request), answer)
 
 
-def _read(state: State, principal: Principal, body: Body, timing: Timing) -> Query:
+def read_match(state: State, principal: Principal, body: Body, timing: Timing) -> Query:
+    """Parse the body of a match and build its query."""
     timing.lap("queue")
     request = parse(MatchRequest, PackedMatchRequest, body, state.settings.limits)
     return read_query(state, principal, request, timing, request.rerank)

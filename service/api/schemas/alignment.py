@@ -153,6 +153,22 @@ class MergedPartOut(BaseModel):
     )
 
 
+class CarriedAnchorOut(BaseModel):
+    """Outcome of one anchor of a merged map."""
+
+    map: str = Field(description="Name of the map that has the anchor.")
+    anchor: str | None = Field(
+        description="Name of the anchor. Null: the place of the map on the Earth."
+    )
+    outcome: Literal["carried", "kept", "conflict"] = Field(
+        description="`carried` into the merged map; `kept`, as the merged map has it already; or "
+        "`conflict`, as the merged map has another one, which stays."
+    )
+    meters: float | None = Field(
+        description="Distance from the one that stays, meters. Null if it was carried."
+    )
+
+
 class MergedOut(BaseModel):
     """Result of a merge, or of its dry run."""
 
@@ -175,3 +191,6 @@ class MergedOut(BaseModel):
     )
     alignments: list[MergePairOut] = Field(description="Alignment of each pair of the maps.")
     loops: list[LoopOut]
+    anchors: list[CarriedAnchorOut] = Field(
+        description="Outcome of each anchor of the merged maps."
+    )

@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from placecell.localization.acceptance import LARGEST_RISK
 from placecell.localization.localize import HintedReason
+from service.api.schemas.anchors import GeoPose
 from service.api.schemas.hints import HintsIn, UsedHintsOut
 from service.api.schemas.recognition import (
     EXAMPLE,
@@ -162,6 +163,10 @@ class LocalizationOut(BaseModel):
     pose: PoseOut | None = Field(
         description="Pose of the request's frame in the map's frame. Null if the robot is not "
         "localized."
+    )
+    geopose: GeoPose | None = Field(
+        description="The pose on the Earth: OGC GeoPose 1.0, Basic-Quaternion; the quaternion is "
+        "relative to east, north and up. Null if the map has no WGS 84 anchor, or without a pose."
     )
     covariance: list[list[float]] | None = Field(
         description="Covariance of the pose for small changes along the axes of the map: x, y, z "

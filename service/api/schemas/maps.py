@@ -29,6 +29,7 @@ class MapOut(BaseModel):
         "observation, Unix seconds. Null if the map is empty."
     )
     optional: list[str] = Field(description="Names of the optional columns in the map.")
+    tags: list[str] = Field(description="Tags of the map, sorted.")
 
 
 class CalibrationOut(BaseModel):

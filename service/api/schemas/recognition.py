@@ -78,6 +78,9 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         min_length=1,
         description=f"Names of at most {NAMED_MAPS:,} maps. Default: all maps of loaded models.",
     )
+    tags: Annotated[list[Name], Field(fail_fast=True, max_length=32)] | None = Field(
+        None, min_length=1, description="Search only maps that have all of these tags."
+    )
     k: int = Field(10, ge=1, strict=True, description="Largest number of candidates per query.")
 
     @model_validator(mode="after")
@@ -221,6 +224,37 @@ class MatchResponse(BaseModel):
         default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
     searched: list[str]
+    skipped: list[SkippedOut] = Field(
+        description="Maps that were not searched, because their "
+        "model is not loaded or not the requested one."
+    )
+
+
+class MapCoverageOut(BaseModel):
+    """Share of the segments that one map knows."""
+
+    map: str
+    frame: str = Field(description="Name of the frame of the map.")
+    share: float = Field(
+        description="Share of the usable segments whose best candidate in this map is more likely "
+        "right than wrong, 0 to 1."
+    )
+    known: int = Field(description="Number of these segments.")
+    probability: float = Field(
+        description="Mean of the best match probability of each usable segment in this map; 0 for "
+        "a segment without a candidate."
+    )
+
+
+class CoverageResponse(BaseModel):
+    """Coverage by each searched map, the largest share first."""
+
+    model_id: str
+    segments: int = Field(description="Number of segments that could be used.")
+    maps: list[MapCoverageOut]
+    dropped_points: int = Field(
+        default=0, description="Number of non-finite points (msgpack only) that were left out."
+    )
     skipped: list[SkippedOut] = Field(
         description="Maps that were not searched, because their "
         "model is not loaded or not the requested one."

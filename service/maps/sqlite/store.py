@@ -4,12 +4,13 @@ import logging
 import secrets
 import sqlite3
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 from service.core.files import sync_folder
+from service.maps.sqlite.annotations import errors_in, read_annotations, write_annotations
 from service.maps.sqlite.data_lock import locked
 from service.maps.sqlite.database import ADVICE, Database, Layout
 from service.maps.sqlite.history import SqliteHistory
@@ -19,6 +20,7 @@ from service.maps.sqlite.tables import (
     HEAD,
     SCHEMA,
     VERSION,
+    add_annotations,
     fill,
     head_from,
     head_of,
@@ -31,6 +33,7 @@ from service.maps.sqlite.tables import (
 from service.maps.store import (
     IDS,
     NO_IDS,
+    Annotation,
     Ids,
     MapHead,
     Note,
@@ -44,7 +47,7 @@ from service.maps.store import (
 FILE = "maps.sqlite"
 LEDGER = "ids"
 
-LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate})
+LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate, 2: add_annotations})
 
 RESERVED_SECONDS = 7 * 24 * 3600.0
 """Time for which a reserved, unwritten id counts against its key's limit, seconds."""
@@ -241,6 +244,28 @@ class SqliteMapStore:
             raise StoreError("failing", f"{self._folder / LEDGER}: {error}") from error
         return after
 
+    def annotations(self) -> dict[str, list[Annotation]]:
+        """Return the annotations of all maps, by uid; altered ones are logged and left out."""
+        with self._database.snapshot() as connection:
+            found, errors = read_annotations(connection)
+        for error in errors:
+            logger.error("%s; it is not used", error)
+        return found
+
+    def annotate(
+        self, uid: str, put: Sequence[Annotation], removed: Collection[tuple[str, str]] = ()
+    ) -> None:
+        """Add or replace annotations of a map, and remove some; KeyError if there is no map."""
+
+        def write(connection: sqlite3.Connection) -> None:
+            write_annotations(connection, row_of(connection, uid), put, removed)
+
+        if not put:
+            self._database.freeing(write)
+            return
+        with self._database.transaction() as connection:
+            write(connection)
+
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Drop the versions before one, whose file is given; KeyError if it is not kept."""
 
@@ -271,7 +296,7 @@ class SqliteMapStore:
 
         def remove(connection: sqlite3.Connection) -> None:
             row = row_of(connection, uid)
-            for table in ("commits", "bases", "owners", "maps"):
+            for table in ("commits", "bases", "owners", "annotations", "maps"):
                 connection.execute(f"DELETE FROM {table} WHERE map = ?", (row,))
 
         self._database.freeing(remove)
@@ -321,7 +346,8 @@ class SqliteMapStore:
             (lost,) = connection.execute(
                 "SELECT count(*) FROM owners WHERE map NOT IN (SELECT map FROM maps)"
             ).fetchone()
-        found += [f"{lost} rows of the table owners belong to no map"] if lost else []
+            found += [f"{lost} rows of the table owners belong to no map"] if lost else []
+            found += errors_in(connection)
         for head in self.heads():
             try:
                 with self.read(head.uid) as history:

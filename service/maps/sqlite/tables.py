@@ -10,7 +10,7 @@ from typing import Any
 from service.maps.sqlite.owners import Owners
 from service.maps.store import Commit, MapHead, Note, StoreError
 
-VERSION = 2
+VERSION = 3
 
 PART_BYTES = 4 << 20
 """Largest number of bytes of a base in one row."""
@@ -62,6 +62,16 @@ CREATE TABLE owners (
 CREATE TABLE opened (
     token TEXT NOT NULL
 ) STRICT;
+CREATE TABLE annotations (
+    map INTEGER NOT NULL REFERENCES maps,
+    kind TEXT NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    author TEXT NOT NULL,
+    time REAL NOT NULL,
+    digest TEXT NOT NULL,
+    PRIMARY KEY (map, kind, name)
+) STRICT;
 """
 
 HEAD = """
@@ -92,6 +102,13 @@ def migrate(connection: sqlite3.Connection) -> None:
         head = save_head(connection, row, head_from(tuple(columns)))
         if head.next_id:  # the owners of these ids are not known
             Owners(connection, row).write([(0, head.next_id)], "")
+
+
+def add_annotations(connection: sqlite3.Connection) -> None:
+    """Migrate a database from version 2 to version 3, within a transaction."""
+    for statement in SCHEMA.split(";"):
+        if "TABLE annotations" in statement:
+            connection.execute(statement)
 
 
 def save_head(connection: sqlite3.Connection, row: int, head: MapHead) -> MapHead:

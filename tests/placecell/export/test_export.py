@@ -16,12 +16,13 @@ from typer.testing import CliRunner, Result
 
 from cli import app
 from cli.map_content import read_content
+from placecell.core.geodesy import GeoAnchor, to_geodetic
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.export import mcap_file
 from placecell.export.content import colors
 from placecell.export.export import export as write
-from placecell.export.geo import Anchor, parse_anchor, to_wgs84
+from placecell.export.geo import parse_anchor
 from placecell.export.targets import Target
 from placecell.segmentation.recording import Recording
 from tests.client.map_builders import random_map
@@ -161,7 +162,7 @@ def test_mcap_states_definitions_of_all_types(recording: Path, tmp_path: Path) -
 
 def test_geojson_lies_around_its_anchor(map_file: tuple[Path, CompactMap], tmp_path: Path) -> None:
     path, town = map_file
-    export(path, "geojson", tmp_path / "a.geojson", anchor=Anchor(49.0, 8.4, 90.0))
+    export(path, "geojson", tmp_path / "a.geojson", anchor=GeoAnchor(49.0, 8.4, yaw_deg=90.0))
     content = json.loads((tmp_path / "a.geojson").read_text())
     points = [f for f in content["features"] if f["geometry"]["type"] == "Point"]
     lines = [f for f in content["features"] if f["geometry"]["type"] == "LineString"]
@@ -173,7 +174,8 @@ def test_geojson_lies_around_its_anchor(map_file: tuple[Path, CompactMap], tmp_p
         longitude, latitude, height = feature["geometry"]["coordinates"]
         assert (latitude - 49.0) * 111_200 == pytest.approx(centroid[0], rel=1e-3, abs=0.05)
         assert (longitude - 8.4) * 73_171 == pytest.approx(-centroid[1], rel=1e-3, abs=0.05)
-        assert height == pytest.approx(centroid[2], abs=1e-6)
+        bulge = (centroid[:2] ** 2).sum() / (2 * 6_371_000)  # the Earth falls away from the map
+        assert height == pytest.approx(centroid[2] + bulge, abs=1e-3)
 
 
 def test_geojson_without_anchor_says_what_to_give(recording: Path) -> None:
@@ -191,7 +193,7 @@ def test_wrong_anchor_is_refused(text: str) -> None:
 
 def test_points_far_from_the_anchor_are_refused() -> None:
     with pytest.raises(ValueError, match="km from the anchor"):
-        to_wgs84(np.array([[5e5, 5e6, 0.0]]), Anchor(0, 0))
+        to_geodetic(np.array([[5e5, 5e6, 0.0]]), GeoAnchor(0, 0))
 
 
 def test_tum_and_g2o_have_the_poses_of_the_captures(
@@ -229,7 +231,7 @@ def test_existing_file_is_kept_without_overwrite(recording: Path) -> None:
 @pytest.mark.parametrize("target", get_args(Target))
 def test_empty_map_gives_a_valid_file(tmp_path: Path, target: Target) -> None:
     (tmp_path / "empty.map").write_bytes(encode(random_map(0, frames=1)))
-    export(tmp_path / "empty.map", target, tmp_path / "out", anchor=Anchor(0, 0))
+    export(tmp_path / "empty.map", target, tmp_path / "out", anchor=GeoAnchor(0, 0))
     assert (tmp_path / "out").exists()
 
 

@@ -3,16 +3,15 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
-from pydantic import ValidationError
 
 from service.api.admission.admission import client_of
-from service.api.body.body import JSON, render
+from service.api.body.body import JSON, read_json_body, render
 from service.api.body.problem_json import documented
 from service.api.dependencies import PrincipalOf, StateOf, TimingOf
 from service.api.openapi import json_body
 from service.api.path_parameters import RobotName
 from service.api.schemas.robots import RobotOut, RobotReportIn, RobotsResponse
-from service.core.problems import invalid, invalid_value
+from service.core.problems import invalid_value
 from service.live.robots import RobotPose, RobotReport, RobotStatus
 
 router = APIRouter(tags=["robots"])
@@ -38,10 +37,7 @@ async def report_robot(
     """
     principal.check_reports(robot)
     async with state.lanes.reads.admit(request, (JSON,), timing) as body:
-        try:
-            asked = RobotReportIn.model_validate_json(body.content)
-        except ValidationError as error:
-            raise invalid(error) from error
+        asked = read_json_body(RobotReportIn, body.content)
         pose = None
         if asked.map is not None and asked.position is not None:
             principal.check_map(asked.map)

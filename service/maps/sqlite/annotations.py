@@ -1,0 +1,80 @@
+"""Table of annotations: tags, places on the Earth and named poses of maps."""
+
+import hashlib
+import json
+import sqlite3
+from collections.abc import Collection, Iterator, Sequence
+
+from service.maps.store import Annotation
+
+
+def read_annotations(
+    connection: sqlite3.Connection,
+) -> tuple[dict[str, list[Annotation]], list[str]]:
+    """Return the annotations of all maps, by uid, and an error for each altered one."""
+    found: dict[str, list[Annotation]] = {}
+    errors = []
+    rows = connection.execute(
+        "SELECT uid, maps.name, maps.map, kind, annotations.name, value, author, time, "
+        "annotations.digest FROM annotations JOIN maps ON maps.map = annotations.map "
+        "ORDER BY uid, kind, annotations.name"
+    )
+    for uid, of_map, row, *values, digest in rows:
+        annotation = Annotation(*values)
+        if digest == digest_of(row, annotation):
+            found.setdefault(uid, []).append(annotation)
+        else:
+            errors.append(
+                f"map {of_map!r}: {annotation.kind} {annotation.name!r} was altered in the table "
+                "annotations"
+            )
+    return found, errors
+
+
+def write_annotations(
+    connection: sqlite3.Connection,
+    row: int,
+    put: Sequence[Annotation],
+    removed: Collection[tuple[str, str]],
+) -> None:
+    """Add or replace annotations of a map, and remove some, within a transaction."""
+    for kind, name in removed:
+        connection.execute(
+            "DELETE FROM annotations WHERE map = ? AND kind = ? AND name = ?", (row, kind, name)
+        )
+    for each in put:
+        connection.execute(
+            "INSERT OR REPLACE INTO annotations VALUES (?, ?, ?, ?, ?, ?, ?)",
+            (
+                row,
+                each.kind,
+                each.name,
+                each.value,
+                each.author,
+                each.time,
+                digest_of(row, each),
+            ),
+        )
+
+
+def digest_of(row: int, annotation: Annotation) -> str:
+    """Hash an annotation of a map, so that an altered row is noticed."""
+    fields = [
+        row,
+        annotation.kind,
+        annotation.name,
+        annotation.value,
+        annotation.author,
+        float(annotation.time),
+    ]
+    return hashlib.sha256(json.dumps(fields).encode()).hexdigest()[:16]
+
+
+def errors_in(connection: sqlite3.Connection) -> Iterator[str]:
+    """Yield errors of the table: rows without a map, and altered rows."""
+    (lost,) = connection.execute(
+        "SELECT count(*) FROM annotations WHERE map NOT IN (SELECT map FROM maps)"
+    ).fetchone()
+    if lost:
+        yield f"{lost} rows of the table annotations belong to no map"
+    yield from read_annotations(connection)[1]
