@@ -15,7 +15,6 @@ from service.api.middleware.request_log import RequestLog
 from service.api.pages import docs_pages, page
 from service.api.routes import (
     align,
-    anchors,
     coverage,
     describe,
     health,
@@ -28,6 +27,7 @@ from service.api.routes import (
     uploads,
     versions,
 )
+from service.api.routes.annotations import anchors
 from service.api.routes.live import robots
 from service.api.state import State, open_state
 from service.core.settings import Settings

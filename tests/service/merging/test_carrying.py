@@ -18,7 +18,7 @@ from tests.service.merging.merged_map_builders import (
 
 pytestmark = pytest.mark.slow  # by their sum
 
-GEO = {"lat": 49.0, "lon": 8.4, "height": 110.0, "yaw_deg": 20.0, "accuracy": 0.5}
+GEO: dict[str, Any] = {"lat": 49.0, "lon": 8.4, "height": 110.0, "yaw_deg": 20.0, "accuracy": 0.5}
 
 
 @pytest.fixture(scope="module")

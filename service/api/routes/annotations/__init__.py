@@ -1,0 +1,1 @@
+"""Routes about annotations: tags and anchors of maps."""
