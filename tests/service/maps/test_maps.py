@@ -58,6 +58,7 @@ def test_put_get_list_delete(service: Any, yard: bytes, manifest: Manifest) -> N
         "sources": {},
         "time_span": [1.7e9, 1.7e9],
         "optional": [],
+        "tags": [],
     }
     assert response.json() == summary
     listed = {"model_id": manifest.model_id, "maps": [summary], "damaged": []}

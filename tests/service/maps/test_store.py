@@ -342,7 +342,7 @@ def test_foreign_database_does_not_open(folder: Path) -> None:
     SqliteMapStore(folder).close()
     with behind(folder) as connection:
         connection.execute("PRAGMA user_version = 99")
-    with pytest.raises(StoreError, match="version 99; this program reads versions 1 to 2"):
+    with pytest.raises(StoreError, match="version 99; this program reads versions 1 to 3"):
         SqliteMapStore(folder)
 
 
