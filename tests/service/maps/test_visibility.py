@@ -103,6 +103,7 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     }
     options: dict[str, list[str]] = {
         "/maps/{map}/ids": ["count=3"],
+        "/maps/{map}/export": ["to=ply", "to=pcd&color=robot", "to=geojson&anchor=49,8"],
         "/maps/{map}/scans": ["robot=zoe", "robot=ann"],
         "/maps/{map}/versions/{version}/restore": ["dry_run=true", ""],
         "/maps/{map}/uploads/{digest}": ["offset=0"],
