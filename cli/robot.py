@@ -1,6 +1,9 @@
 """`placecell robot`: localizes a robot while it drives, and sends what it maps."""
 
 import os
+import signal
+import threading
+import uuid
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
@@ -11,12 +14,15 @@ import typer
 from cli.maps.connection import KEY_VARIABLE
 from cli.sources import clear_errors, parse_town, show
 from cli.tables import JsonFlag, new_table, print_json, print_tables
+from placecell.sources.scan_options import current_scan_options
+from placecell.trajectories.extrinsic import parse_extrinsic
 
 if TYPE_CHECKING:
     from robot.agent import RobotAgent
     from robot.core.status import Summary
     from robot.outputs.output import AgentOutput
     from robot.playback import Playback
+    from robot.zenoh.address import ZenohAddress
 
 OUTPUTS = "Outputs"
 LIVE = "Playback"
@@ -27,7 +33,8 @@ def robot(
         str,
         typer.Argument(
             help="Drive (a bag, an MCAP file, a folder of scans, or a folder in a known layout), "
-            "or town:SEED:SENSOR:PLACE for a simulated one."
+            "town:SEED:SENSOR:PLACE for a simulated one, or zenoh://HOST:PORT?points=TOPIC&odom="
+            "TOPIC for the topics of a robot with ROS 2 (rmw_zenoh), until Ctrl-C."
         ),
     ],
     map_name: Annotated[str, typer.Option("--map", metavar="NAME", help="Name of the map.")],
@@ -150,16 +157,17 @@ def robot(
 
     docs/how-to/run-on-a-robot.md describes the ways to use it.
     """
-    from robot.agent import RobotAgent
     from robot.core.settings import AgentSettings
-    from robot.service_link import ServiceLink, robot_client
+    from robot.live import live_agent
 
     with clear_errors(), ExitStack() as opened:
-        playback = open_any(source, opened)
+        live = open_live(source) if source.startswith("zenoh:") else None
+        playback = None if live else open_any(source, opened)
+        title = playback.title if playback else "robot"
         settings = AgentSettings(
             map=map_name,
-            robot=robot_name or playback.title,
-            session=playback.session,
+            robot=robot_name or title,
+            session=playback.session if playback else uuid.uuid4().hex[:16],
             state=state,
             maps_folder=local,
             localize=localize,
@@ -172,23 +180,51 @@ def robot(
             model=model,
         )
         key = os.environ.get(KEY_VARIABLE)
-        client = opened.enter_context(robot_client(service, key))
-        asking = opened.enter_context(robot_client(service, key, timeout=3.0))
-        agent = RobotAgent(
-            settings, ServiceLink(client, asking), outputs_of(trajectory, mcap, events)
-        )
-        opened.callback(agent.close)
-        drive(agent, playback, speed if realtime else None)
-        agent.finish()
-        if not agent.wait_for_uploads(wait):
-            left = agent.status.spool.entries
+        outputs = outputs_of(trajectory, mcap, events)
+        with live_agent(settings, service, key, wait, outputs) as agent:
+            if live:
+                listen(agent, live)
+            elif playback:
+                drive(agent, playback, speed if realtime else None)
+        summary = agent.close()
+        left = summary.spool.entries
+        if left:
             where = f"They stay in {state}; run the command again." if state else "They are lost."
             typer.echo(f"placecell: {left} edits could not be sent. {where}", err=True)
-        summary = agent.close()
     if as_json:
         print_json(asdict(summary))
     else:
-        print_summary(summary, playback.title)
+        print_summary(summary, title)
+
+
+def open_live(source: str) -> "ZenohAddress":
+    """Parse the address of a live source; the packages for it must be there."""
+    from robot.zenoh.address import ZenohAddress
+    from robot.zenoh.bus import zenoh_modules
+
+    address = ZenohAddress.of(source)
+    zenoh_modules()
+    return address
+
+
+def listen(agent: "RobotAgent", address: "ZenohAddress") -> None:
+    """Give the agent what a robot publishes, until SIGINT or SIGTERM."""
+    from robot.node.settings import NodeSettings
+    from robot.zenoh.node import run_on_zenoh
+
+    options = current_scan_options()
+    mount = None if options.extrinsic is None else parse_extrinsic(options.extrinsic)
+    settings = NodeSettings(map_frame=address.map_frame, mount=mount, deskew=options.deskew)
+    stop = threading.Event()
+    before = {
+        number: signal.signal(number, lambda *_: stop.set())
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
+    try:
+        run_on_zenoh(agent, address, settings, stop, tell)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def open_any(source: str, opened: ExitStack) -> "Playback":
@@ -247,7 +283,12 @@ def drive(agent: "RobotAgent", playback: "Playback", speed: float | None) -> Non
         if speed is None:
             agent.wait(10.0)
         for message in agent.messages:
-            typer.echo(f"placecell: {message}", err=True)
+            tell(message)
+
+
+def tell(message: str) -> None:
+    """Show a line of the agent."""
+    typer.echo(f"placecell: {message}", err=True)
 
 
 def print_summary(summary: "Summary", title: str) -> None:

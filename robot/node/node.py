@@ -16,6 +16,7 @@ from placecell.core.types import Float32, Float64
 from placecell.odometry.deskew import deskew
 from placecell.sources.bags.pointcloud2 import PointCloud2, decode
 from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import silent
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentStatus
@@ -34,6 +35,7 @@ class NodeAgent(Protocol):
     settings: AgentSettings
     status: AgentStatus
     map_to_odom: MapToOdom | None
+    messages: list[str]
 
     def on_scan(self, points: Float32, time_s: float, odom_pose: Float64) -> None:
         """Process a scan."""
@@ -56,6 +58,7 @@ class RobotNode:
         agent: NodeAgent,
         publisher: NodePublisher,
         settings: NodeSettings | None = None,
+        tell: Callable[[str], None] = silent,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Create the node; nothing runs before `step` or `run`.
@@ -64,11 +67,13 @@ class RobotNode:
             agent: the agent.
             publisher: receiver of transforms, poses and diagnostics.
             settings: settings of the node.
+            tell: receives the agent's lines for the user.
             clock: monotonic clock, seconds.
         """
         self.settings = settings or NodeSettings()
         self._agent = agent
         self._publisher = publisher
+        self._tell = tell
         self._clock = clock
         self._changed = threading.Condition()
         self._odometry = OdometryBuffer()
@@ -198,6 +203,8 @@ class RobotNode:
                 points = deskew(points, scan.times, time_s, motion)
         self._problem = ""
         self._agent.on_scan(points, time_s, np.asarray(posed.odom_pose @ mount))
+        for message in self._agent.messages:
+            self._tell(message)
         correction = self._agent.map_to_odom
         with self._changed:
             self._map_to_odom = correction

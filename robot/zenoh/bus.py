@@ -18,12 +18,12 @@ from robot.zenoh.rmw import (
 MISSING = "Zenoh needs the packages eclipse-zenoh and rosbags: pip install 'placecell[zenoh]'."
 
 
-class MissingZenohError(RuntimeError):
-    """Error: the packages of the extra `zenoh` are not installed."""
-
-
-class ZenohError(RuntimeError):
+class ZenohError(OSError):
     """Error: the session of Zenoh cannot be opened."""
+
+
+class MissingZenohError(ZenohError):
+    """Error: the packages of the extra `zenoh` are not installed."""
 
 
 def zenoh_modules() -> tuple[Any, Any]:
@@ -84,7 +84,8 @@ class ZenohBus:
             "mode": "peer",
             "connect/endpoints": list(connect),
             "connect/exit_on_failure": False,
-            "connect/timeout_ms": 0,
+            "connect/timeout_ms": -1,  # tries again in the background, also after a restart
+            "connect/retry": {"period_init_ms": 200, "period_max_ms": 2000},
             "listen/endpoints": list(listen) or ["tcp/127.0.0.1:0"],
             "scouting/multicast/enabled": False,
             "scouting/gossip/enabled": True,

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from placecell.sources.errors import DriveError
+from placecell.sources.scan_options import silent
 from robot.node.messages import CertainPose, Diagnostic, StampedTransform
 from robot.node.node import NodeAgent, RobotNode
 from robot.node.settings import NodeSettings
@@ -58,6 +59,7 @@ def run_on_zenoh(
     address: ZenohAddress,
     settings: NodeSettings,
     stop: threading.Event,
+    tell: Callable[[str], None] = silent,
 ) -> None:
     """Run the agent on the topics of a Zenoh network until the event is set.
 
@@ -66,13 +68,14 @@ def run_on_zenoh(
         address: endpoints and topics.
         settings: settings of the node.
         stop: event that ends the run.
+        tell: receives the agent's lines for the user.
 
     Raises:
         MissingZenohError: Zenoh is not installed.
         ZenohError: the session cannot be opened.
     """
     with ZenohBus(address.node, address.domain, address.connect, address.listen) as bus:
-        node = RobotNode(agent, BusNodePublisher(bus, address), settings)
+        node = RobotNode(agent, BusNodePublisher(bus, address), settings, tell)
 
         def subscribe(
             name: str,

@@ -28,9 +28,9 @@ class Rig:
         self.agent = FakeAgent(known_after)
         self.publisher = FakePublisher()
         self.clock = FakeClock()
-        self.node = RobotNode(
-            self.agent, self.publisher, settings or NodeSettings(mount=moved(0)), self.clock
-        )
+        self.told: list[str] = []
+        used = settings or NodeSettings(mount=moved(0))
+        self.node = RobotNode(self.agent, self.publisher, used, self.told.append, self.clock)
 
     def message(self) -> str:
         """Publish and return the newest diagnostic."""
@@ -55,6 +55,7 @@ def test_scan_gets_the_odometry_between_two_messages() -> None:
     assert points.tolist() == [[1, 0, 0], [1, 1, 0], [1, -1, 0]]
     assert time_s == 10.05
     assert pose[:3, 3] == pytest.approx([3, 0, 0])
+    assert rig.told == ["scan 1"]
 
 
 def test_scan_at_the_time_of_the_odometry_does_not_wait_for_the_next_message() -> None:

@@ -16,7 +16,7 @@ from robot.node.messages import CertainPose, StampedTransform
 from robot.node.settings import NodeSettings
 from robot.zenoh import cdr
 from robot.zenoh.address import ZenohAddress
-from robot.zenoh.bus import MissingZenohError, ZenohBus, ZenohError
+from robot.zenoh.bus import BusPublisher, MissingZenohError, ZenohBus, ZenohError
 from robot.zenoh.node import LATCHED, RELIABLE, SENSOR, TRANSFORM, run_on_zenoh, topic
 from tests.robot.node.node_fakes import FakeAgent, cloud, moved, odometry
 
@@ -87,6 +87,22 @@ def test_latched_messages_reach_late_subscriptions(other: ZenohBus, endpoint: st
     with ZenohBus("placecell", 0, connect=[endpoint]) as bus:
         bus.subscribe(latched, received.append)
         wait_for(lambda: received == [b"latched"])
+
+
+def test_program_that_starts_later_or_again_is_found(endpoint: str) -> None:
+    kind = topic(ZenohAddress(), "/tf", cdr.TRANSFORMS, TRANSFORM)
+    received: list[bytes] = []
+    with ZenohBus("placecell", 0, connect=[endpoint]) as bus:
+        bus.subscribe(kind, received.append)
+        for start in (b"first", b"again"):
+            with ZenohBus("driver", 0, listen=[endpoint]) as driver:
+                publisher = driver.publisher(kind)
+
+                def arrived(publisher: BusPublisher = publisher, start: bytes = start) -> bool:
+                    publisher.put(start)
+                    return start in received
+
+                wait_for(arrived)
 
 
 def test_port_in_use_is_told(other: ZenohBus, endpoint: str) -> None:
