@@ -44,6 +44,7 @@ DOCUMENTS = sorted(
         ROOT / "client" / "README.md",
         ROOT / "deploy" / "README.md",
         ROOT / "examples" / "cpp" / "README.md",
+        ROOT / "ros" / "placecell_ros" / "README.md",
     }
 )
 LOCAL = "http://127.0.0.1:8000"

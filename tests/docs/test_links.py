@@ -14,6 +14,7 @@ DOCUMENTS = sorted(
         *(ROOT / "client").glob("*.md"),
         *(ROOT / "deploy").glob("*.md"),
         *(ROOT / "examples").rglob("*.md"),
+        *(ROOT / "ros").rglob("*.md"),
         *(ROOT / "models").rglob("*.md"),
     }
 )

@@ -1,1 +1,0 @@
-"""Measurements of a robot's own steps, from its scans to its pose."""

@@ -1,0 +1,1 @@
+"""ROS 2 node of Placecell: localizes a robot in the maps of a service."""

@@ -1,0 +1,2 @@
+class ExternalShutdownException(Exception):  # noqa: N818 rclpy names it so
+    pass

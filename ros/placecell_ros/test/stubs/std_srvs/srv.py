@@ -1,0 +1,11 @@
+from dataclasses import dataclass
+
+
+@dataclass
+class TriggerResponse:
+    success: bool = False
+    message: str = ""
+
+
+class Trigger:
+    Response = TriggerResponse

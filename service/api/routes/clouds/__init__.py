@@ -1,1 +1,0 @@
-"""Routes of point cloud files: scans that clients send, and maps for other programs."""
