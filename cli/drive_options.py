@@ -63,9 +63,9 @@ OPTIONS: dict[str, tuple[Any, Any]] = {
             str | None,
             typer.Option(
                 metavar="TOPIC",
-                help="Poses by a topic of the bag, or by kiss-icp from the scans; none uses "
-                "neither, so that a bag needs --poses. (default: the bag's own poses, else "
-                "kiss-icp)",
+                help="Poses by a topic of the bag, by kiss-icp from the scans, or by rko-lio from "
+                "scans and IMU; none uses none of them, so that a bag needs --poses. (default: "
+                "the bag's own poses, else kiss-icp)",
                 rich_help_panel=PANEL,
             ),
         ],

@@ -2,13 +2,12 @@
 
 from pathlib import Path
 
-import numpy as np
 from placecell_client.maps.compact_map import MapFileError
 from placecell_client.maps.map_file import decode
-from scipy.spatial.transform import Rotation
 
 from placecell.export.content import ExportContent, read_recording
 from placecell.segmentation.recording import RecordingError
+from service.clouds.map_export import content_of_map
 
 
 def read_content(file: Path) -> ExportContent:
@@ -39,25 +38,4 @@ def of_map(file: Path) -> ExportContent:
     Raises:
         MapFileError: the file is no map file.
     """
-    found = decode(file.read_bytes())
-    count = len(found)
-    poses = np.tile(np.eye(4), (len(found.frame_times), 1, 1))
-    if len(poses):
-        poses[:, :3, :3] = Rotation.from_quat(found.frame_orientations).as_matrix()
-    poses[:, :3, 3] = found.frame_positions
-    order = np.argsort(found.frame_times, kind="stable")
-    extents = np.zeros((count, 3)) if found.extents is None else found.extents / 10.0
-    return ExportContent(
-        frame=found.frame,
-        points=found.centroids,
-        owners=np.arange(count),
-        ids=found.ids.astype(np.int64),
-        robots=found.robots,
-        robot=found.robot.astype(np.int64),
-        groups=(found.ids if found.views is None else found.views).astype(np.int64),
-        centroids=found.centroids,
-        extents=extents,
-        poses=poses[order],
-        stamps=found.frame_times[order],
-        remarks=("a map file has no points of segments: each segment is one point, its centroid",),
-    )
+    return content_of_map(decode(file.read_bytes()))

@@ -22,12 +22,12 @@ from service.api.routes import (
     maps,
     match,
     models,
-    scans,
     segments,
     uploads,
     versions,
 )
 from service.api.routes.annotations import anchors
+from service.api.routes.clouds import exports, scans
 from service.api.routes.live import robots
 from service.api.state import State, open_state
 from service.core.settings import Settings
@@ -55,6 +55,7 @@ ROUTES = (
     scans,
     coverage,
     maps,
+    exports,
     uploads,
     segments,
     versions,

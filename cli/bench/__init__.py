@@ -17,6 +17,7 @@ from cli.bench.peers import peers
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
 from cli.bench.read import read
+from cli.bench.robot import robot
 from cli.bench.sensors import sensors
 from cli.bench.serve import serve
 from cli.bench.soak import soak
@@ -46,4 +47,5 @@ bench.command()(fleet)
 bench.command()(attack)
 bench.command("json")(json_requests)
 bench.command()(read)
+bench.command()(takes_drives(robot))
 bench.command()(page)

@@ -10,7 +10,7 @@ from placecell.odometry.source_odometry import odometry_of
 from placecell.sources.bags import Bag, BagSource, Mcap, Ros1Bag, Ros2Bag
 from placecell.sources.bags import read_poses as read_bag_poses
 from placecell.sources.errors import DriveError
-from placecell.sources.scan_options import KISS_ICP, NO_ODOMETRY, ScanOptions
+from placecell.sources.scan_options import KISS_ICP, NO_ODOMETRY, RKO_LIO, ScanOptions
 from placecell.sources.source import ScanSource
 from placecell.trajectories.extrinsic import describe_extrinsic, parse_extrinsic
 from placecell.trajectories.reading import read_trajectory
@@ -101,7 +101,7 @@ def given_poses(source: ScanSource, options: ScanOptions) -> FoundPoses | None:
     """
     if options.poses is not None:
         return with_mount(source, read_poses(options.poses), str(options.poses), options)
-    if options.odometry == KISS_ICP or (
+    if options.odometry in (KISS_ICP, RKO_LIO) or (
         options.odometry == NO_ODOMETRY and isinstance(source, BagSource)
     ):
         return None
@@ -205,7 +205,8 @@ def by_odometry(source: ScanSource, options: ScanOptions) -> SourcePoses:
             "kiss-icp. Give poses with --poses FILE (KITTI, TUM, EuRoC, CSV or g2o), or omit "
             "--odometry"
         )
-    found = odometry_of(source, options.deskew, options.progress, options.tell)
+    method = RKO_LIO if options.odometry == RKO_LIO else KISS_ICP
+    found = odometry_of(source, options.deskew, options.progress, options.tell, method)
     stamps = source.stamps if np.isfinite(source.stamps).all() else None
     scans = np.arange(len(source))
-    return SourcePoses(KISS_ICP, scans, found.poses, stamps, Trajectory(found.poses, stamps))
+    return SourcePoses(method, scans, found.poses, stamps, Trajectory(found.poses, stamps))

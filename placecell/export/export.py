@@ -55,14 +55,32 @@ def export(
     if file.exists() and file.samefile(source):
         raise ValueError(f"{file} is the source itself. Give another file with --output.")
     content = read(source)
+    with written_whole(file) as unfinished:
+        write_content(content, target, unfinished, color, anchor)
+    return content
+
+
+def write_content(
+    content: ExportContent, target: Target, file: Path, color: ColorBy, anchor: GeoAnchor | None
+) -> None:
+    """Write segments to a file of another program.
+
+    Args:
+        content: the segments.
+        target: format to write.
+        file: file to write; an existing one is replaced.
+        color: number of a segment that decides its color.
+        anchor: place of the map's origin; GeoJSON needs it.
+
+    Raises:
+        ValueError: a segment is too far from the anchor.
+    """
     numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
     shades = colors(np.asarray(numbers))
-    with written_whole(file) as unfinished:
-        if target == "geojson":
-            assert anchor is not None
-            write_geojson(content, shades, unfinished, anchor)
-        elif target in POSES:
-            POSES[target](content, unfinished)
-        else:
-            CLOUDS[target](content, shades, unfinished)
-    return content
+    if target == "geojson":
+        assert anchor is not None
+        write_geojson(content, shades, file, anchor)
+    elif target in POSES:
+        POSES[target](content, file)
+    else:
+        CLOUDS[target](content, shades, file)

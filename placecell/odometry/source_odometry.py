@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from importlib import metadata
 
 import numpy as np
@@ -14,9 +15,13 @@ from placecell.odometry.deskew import SensorMotion
 from placecell.odometry.drift import estimate_drift
 from placecell.odometry.gravity import Gravity, NotLevelError, find_gravity
 from placecell.odometry.ground_plane import UP, GroundPlane
+from placecell.odometry.inertial_odometry import INSTALL as INSTALL_INERTIAL
+from placecell.odometry.inertial_odometry import imu_of, run_inertial
 from placecell.odometry.leveling import first_scans, ground_in_world, leveling_of
 from placecell.odometry.scan_odometry import INSTALL, OdometrySettings, run
 from placecell.sources.errors import DriveError
+from placecell.sources.imu import ImuSamples
+from placecell.sources.scan_options import KISS_ICP, RKO_LIO
 from placecell.sources.source import ScanSource
 
 VERSION = 1
@@ -45,37 +50,42 @@ def odometry_of(
     use_times: bool,
     progress: Progress,
     tell: Callable[[str], None],
+    method: str = KISS_ICP,
 ) -> SourceOdometry:
-    """Compute the trajectory of a source by KISS-ICP, or read it from the cache.
+    """Compute the trajectory of a source by odometry, or read it from the cache.
 
     Args:
         source: the source.
         use_times: deskew scans whose points have times.
         progress: shows the progress.
         tell: receives a line about what was found.
+        method: package that computes it, `kiss-icp` or `rko-lio`.
 
     Raises:
-        DriveError: KISS-ICP is not installed, or no scan can be read.
+        DriveError: the package is not installed, no scan can be read, or an IMU is missing.
     """
     try:
-        version = metadata.version("kiss-icp")
+        version = metadata.version(method)
     except metadata.PackageNotFoundError as error:
-        raise DriveError(f"{source.path}: has no poses. {INSTALL}") from error
+        install = INSTALL if method == KISS_ICP else INSTALL_INERTIAL
+        raise DriveError(f"{source.path}: has no poses. {install}") from error
+    imu = imu_of(source) if method == RKO_LIO else None
     settings = OdometrySettings.of(source, use_times)
     hashes = [source.scan_hash(index) for index in range(len(source))]
-    file = cache.cache_file(
-        source.title, [VERSION, version, settings, source.stamps.tobytes().hex(), *hashes]
-    )
+    parts: list[object] = [VERSION, version, settings, source.stamps.tobytes().hex(), *hashes]
+    if imu is not None:
+        parts += [method, imu.topic, sha256(imu.accelerations.tobytes()).hexdigest()]
+    file = cache.cache_file(source.title, parts)
     found = cache.load(file, len(source))
     if found is None:
-        computed = compute(source, settings, progress)
+        computed = compute(source, settings, progress, imu)
         kept = cache.save(file, computed)
         found = (cache.load(file, len(source)) if kept else None) or computed
         where = f"kept in {file}" if kept else f"not kept: {file.parent} cannot be written"
     else:
         where = f"read from {file}"
-    tell(f"{source.path}: odometry by kiss-icp {version}, {where}")
-    tell(f"{source.path}: {describe_drift(found.drift_percent)}")
+    tell(f"{source.path}: odometry by {method} {version}, {where}")
+    tell(f"{source.path}: {describe_drift(found.drift_percent, method)}")
     until = first_scans(source.stamps)
     up, ground = level(source, found.poses[:until], tell)
     return SourceOdometry(leveling_of(up) @ found.poses, ground, found.drift_percent)
@@ -141,13 +151,20 @@ def gravity_of(source: ScanSource, poses: Float64, tell: Callable[[str], None]) 
     return Gravity(gravity.up, f"{gravity.how}, mounted by {imu.how}")
 
 
-def compute(source: ScanSource, settings: OdometrySettings, progress: Progress) -> CachedOdometry:
-    """Run the odometry over all scans, and over parts of them backward.
+def compute(
+    source: ScanSource,
+    settings: OdometrySettings,
+    progress: Progress,
+    imu: ImuSamples | None = None,
+) -> CachedOdometry:
+    """Run the odometry over all scans; that without an IMU also over parts of them backward.
 
     Raises:
         DriveError: the odometry lost its way.
     """
     everything = range(len(source))
+    if imu is not None:  # It does not run backward, so nothing tells its drift.
+        return CachedOdometry(run_inertial(source, settings, imu, progress), None)
     poses = run(source, everything, settings, progress, f"odometry of {source.title}")
     if not np.isfinite(poses).all():
         raise DriveError(
@@ -161,8 +178,10 @@ def compute(source: ScanSource, settings: OdometrySettings, progress: Progress) 
     return CachedOdometry(poses, estimate_drift(poses, backward))
 
 
-def describe_drift(percent: float | None) -> str:
+def describe_drift(percent: float | None, method: str = KISS_ICP) -> str:
     """Return the drift as text."""
+    if method != KISS_ICP:
+        return f"the drift of {method} is not estimated: it does not run backward"
     if percent is None:
         return "the sensor hardly moves, so the drift of the odometry is not estimated"
     told = (

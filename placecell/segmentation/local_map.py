@@ -8,6 +8,10 @@ from placecell.core.types import Float32, Float64
 from placecell.datasets import Drive
 from placecell.segmentation.voxel_map import VoxelMap
 
+PART = 16_384
+"""Number of points that are transformed at once: a matrix library starts no threads for so few,
+which would take longer than the product."""
+
 
 def in_range(points: Float32, parameters: Parameters) -> Float32:
     """Return the points between minimum and maximum range, float32 (n, 3), in the sensor frame."""
@@ -71,4 +75,9 @@ class Accumulator:
 
 def transform(pose: Float64, points: Float32) -> Float32:
     """Apply a rigid transform (4, 4) to points, float32 (n, 3)."""
-    return (points @ pose[:3, :3].T.astype(np.float32) + pose[:3, 3]).astype(np.float32)
+    rotation, translation = pose[:3, :3].T.astype(np.float32), pose[:3, 3]
+    moved = np.empty((len(points), 3), dtype=np.float32)
+    for first in range(0, len(points), PART):
+        part = slice(first, first + PART)
+        moved[part] = points[part] @ rotation + translation
+    return moved

@@ -76,14 +76,14 @@ class SortedScan:
         is_inside: bool (n,), whether each point is in the map.
         bounds: float32 (blocks, 2), smallest and largest horizontal distance of the points of each
             block from `sensor`, meters.
-        sensor: float32 (2,), horizontal sensor position of the scan.
+        sensor: float64 (3,), sensor position of the scan, meters.
     """
 
     points: Float32
     keys: Int64
     is_inside: Bool
     bounds: Float32
-    sensor: Float32
+    sensor: Float64
 
 
 class VoxelMap:
@@ -139,14 +139,15 @@ class VoxelMap:
             points: float32 (n, 3), meters, world frame.
             sensor: float64 (3,), position, meters, world frame.
         """
-        self._prepare(np.floor(np.asarray(sensor, dtype=np.float64) / self.voxel).astype(np.int64))
-        center = np.asarray(sensor[:2], dtype=np.float32)
+        sensor = np.array(sensor, dtype=np.float64)
+        self._prepare(np.floor(sensor / self.voxel).astype(np.int64))
+        center = sensor[:2].astype(np.float32)
         squared_radius = np.float32(self.radius**2)
         flipped = self._flip(center, squared_radius)
-        new = self._sorted(points, center, squared_radius)
+        new = self._sorted(points, sensor, squared_radius)
         self._scans.append(new)
         is_full = len(self._scans) > self.limit
-        old = self._scans.popleft() if is_full else self._sorted(points[:0], center, squared_radius)
+        old = self._scans.popleft() if is_full else self._sorted(points[:0], sensor, squared_radius)
         largest = self._count + len(new.points) + len(flipped[0])
         if largest > len(self._spare.keys):
             self._spare = Voxels.empty(largest + largest // 4)
@@ -184,11 +185,27 @@ class VoxelMap:
                 np.subtract(keys, (((shift[0] << BITS) + shift[1]) << BITS) + shift[2], out=keys)
             self._origin = cell
 
-    def _sorted(self, points: Float32, center: Float32, squared_radius: np.float32) -> SortedScan:
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what the map is made of; the rest is computed anew."""
+        return {
+            "arguments": (self.voxel, self.radius, self.limit),
+            "scans": [(scan.points, scan.sensor) for scan in self._scans],
+            "labels": self.labels.copy(),
+        }
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Add the scans again."""
+        self.__init__(*state["arguments"])  # type: ignore[misc]
+        for points, sensor in state["scans"]:
+            self.add(points, sensor)
+        self.labels[:] = state["labels"]
+
+    def _sorted(self, points: Float32, sensor: Float64, squared_radius: np.float32) -> SortedScan:
         points = np.ascontiguousarray(points)
         keys, compact = _keys(points, np.float32(self.voxel), self._origin)
         order = stable_order(compact)
-        return SortedScan(*_sort(points, keys, order, center, squared_radius), center)
+        center = sensor[:2].astype(np.float32)
+        return SortedScan(*_sort(points, keys, order, center, squared_radius), sensor)
 
     def _flip(self, center: Float32, squared_radius: np.float32) -> Stream:
         """Find the points that come near the sensor or leave, as it moves, and flip their flags.
@@ -201,7 +218,12 @@ class VoxelMap:
             for scan in self._scans
             if len(
                 rows := _flipped(
-                    scan.points, scan.is_inside, scan.bounds, scan.sensor, center, squared_radius
+                    scan.points,
+                    scan.is_inside,
+                    scan.bounds,
+                    scan.sensor[:2].astype(np.float32),
+                    center,
+                    squared_radius,
                 )
             )
         ]

@@ -15,7 +15,7 @@ DType = Literal["float32", "float64"]
 Order = Literal["rows", "columns"]
 Unit = Literal["m", "cm", "mm", "ft", "us-ft"]
 
-KISS_ICP, NO_ODOMETRY = "kiss-icp", "none"
+KISS_ICP, RKO_LIO, NO_ODOMETRY = "kiss-icp", "rko-lio", "none"
 """Values of `ScanOptions.odometry` that are no topic."""
 
 METERS: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "us-ft": 1200 / 3937}
@@ -40,8 +40,8 @@ class ScanOptions:
         topic: topic of a bag with the clouds; none: the only one, or the one with the most points.
         poses: file of a trajectory; none: the source's own poses, or odometry.
         pose_offset: seconds to add to the times of `poses`; none: 0, or found if it is sure.
-        odometry: topic of a bag with the poses, `kiss-icp`, or `none` to use neither: then a bag
-            needs `poses`; None: chosen from the source's content.
+        odometry: topic of a bag with the poses, `kiss-icp`, `rko-lio`, or `none` to use none of
+            them: then a bag needs `poses`; None: chosen from the source's content.
         extrinsic: mount of the sensor in the frame of the poses, as `parse_extrinsic` takes it;
             none: as the source states it, else identity.
         deskew: move points that have times to the scan's time.
@@ -72,7 +72,7 @@ class ScanOptions:
     @property
     def odometry_topic(self) -> str | None:
         """Topic of a bag with the poses, if the options state one."""
-        return None if self.odometry in (None, KISS_ICP, NO_ODOMETRY) else self.odometry
+        return None if self.odometry in (None, KISS_ICP, RKO_LIO, NO_ODOMETRY) else self.odometry
 
 
 _current: ContextVar[ScanOptions] = ContextVar("reading", default=ScanOptions())  # noqa: B039 -- frozen

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
-from placecell_client import Delta, decode, decode_delta, encode
+from placecell_client import Delta, decode, decode_delta, encode, encode_delta
 from placecell_client.maps.edit import compose
 
 from placecell.core.cancellation import current
@@ -14,6 +14,8 @@ from service.maps.cache import MapCache
 from service.maps.layers import MapLayers, robots_of
 from service.maps.snapshot import MapSnapshot, tag_of
 from service.maps.store import Commit, MapHead, MapHistory, MapStore
+
+NO_IDS: UInt32 = np.zeros(0, np.uint32)
 
 
 @contextmanager
@@ -96,6 +98,31 @@ def version_file(store: MapStore, snapshot: MapSnapshot, sequence: int) -> tuple
         oldest = sequence == history.head.oldest
         file = history.base() if oldest else encode(replay(history, sequence).content())
         return file, tag_of(sequence, history.mark(sequence))
+
+
+def version_changes(store: MapStore, snapshot: MapSnapshot, sequence: int) -> bytes:
+    """Return the delta file of one version: its changes against the version before it.
+
+    The first version of a map has all its segments in the delta.
+
+    Raises:
+        Problem: 404 if the map never had this version; 410 if the version was compacted, or if it
+            is the oldest that is left, so that the version before it is not known.
+        StoreError: the stored data is damaged.
+    """
+    with history_of(store, snapshot) as history:
+        _check_kept(history, sequence)
+        if sequence > history.head.oldest:
+            ((_, blob),) = history.blobs(sequence - 1, sequence)
+            return blob
+        if sequence > 1:
+            raise Problem(
+                410,
+                "version-gone",
+                f"Version {sequence} of map {snapshot.name!r:.80} is the oldest that is left, and "
+                "the version before it was compacted. Its changes are not known.",
+            )
+        return encode_delta(Delta(decode(history.base()), NO_IDS, 0, 1))
 
 
 def version_tag(store: MapStore, snapshot: MapSnapshot, sequence: int) -> str:

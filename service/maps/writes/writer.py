@@ -141,12 +141,20 @@ class MapWriter:
             self._check_edit(snapshot, change, refreshed, owners, options)
             return replace(self._store(snapshot, change, "edit", refreshed), repeats=repeats)
 
-    def restore(self, name: str, sequence: int) -> WriteResult:
-        """Write the content of an earlier version as a new version."""
+    def restore(self, name: str, sequence: int, dry_run: bool = False) -> WriteResult:
+        """Write the content of an earlier version as a new version.
+
+        Args:
+            name: name of the map.
+            sequence: sequence of the earlier version.
+            dry_run: only count the segments that would change.
+        """
         with self.maps.writing(name):
             snapshot = self.maps.get(name)
             layers, _ = load_version(self.maps.store, snapshot, sequence)
             change = snapshot.layers.change_to(layers.content(), snapshot.head.sequence)
+            if dry_run:
+                return WriteResult(snapshot, len(change.delta.changed), len(change.delta.removed))
             return self.commit(snapshot, change, "restore")
 
     def prune(self, name: str, unseen_since: float, dry_run: bool) -> WriteResult:

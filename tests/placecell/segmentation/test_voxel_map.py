@@ -1,5 +1,6 @@
 """A voxel map that is updated scan by scan equals one that is built anew."""
 
+import pickle
 from collections import deque
 
 import numpy as np
@@ -111,6 +112,26 @@ def test_tiny_coordinate_leaves_no_trace_when_its_scan_leaves() -> None:
     scans = [np.array([[x, 1, 1] for x in row], np.float32).reshape(-1, 3) for row in xs]
     voxel_map = check_drive([*scans, scans[3]], np.zeros((5, 3)))
     assert voxel_map.means[0, 0] == np.float32((a + b) / 2)
+
+
+def test_pickled_map_continues_as_the_map_itself() -> None:
+    random = np.random.default_rng(5)
+    sensors = np.linspace([0, 0, 0], [30, 5, 1], 8)
+    scans = [around(at, 300, random) for at in sensors]
+    voxel_map = VoxelMap(VOXEL, RADIUS, SCANS)
+    for points, sensor in zip(scans[:6], sensors, strict=False):
+        voxel_map.add(points, sensor)
+    voxel_map.labels[:] = np.arange(len(voxel_map))
+    other = pickle.loads(pickle.dumps(voxel_map))
+    for points, sensor in zip(scans[6:], sensors[6:], strict=True):
+        for each in (voxel_map, other):
+            each.add(points, sensor)
+        assert other.means.tobytes() == voxel_map.means.tobytes()
+        assert other.labels.tolist() == voxel_map.labels.tolist()
+
+
+def test_pickle_of_an_empty_map() -> None:
+    assert len(pickle.loads(pickle.dumps(VoxelMap(VOXEL, RADIUS, SCANS)))) == 0
 
 
 @pytest.mark.slow

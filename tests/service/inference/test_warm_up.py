@@ -8,7 +8,9 @@ from placecell_client import encode
 from placecell.core import nearest
 from placecell.descriptors import reranking
 from placecell.localization import clique, consistency, correspondences, refinement, voting
+from placecell.segmentation import ground, region_growing
 from service.api.body import json_arrays
+from tests.service.clouds.scan_files import files_of, yard_scan
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 
@@ -22,7 +24,9 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
             consistency,
             correspondences,
             refinement,
+            region_growing,
             reranking,
+            ground,
             voting,
         )
         for each in vars(module).values()
@@ -33,6 +37,7 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         assert before[consistency.count_votes]
         assert before[correspondences._lead]
         assert before[voting._vote]
+        assert before[region_growing._label]
         assert before[reranking.count_supports]
         yard = encode(map_of(random_codes(50), manifest.model_id))
         for name in ("a", "b", "c"):
@@ -40,6 +45,7 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         clouds = [cloud(seed) + 10 * seed for seed in range(8)]
         assert client.post("/localize", json=request_of(clouds)).status_code == 200
         assert client.post("/match", json=request_of(clouds)).status_code == 200
+        assert client.post("/scans", content=files_of(yard_scan())["ply"][2]).status_code == 200
         assert {each: len(each.nopython_signatures) for each in loops} == before
 
 

@@ -4,7 +4,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from placecell_client import encode
+from placecell_client import decode_delta, encode
+from placecell_client.maps.delta_file import MEDIA_TYPE as DELTA
+from placecell_client.maps.edit import apply
 
 from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
@@ -144,3 +146,53 @@ def test_clock_jump_changes_only_displayed_times(
     with start() as service:
         listed = service.get("/maps/yard/versions").json()["versions"]
         assert [(one["sequence"], one["time"]) for one in listed] == [(3, 2e9), (2, 1.0), (1, 5e9)]
+
+
+def test_changes_of_each_version_lead_from_the_one_before(service: Any, files: list[bytes]) -> None:
+    content = None
+    for sequence, file in enumerate(files, 1):
+        answer = service.get(f"/maps/yard/versions/{sequence}/changes")
+        assert answer.status_code == 200
+        assert answer.headers["content-type"] == DELTA
+        version = service.get(f"/maps/yard?version={sequence}")
+        assert answer.headers["etag"] == version.headers["etag"]
+        delta = decode_delta(answer.content)
+        assert (delta.since, delta.until) == (sequence - 1, sequence)
+        content = delta.changed if content is None else apply(content, delta)
+        assert encode(content) == file
+        known = {"If-None-Match": answer.headers["etag"]}
+        again = service.get(f"/maps/yard/versions/{sequence}/changes", headers=known)
+        assert (again.status_code, again.content) == (304, b"")
+        part = service.get(
+            f"/maps/yard/versions/{sequence}/changes", headers={"Range": "bytes=0-7"}
+        )
+        assert (part.status_code, part.content) == (206, answer.content[:8])
+
+
+def test_changes_of_a_compacted_version_are_gone(service: Any, files: list[bytes]) -> None:
+    assert len(files) == 4
+    service.post("/maps/yard/compact?keep=2")
+    for sequence in (1, 2, 3):
+        gone = service.get(f"/maps/yard/versions/{sequence}/changes")
+        assert_problem(gone, 410, "version-gone", f"ersion {sequence} of map 'yard'")
+    assert service.get("/maps/yard/versions/4/changes").status_code == 200
+    assert_problem(service.get("/maps/yard/versions/5/changes"), 404, "unknown-version")
+    assert_problem(service.get("/maps/yard/versions/0/changes"), 422, "invalid-request")
+    assert_problem(service.get("/maps/other/versions/1/changes"), 404, "unknown-map")
+
+
+def test_dry_run_of_a_restore_counts_what_it_would_change(service: Any, files: list[bytes]) -> None:
+    before = service.get("/maps/yard").headers["etag"]
+    dry = service.post("/maps/yard/versions/1/restore?dry_run=true")
+    assert dry.status_code == 200
+    assert dry.headers["etag"] == before == service.get("/maps/yard").headers["etag"]
+    assert service.get("/maps/yard").content == files[3]
+    done = service.post("/maps/yard/versions/1/restore").json()
+    counts = ("changed", "removed")
+    assert [dry.json()[key] for key in counts] == [done[key] for key in counts]
+    assert sum(done[key] for key in counts) > 0
+    none = service.post("/maps/yard/versions/1/restore?dry_run=true").json()
+    assert [none[key] for key in counts] == [0, 0]
+    assert_problem(
+        service.post("/maps/yard/versions/9/restore?dry_run=true"), 404, "unknown-version"
+    )

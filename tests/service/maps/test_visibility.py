@@ -13,6 +13,7 @@ from placecell_client.maps.canonical import canonical
 from placecell_client.maps.edit import apply
 
 from placecell.descriptors.manifest import Manifest
+from tests.service.clouds.scan_files import files_of, yard_scan
 from tests.service.core.test_auth import made
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
 
@@ -91,6 +92,9 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
             {"content": edit(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
             {"content": b"rubbish"},
         ],
+        "/robots/{robot}": [{"json": {"state": "lost"}}],
+        "/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
+        "/maps/{map}/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
         "/maps/{map}/uploads/{digest}": [{"content": b"part"}],
         "/maps/{map}": [
             {"content": encode(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
@@ -99,6 +103,9 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     }
     options: dict[str, list[str]] = {
         "/maps/{map}/ids": ["count=3"],
+        "/maps/{map}/export": ["to=ply", "to=pcd&color=robot", "to=geojson&anchor=49,8"],
+        "/maps/{map}/scans": ["robot=zoe", "robot=ann"],
+        "/maps/{map}/versions/{version}/restore": ["dry_run=true", ""],
         "/maps/{map}/uploads/{digest}": ["offset=0"],
         "/maps/{map}/age": ["unseen_since=0&dry_run=true", "unseen_since=0"],
         "/maps/{map}/changes": ["since=0", "since=1", "since=2", "since=0&limit=3"],
@@ -114,6 +121,7 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
                     for body in bodies.get(path, [{}]) if method in {"post", "put"} else [{}]:
                         filled = path.replace("{map}", name).replace("{other}", "hall-a")
                         filled = filled.replace("{version}", "2").replace("{digest}", DIGEST)
+                        filled = filled.replace("{robot}", "ann")
                         address = f"{filled}?{query}"
                         headers = ann | {"If-Match": "*"} if "hall-site" in filled else ann
                         answer = service.request(method, address, headers=headers, **body)
