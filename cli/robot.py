@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cli.maps.connection import KEY_VARIABLE
-from cli.sources import clear_errors, parse_town, show
+from cli.sources import TOWN_SCANS, clear_errors, parse_town, show
 from cli.tables import JsonFlag, new_table, print_json, print_tables
 from placecell.sources.scan_options import current_scan_options
 from placecell.trajectories.extrinsic import parse_extrinsic
@@ -241,7 +241,12 @@ def open_any(source: str, opened: ExitStack) -> "Playback":
     seed, sensor, place = parse_town(source)
     folder = opened.enter_context(tempfile.TemporaryDirectory(prefix="placecell-town-"))
     drives = town.two_robots(
-        Path(folder), seed=seed, scans=300, place=place, lidar=town.sensor(sensor), progress=show
+        Path(folder),
+        seed=seed,
+        scans=TOWN_SCANS,
+        place=place,
+        lidar=town.sensor(sensor),
+        progress=show,
     )
     return DrivePlayback(open_drive(drives[0]))
 

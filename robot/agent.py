@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -336,11 +337,6 @@ class RobotAgent:
     def _request(self, codes: Int8, centroids: Float64) -> FixRequest:
         assert self._time is not None
         meters = self._perception.meters
-        expected = self._correction.at(self._time, meters)
-        radius = 0.0
-        if expected is not None:
-            spread = float(np.sqrt(max(expected.covariance[0, 0], expected.covariance[1, 1])))
-            radius = 3 * spread + RIGHT_METERS
         return FixRequest(
             time=self._time,
             meters=meters,
@@ -351,8 +347,6 @@ class RobotAgent:
             centroids=centroids,
             map=self.settings.searched_map,
             session=f"{self.settings.robot}-{self.settings.session}-{self._perception.part}"[-64:],
-            expected=None if expected is None else expected.transform,
-            radius=radius,
         )
 
     def _take_answer(self) -> None:
@@ -431,8 +425,9 @@ class RobotAgent:
         if self._courier is None:
             return
         found = self.map_to_odom
-        pose = None if found is None else found.pose(self._odom_pose)
-        report = self._courier.step(self.status, pose)
+        if found is not None:
+            found = replace(found, transform=found.pose(self._odom_pose))
+        report = self._courier.step(self.status, found)
         self._counts["uploads"] += report.uploads
         self.messages += report.messages
         if report.map_replaced and self.settings.localize:

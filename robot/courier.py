@@ -6,10 +6,10 @@ from pathlib import Path
 
 from placecell_client import MapCopy
 
-from placecell.core.types import Float64
 from robot.core.backoff import Backoff
 from robot.core.link import Link, LinkError, RefusedError
 from robot.core.link_monitor import LinkMonitor
+from robot.core.map_to_odom import MapToOdom
 from robot.core.status import AgentStatus
 from robot.core.worker import Worker
 from robot.localization.local_engine import LocalEngine
@@ -114,12 +114,12 @@ class Courier:
         """Seconds until the next call may be made."""
         return self._backoff.remaining
 
-    def step(self, status: AgentStatus, pose: Float64 | None) -> CourierReport:
+    def step(self, status: AgentStatus, pose: MapToOdom | None) -> CourierReport:
         """Take the result of the last job, and start the next one.
 
         Args:
             status: state of the agent, to report.
-            pose: pose of the sensor in the map, float64 (4, 4), or None.
+            pose: pose of the sensor in the map, or None.
         """
         report = CourierReport()
         done = self._worker.take()
@@ -137,7 +137,7 @@ class Courier:
         """Stop the worker."""
         self._worker.close()
 
-    def _start(self, status: AgentStatus, pose: Float64 | None) -> None:
+    def _start(self, status: AgentStatus, pose: MapToOdom | None) -> None:
         now = self._clock()
         entries = self._spool.oldest(BATCH)
         pull_is_due = self._engine is not None and now >= self._next_pull
@@ -207,14 +207,15 @@ class Courier:
         )
         return _Delivered("pull", True, replaced=is_other)
 
-    def _report(self, status: AgentStatus, pose: Float64 | None) -> _Delivered:
+    def _report(self, status: AgentStatus, pose: MapToOdom | None) -> _Delivered:
         try:
             self._link.report(self._robot, status, pose)
         except LinkError as error:
             return _Delivered("report", error.was_reached, str(error), error.retry_after)
-        except RefusedError as error:
-            return _Delivered("report", True, str(error))
-        return _Delivered("report")
+        except RefusedError:
+            # An older service, or a key that may not report.
+            self._next_report = float("inf")
+        return _Delivered("report", True)
 
 
 def _uploaded(result: UploadResult) -> _Delivered:

@@ -5,15 +5,18 @@ import numpy as np
 from placecell_client import Client, MapCopy, ServiceError
 from placecell_client.http.retry import Retries
 from placecell_client.results.core import Description
+from scipy.spatial.transform import Rotation
 
-from placecell.core.types import Float64
 from robot.core.link import FixAnswer, FixRequest, LinkError, RefusedError
+from robot.core.map_to_odom import MapToOdom
 from robot.core.status import AgentStatus
 from robot.localization.local_engine import FLOOR
 from robot.localization.rigid import covariance_at_sensor
 
 TEMPORARY = frozenset({408, 425, 429, 500, 502, 503, 504})
 """Statuses after which the same call may succeed."""
+REASON = 200
+"""Largest length of the reason in a report."""
 ONE_ATTEMPT = Retries(attempts=1)
 """The agent spaces its calls itself, so that a scan's request is not repeated when it is old."""
 
@@ -89,12 +92,32 @@ class ServiceLink:
         except (ServiceError, httpx.TransportError) as error:
             raise as_link_error(error) from error
 
-    def report(self, robot: str, status: AgentStatus, pose: Float64 | None) -> None:
-        """Report the pose and the state of the robot, if the service takes reports.
+    def report(self, robot: str, status: AgentStatus, pose: MapToOdom | None) -> None:
+        """Report the pose and the state of the robot.
 
         Raises:
             LinkError, RefusedError: the report was not taken.
         """
+        found = {}
+        if pose is not None:
+            turn = Rotation.from_matrix(pose.transform[:3, :3]).as_quat()
+            found = {
+                "map_name": pose.map,
+                "position": pose.transform[:3, 3],
+                "orientation": turn,
+                "covariance": pose.covariance,
+            }
+        try:
+            self._client.report_pose(
+                robot,
+                **found,
+                probability=status.last_fix.probability if status.last_fix else None,
+                state=status.state.value,
+                reason=status.reason[:REASON],
+                time=status.time if status.time >= 0 else None,
+            )
+        except (ServiceError, httpx.TransportError) as error:
+            raise as_link_error(error) from error
 
     def close(self) -> None:
         """Leave the client open: it belongs to the caller."""

@@ -98,7 +98,7 @@ LAYERS = (
         "benchmarks.page",
     ),
     ("benchmarks.storage", "benchmarks.durability"),
-    ("benchmarks.durability.power_loss",),
+    ("benchmarks.durability.power_loss", "benchmarks.live"),
     ("demo",),
     ("cli",),
 )

@@ -10,6 +10,7 @@ from cli.bench.fleet import fleet
 from cli.bench.floors import floors
 from cli.bench.json_requests import json_requests
 from cli.bench.ladder import ladder
+from cli.bench.live import live
 from cli.bench.localize import localize
 from cli.bench.maps import maps
 from cli.bench.page import page
@@ -18,6 +19,7 @@ from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
 from cli.bench.read import read
 from cli.bench.robot import robot
+from cli.bench.robot_faults import robot_faults
 from cli.bench.sensors import sensors
 from cli.bench.serve import serve
 from cli.bench.soak import soak
@@ -35,6 +37,8 @@ bench.command()(takes_drives(maps))
 bench.command()(takes_drives(ladder))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
+bench.command()(live)
+bench.command()(robot_faults)
 bench.command()(pose_tables)
 bench.command()(sensors)
 bench.command()(takes_drives(align))

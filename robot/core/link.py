@@ -6,6 +6,7 @@ from typing import Protocol
 from placecell_client import MapCopy
 
 from placecell.core.types import Float64, Int8
+from robot.core.map_to_odom import MapToOdom
 from robot.core.status import AgentStatus, FixSource
 
 
@@ -53,8 +54,6 @@ class FixRequest:
         centroids: their centroids in the odometry frame, float64 (n, 3), meters.
         map: name of the map to search.
         session: id of the odometry frame; requests of one session support each other.
-        expected: expected transform from the odometry frame into the map, float64 (4, 4), or None.
-        radius: uncertainty of the expected position, meters.
     """
 
     time: float
@@ -66,8 +65,6 @@ class FixRequest:
     centroids: Float64
     map: str
     session: str
-    expected: Float64 | None = None
-    radius: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,8 +107,14 @@ class Link(Protocol):
     def pull(self, copy: MapCopy) -> MapCopy:
         """Update a copy of a map."""
 
-    def report(self, robot: str, status: AgentStatus, pose: Float64 | None) -> None:
-        """Report the pose and the state of the robot."""
+    def report(self, robot: str, status: AgentStatus, pose: MapToOdom | None) -> None:
+        """Report the pose and the state of the robot.
+
+        Args:
+            robot: name of the robot.
+            status: state of the agent.
+            pose: pose of the sensor in the map, as `transform`; None if it is not known.
+        """
 
     def close(self) -> None:
         """Close the connections."""

@@ -11,6 +11,7 @@ from placecell_client.maps.edit import apply
 from placecell.core.types import Float32, Float64, Int8, Int64
 from robot.agent import RobotAgent
 from robot.core.link import FixAnswer, FixRequest, RefusedError
+from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentStatus, Fix
 from robot.core.worker import InlineWorker
@@ -111,7 +112,7 @@ class FakeLink:
             raise RefusedError("no such map", 404, "unknown-map")
         return MapCopy(copy.name, stored, f"0000-{len(stored)}")
 
-    def report(self, robot: str, status: AgentStatus, pose: Float64 | None) -> None:
+    def report(self, robot: str, status: AgentStatus, pose: MapToOdom | None) -> None:
         self._fail()
         self.reports.append(status)
 

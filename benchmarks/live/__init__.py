@@ -1,0 +1,1 @@
+"""Live: a robot that drives through a town, and an agent that is disturbed."""
