@@ -52,7 +52,7 @@ class LivePlan:
 
 @dataclass(slots=True)
 class LegResult:
-    """What was noticed after one start or kidnap.
+    """Result of one start or kidnap.
 
     Attributes:
         begun_at: distance driven at its start, meters.
