@@ -190,12 +190,16 @@ def needs_of(cases: Cases, told: Bool) -> SegmentNeeds:
     """Return the number of segments with which robots are usually localized, and its growth.
 
     The number is the median over the sensors: some see too little of a place from the opposite
-    direction, however many segments it is.
+    direction, however many segments it is. Only cases of one sensor count, if there are any: in the
+    map of another sensor, the two fields of view matter more than the number.
     """
     localized = told & cases.right
+    counted = cases.sensors[:, 0] == cases.sensors[:, 1]
+    if not counted.any():
+        counted[:] = True
     counts = []
-    for sensor in np.unique(cases.sensors[:, 1]):
-        own = cases.answerable & (cases.sensors[:, 1] == sensor)
+    for sensor in np.unique(cases.sensors[counted, 1]):
+        own = counted & cases.answerable & (cases.sensors[:, 1] == sensor)
         for count in range(4, MOST_NEEDED):
             near = own & (cases.usable >= count) & (cases.usable < 1.5 * count)
             if near.any() and localized[near].mean() >= LOCALIZED:

@@ -8,7 +8,7 @@ import pytest
 
 from evaluation.poses import confidence
 from evaluation.poses.cases import Cases, FitPair
-from evaluation.poses.confidence import figures, fit_cases, logistic, needs_of
+from evaluation.poses.confidence import MOST_NEEDED, figures, fit_cases, logistic, needs_of
 from placecell.core.types import Bool, Float64
 from placecell.localization import Confidence
 from placecell.localization.confidence import FEATURES
@@ -128,6 +128,14 @@ def test_segments_needed_by_hand() -> None:
     found = needs_of(replace(cases, right=np.ones(len(cases), dtype=bool)), told)
     # From 20 segments on, all robots are localized; from 17 to 25, not 95 of 100.
     assert 18 <= found.segments <= 20
+    # Cases of two sensors count only if there are no others.
+    crossed = cases.sensors.copy()
+    crossed[cases.usable >= 20, 0] = "os1-64"
+    right = np.ones(len(cases), dtype=bool)
+    few = needs_of(replace(cases, right=right, sensors=crossed), told)
+    assert few.segments == MOST_NEEDED - 1
+    crossed[:, 0] = "os1-64"
+    assert needs_of(replace(cases, right=right, sensors=crossed), told) == found
 
 
 def test_pair_of_a_folder_has_the_sensor_and_the_place_of_its_name(tmp_path: Path) -> None:
