@@ -46,8 +46,10 @@ from placecell_client.results.localization import (
 )
 from placecell_client.results.merge import MapLoop, Merge, MergedAnchor, MergedPart, MergePair
 from placecell_client.results.robots import RobotState
+from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
 __all__ = [
+    "AddedScan",
     "AnchorPose",
     "AsyncClient",
     "Candidate",
@@ -63,6 +65,7 @@ __all__ = [
     "Info",
     "Inliers",
     "ItemError",
+    "KeyScope",
     "LastPoseHint",
     "Localization",
     "Localizations",
@@ -92,6 +95,7 @@ __all__ = [
     "Retries",
     "Rival",
     "RobotState",
+    "ScannedFile",
     "SensorPose",
     "ServiceError",
     "Skipped",

@@ -17,7 +17,7 @@ from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
-from placecell_client.http.requests import ALIGNMENT_SECONDS, Call
+from placecell_client.http.requests import ALIGNMENT_SECONDS, Call, PointCloudFile
 from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
 from placecell_client.http.transport import BaseClient, http_options
@@ -39,6 +39,7 @@ from placecell_client.results.core import (
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 from placecell_client.results.robots import RobotState
+from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
 T = TypeVar("T")
 AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
@@ -94,6 +95,50 @@ class AsyncClient(BaseClient):
     async def info(self) -> Info:
         """See `Client.info`."""
         return await self._send(self._calls.info())
+
+    async def key(self) -> KeyScope:
+        """See `Client.key`."""
+        return await self._send(self._calls.key())
+
+    async def scan_file(self, file: PointCloudFile, *, file_name: str | None = None) -> ScannedFile:
+        """See `Client.scan_file`."""
+        return await self._send(self._calls.scan_file(file, file_name))
+
+    async def add_scan(
+        self,
+        name: str,
+        file: PointCloudFile,
+        *,
+        robot: str | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        yaw: float = 0.0,
+        time: float | None = None,
+        create: bool = False,
+        deduplicate: bool = False,
+        file_name: str | None = None,
+        if_match: str | None = None,
+    ) -> AddedScan:
+        """See `Client.add_scan`."""
+        call = self._calls.add_scan(
+            name, file, file_name, robot, position, yaw, time, create, deduplicate, if_match
+        )
+        return await self._send(call)
+
+    async def version_changes(self, name: str, version: int) -> Delta:
+        """See `Client.version_changes`."""
+        return await self._send(self._calls.version_changes(name, version))
+
+    async def export(
+        self,
+        name: str,
+        to: str,
+        *,
+        color: str = "id",
+        anchor: str | None = None,
+        version: int | None = None,
+    ) -> bytes:
+        """See `Client.export`."""
+        return await self._send(self._calls.export(name, to, color, anchor, version))
 
     async def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
         """See `Client.describe`."""
@@ -221,9 +266,11 @@ class AsyncClient(BaseClient):
         """See `Client.versions`."""
         return await self._send(self._calls.versions(name, limit))
 
-    async def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
+    async def restore_map(
+        self, name: str, version: int, if_match: str | None = None, *, dry_run: bool = False
+    ) -> Written:
         """See `Client.restore_map`."""
-        return await self._send(self._calls.restore_map(name, version, if_match))
+        return await self._send(self._calls.restore_map(name, version, if_match, dry_run))
 
     async def prune_map(
         self,

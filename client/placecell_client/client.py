@@ -15,7 +15,7 @@ from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
-from placecell_client.http.requests import ALIGNMENT_SECONDS, Call
+from placecell_client.http.requests import ALIGNMENT_SECONDS, Call, PointCloudFile
 from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
 from placecell_client.http.transport import BaseClient, http_options
@@ -37,6 +37,7 @@ from placecell_client.results.core import (
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 from placecell_client.results.robots import RobotState
+from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
 T = TypeVar("T")
 ClientT = TypeVar("ClientT", bound="Client")
@@ -62,8 +63,9 @@ class Client(BaseClient):
     The client repeats a call after a temporary failure (statuses 429, 502, 503, 504 and connection
     errors), but only if a repetition is safe. A write may have been carried out although its answer
     was lost; a repetition could then undo later writes of other clients. An ETag as `if_match`
-    makes every write safe to repeat. Without an ETag, `restore_map`, `prune_map`, `merge_maps`,
-    `compact_map`, `delete_map`, and every write with `if_match="*"`, are not repeated in this case.
+    makes every write safe to repeat. Without an ETag, `add_scan`, `restore_map`, `prune_map`,
+    `merge_maps`, `compact_map`, `delete_map`, and every write with `if_match="*"`, are not repeated
+    in this case.
 
     Args:
         base_url: Address of the service, such as `http://127.0.0.1:8000`.
@@ -119,6 +121,103 @@ class Client(BaseClient):
     def info(self) -> Info:
         """Return version, default model, limits and costs of the service."""
         return self._send(self._calls.info())
+
+    def key(self) -> KeyScope:
+        """Return what the client's API key may do."""
+        return self._send(self._calls.key())
+
+    def scan_file(self, file: PointCloudFile, *, file_name: str | None = None) -> ScannedFile:
+        """Segment a point cloud file: PCD, PLY, LAS, LAZ, KITTI's .bin, NumPy, CSV or other text.
+
+        The service levels the points by the ground that they show.
+
+            scan = client.scan_file("scan.pcd")
+            found = client.localize(segments=scan.segments, sensors=scan.sensors)
+
+        Args:
+            file: Path of the file, or its content.
+            file_name: Name of the file. Its ending tells a format that the content does not tell.
+                Default: the name in the path.
+
+        Returns:
+            The segments, and the points of the scan with their segments.
+
+        Raises:
+            OSError: The file cannot be read.
+        """
+        return self._send(self._calls.scan_file(file, file_name))
+
+    def add_scan(
+        self,
+        name: str,
+        file: PointCloudFile,
+        *,
+        robot: str | None = None,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        yaw: float = 0.0,
+        time: float | None = None,
+        create: bool = False,
+        deduplicate: bool = False,
+        file_name: str | None = None,
+        if_match: str | None = None,
+    ) -> AddedScan:
+        """Segment a point cloud file and add its segments to a map as one capture.
+
+        Args:
+            name: Name of the map.
+            file: Path of the file, or its content, as for `scan_file`.
+            robot: Robot that saw the scan. Default: the robot of the API key.
+            position: Position of the sensor in the map's frame, meters.
+            yaw: Angle of the sensor about the z axis in the map's frame, radians.
+            time: Time of the scan, seconds. Default: now, on the service's clock.
+            create: Create the map if it does not exist.
+            deduplicate: Do not store segments that were seen before.
+            file_name: Name of the file, as for `scan_file`.
+            if_match: ETag of the version to add to, or `*` for any version.
+
+        Returns:
+            The new version, and the ids of the segments.
+
+        Raises:
+            OSError: The file cannot be read.
+        """
+        call = self._calls.add_scan(
+            name, file, file_name, robot, position, yaw, time, create, deduplicate, if_match
+        )
+        return self._send(call)
+
+    def version_changes(self, name: str, version: int) -> Delta:
+        """Return the changes of one version of a map against the version before it.
+
+        Args:
+            name: Name of the map.
+            version: Sequence number of the version.
+
+        Returns:
+            The added and replaced segments, and the ids of removed ones.
+        """
+        return self._send(self._calls.version_changes(name, version))
+
+    def export(
+        self,
+        name: str,
+        to: str,
+        *,
+        color: str = "id",
+        anchor: str | None = None,
+        version: int | None = None,
+    ) -> bytes:
+        """Return a map as a file for another program, as `placecell export` writes it.
+
+        Args:
+            name: Name of the map.
+            to: Format: `ply`, `las`, `pcd`, `mcap`, `geojson`, `tum` or `g2o`.
+            color: Number of a segment that decides its color: `id`, `robot` or `group`.
+            anchor: Place of the map's origin, `LAT,LON` or `LAT,LON,YAW_DEG`, for `geojson`.
+                Default: the anchor of the map.
+            version: Sequence number of a version. Default: the newest.
+        """
+        return self._send(self._calls.export(name, to, color, anchor, version))
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
         """Compute the descriptors of the segments of one scan.
@@ -399,7 +498,9 @@ class Client(BaseClient):
         """Return the kept versions of a map, newest first, at most `limit`."""
         return self._send(self._calls.versions(name, limit))
 
-    def restore_map(self, name: str, version: int, if_match: str | None = None) -> Written:
+    def restore_map(
+        self, name: str, version: int, if_match: str | None = None, *, dry_run: bool = False
+    ) -> Written:
         """Restore an old version of a map: write a new version with its content.
 
         Args:
@@ -407,8 +508,9 @@ class Client(BaseClient):
             version: Sequence number of the old version.
             if_match: ETag that the newest version must have; otherwise a `ServiceError` with status
                 412 is raised.
+            dry_run: Only count the segments that would change.
         """
-        return self._send(self._calls.restore_map(name, version, if_match))
+        return self._send(self._calls.restore_map(name, version, if_match, dry_run))
 
     def prune_map(
         self,

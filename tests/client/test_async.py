@@ -16,6 +16,7 @@ from placecell_client import (
     Localizations,
     MapAlignment,
     Merge,
+    ScannedFile,
     encode,
     encode_delta,
 )
@@ -64,6 +65,7 @@ def test_both_clients_have_the_same_methods() -> None:
         "reserve_ids", "pull", "changes", "get_map", "get_map_file", "versions", "restore_map",
         "prune_map", "align_maps", "merge_maps", "compact_map", "delete_map", "uploads",
         "delete_upload", "reset_ids", "report_pose", "robots", "robot",
+        "key", "scan_file", "add_scan", "version_changes", "export",
         "coverage", "tags", "set_tags", "anchor", "set_anchor", "delete_anchor", "fit_anchor",
         "anchors", "named_anchor", "set_named_anchor", "delete_named_anchor",
     }  # fmt: skip
@@ -73,7 +75,38 @@ DELTA = Delta(MAP, np.zeros(0, np.uint32), 0, 4)
 FILE = httpx.Response(
     200, content=encode(MAP), headers={"Content-Type": "application/vnd.placecell.map"}
 )
+SCANNED = {
+    "format": "PCD",
+    "points": 3,
+    "dropped_points": 1,
+    "segments": [
+        {"points": [[1, 2, 3], [2, 3, 4]], "centroid": [1.5, 2.5, 3.5], "extents": [1, 1, 1]}
+    ],
+    "sensors": [[0, 0, 0]],
+    "cloud": {"points": [[1, 2, 3]], "labels": [0]},
+    "transform": np.eye(4).tolist(),
+    "sensor_height": None,
+    "problems": ["odd"],
+    "later": "field",
+}
+KEY = {
+    "name": "ann", "role": "write", "may_write": True, "maps": ["*"], "robot": None, "open": False,
+    "later": "field",
+}  # fmt: skip
 ANSWERS = {
+    ("GET", "/key"): httpx.Response(200, json=KEY),
+    ("POST", "/scans"): httpx.Response(200, json=SCANNED),
+    ("POST", "/maps/yard/scans"): httpx.Response(
+        200, json=WRITTEN | {"ids": [7, 8], "unusable": 1, "problems": []}
+    ),
+    ("GET", "/maps/yard/export"): httpx.Response(
+        200, content=b"ply", headers={"Content-Disposition": 'attachment; filename="yard.ply"'}
+    ),
+    ("GET", "/maps/yard/versions/4/changes"): httpx.Response(
+        200,
+        content=encode_delta(DELTA),
+        headers={"Content-Type": "application/vnd.placecell.delta", "ETag": '"e-4"'},
+    ),
     ("GET", "/info"): httpx.Response(200, json=INFO),
     ("POST", "/describe"): packed(DESCRIBED),
     ("POST", "/match"): packed(MATCHED),
@@ -118,6 +151,15 @@ def plain(result: Any) -> Any:
         return [result.map, result.pose.matrix.tolist(), result.inliers.ids.tolist(), result.pairs]
     if isinstance(result, Merge):
         return [result.etag, [part.map for part in result.parts], result.loops]
+    if isinstance(result, ScannedFile):
+        arrays: list[Any] = [
+            result.sensors,
+            result.centroids,
+            result.extents,
+            result.cloud,
+            result.labels,
+        ]
+        return [result.format, result.problems, *(each.tolist() for each in arrays)]
     return encode(result) if hasattr(result, "frame_times") else result
 
 
@@ -157,10 +199,15 @@ def test_both_clients_send_and_return_the_same(options: dict[str, Any]) -> None:
             client.versions("yard"),
             client.changes("yard", "e-3", limit=5).delta.changed,
             client.pull("yard").content,
+            client.key(),
+            client.scan_file(b"pcd", file_name="a.pcd"),
+            client.add_scan("yard", b"pcd", robot="ann", position=[1, 2, 3], yaw=0.5, create=True),
+            client.version_changes("yard", 4).changed,
+            client.export("yard", "ply", color="robot", version=3),
         ]
         told.append(([plain(result) for result in results], seen))
     assert told[0] == told[1]
-    assert len(told[0][1]) == 21
+    assert len(told[0][1]) == 26
 
 
 def test_option_compress_sends_maps_as_gzip() -> None:

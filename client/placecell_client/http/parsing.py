@@ -15,7 +15,7 @@ from placecell_client.hints import UsedHints
 from placecell_client.http.encoding import loads, row_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
-from placecell_client.maps.delta_file import decode_delta
+from placecell_client.maps.delta_file import Delta, decode_delta
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment, alignment_of
 from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
@@ -35,6 +35,7 @@ from placecell_client.results.core import (
 from placecell_client.results.localization import Localizations, localization_of
 from placecell_client.results.merge import Merge, merge_of
 from placecell_client.results.robots import RobotState
+from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
 
 def info(answer: HttpResponse) -> Info:
@@ -166,6 +167,34 @@ def page(answer: HttpResponse) -> ChangesPage:
     if not re.fullmatch("[0-9a-f]+-[0-9]+", etag):
         raise ValueError("The answer's ETag is not a map version")
     return ChangesPage(delta, etag, answer.headers.get("Placecell-Next"))
+
+
+def key(answer: HttpResponse) -> KeyScope:
+    """Read the response of `GET /key`."""
+    return KeyScope.of(_content(answer))
+
+
+def scanned_file(answer: HttpResponse) -> ScannedFile:
+    """Read the response of `POST /scans`."""
+    return ScannedFile.of(_content(answer))
+
+
+def added_scan(answer: HttpResponse) -> AddedScan:
+    """Read the response of `POST /maps/{map}/scans`."""
+    return AddedScan.of(_content(answer))
+
+
+def version_changes(answer: HttpResponse) -> Delta:
+    """Read the response of `GET /maps/{map}/versions/{version}/changes`."""
+    return decode_delta(_file(answer, delta_file.MEDIA_TYPE))
+
+
+def exported(answer: HttpResponse) -> bytes:
+    """Read the response of `GET /maps/{map}/export`."""
+    # A login page of a network has a success status, too, but is no download.
+    if "attachment" not in answer.headers.get("Content-Disposition", ""):
+        raise ValueError("The answer is not a file to save")
+    return answer.content
 
 
 def written(answer: HttpResponse) -> Written:

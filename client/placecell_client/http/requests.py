@@ -3,7 +3,9 @@
 import gzip
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic, TypeVar
+from os import PathLike
+from pathlib import Path
+from typing import Any, Generic, TypeVar, Union
 from urllib.parse import quote, urlencode
 
 import numpy as np
@@ -40,8 +42,12 @@ from placecell_client.results.core import (
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
 from placecell_client.results.robots import RobotState
+from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
 T = TypeVar("T")
+
+PointCloudFile = Union[bytes, str, "PathLike[str]"]
+"""Point cloud file: its path, or its content."""
 
 ANY = "*"
 """Any version, in the place of an ETag."""
@@ -101,6 +107,60 @@ class Calls:
     def info(self) -> Call[Info]:
         """Build `GET /info`."""
         return Call("GET", "/info", parsing.info)
+
+    def key(self) -> Call[KeyScope]:
+        """Build `GET /key`."""
+        return Call("GET", "/key", parsing.key)
+
+    def scan_file(self, file: PointCloudFile, file_name: str | None) -> Call[ScannedFile]:
+        """Build `POST /scans`."""
+        content, name = _point_cloud(file, file_name)
+        headers = {"Accept": MEDIA_TYPES[self.encoding]}
+        path = f"/scans?{urlencode({'name': name})}"
+        return self._upload("POST", path, content, OCTETS, parsing.scanned_file, headers)
+
+    def add_scan(
+        self,
+        name: str,
+        file: PointCloudFile,
+        file_name: str | None,
+        robot: str | None,
+        position: ArrayLike,
+        yaw: float,
+        time: float | None,
+        create: bool,
+        deduplicate: bool,
+        if_match: str | None,
+    ) -> Call[AddedScan]:
+        """Build `POST /maps/{map}/scans`."""
+        content, shown = _point_cloud(file, file_name)
+        (place,) = rows_of(np.asarray(position)[None], "position", 3, integers=False).tolist()
+        path = _path(
+            name,
+            "/scans",
+            name=shown,
+            robot=robot,
+            **dict(zip("xyz", map(repr, place), strict=True)),
+            yaw=repr(float(yaw)),
+            time=None if time is None else repr(float(time)),
+            create="true" if create else None,
+            deduplicate="true" if deduplicate else None,
+        )
+        headers = _conditions(if_match)
+        call = self._upload("POST", path, content, OCTETS, parsing.added_scan, headers)
+        return replace(call, repeatable=if_match not in (None, ANY))
+
+    def version_changes(self, name: str, version: int) -> Call[Delta]:
+        """Build `GET /maps/{map}/versions/{version}/changes`."""
+        path = _path(name, f"/versions/{int(version)}/changes")
+        return Call("GET", path, parsing.version_changes)
+
+    def export(
+        self, name: str, to: str, color: str, anchor: str | None, version: int | None
+    ) -> Call[bytes]:
+        """Build `GET /maps/{map}/export`."""
+        path = _path(name, "/export", to=to, color=color, anchor=anchor, version=version)
+        return Call("GET", path, parsing.exported)
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
         """Build `POST /describe`."""
@@ -289,10 +349,14 @@ class Calls:
         """Build `GET /maps/{map}/versions`."""
         return Call("GET", _path(name, "/versions", limit=limit), parsing.versions)
 
-    def restore_map(self, name: str, version: int, if_match: str | None) -> Call[Written]:
+    def restore_map(
+        self, name: str, version: int, if_match: str | None, dry_run: bool
+    ) -> Call[Written]:
         """Build `POST /maps/{map}/versions/{version}/restore`."""
-        path = _path(name, f"/versions/{int(version)}/restore")
-        return self._tied("POST", path, parsing.written, if_match)
+        dry = "true" if dry_run else None
+        path = _path(name, f"/versions/{int(version)}/restore", dry_run=dry)
+        call = self._tied("POST", path, parsing.written, if_match)
+        return replace(call, repeatable=True) if dry_run else call
 
     def prune_map(
         self, name: str, unseen_since: float, dry_run: bool, if_match: str | None
@@ -553,7 +617,18 @@ def _usable(description: Description) -> list[int]:
     return [row for row in range(len(description.codes)) if row not in description.errors]
 
 
-def _path(name: str, way: str = "", **query: object) -> str:
+def _point_cloud(file: PointCloudFile, name: str | None) -> tuple[bytes, str]:
+    """Return the content of a point cloud file, and the name that the service sees.
+
+    Raises:
+        OSError: The file cannot be read.
+    """
+    if isinstance(file, bytes):
+        return file, name or "scan"
+    return Path(file).read_bytes(), name or Path(file).name
+
+
+def _path(name: str, way: str = "", /, **query: object) -> str:
     """Return the path of a map or of a part of it; query values that are None are left out."""
     path = f"/maps/{_quoted(name)}{way}"
     given = {key: value for key, value in query.items() if value is not None}
