@@ -7,6 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from placecell.descriptors.site_calibration import SiteCalibration
 from placecell.localization import Pose
+from service.annotations.annotations import StoredGeoAnchor
+from service.api.schemas.anchors import GeoAnchorOut
 from service.api.schemas.maps import MapDetailOut, MapOut, VersionOut, WrittenOut
 from service.core.auth import Principal
 from service.core.problems import title_of, type_of
@@ -57,12 +59,18 @@ def detail_of(
     snapshot: MapSnapshot,
     principal: Principal,
     site: SiteCalibration | None,
+    anchor: StoredGeoAnchor | None,
     tags: Sequence[str],
 ) -> MapDetailOut:
-    """Return the summary of a map with its calibration; call it in a thread."""
+    """Return the summary of a map with its calibration and anchor; call it in a thread."""
     summary = summary_of(snapshot, principal, tags).model_dump()
-    values = None if site is None else site.as_dict()
-    return MapDetailOut.model_validate(summary | {"calibration": values})
+    return MapDetailOut.model_validate(
+        summary
+        | {
+            "calibration": None if site is None else site.as_dict(),
+            "anchor": None if anchor is None else geo_anchor_of(snapshot, anchor, principal),
+        }
+    )
 
 
 def outcome_of(written: WriteResult) -> WrittenOut:
@@ -101,3 +109,23 @@ def pose_of(pose: Pose) -> dict[str, Any]:
         "rotation": rotation.tolist(),
         "yaw": pose.yaw,
     }
+
+
+def geo_anchor_of(
+    snapshot: MapSnapshot, stored: StoredGeoAnchor, principal: Principal
+) -> GeoAnchorOut:
+    """Return the WGS 84 anchor of a map as a key may see it."""
+    anchor = stored.anchor
+    return GeoAnchorOut(
+        map=snapshot.name,
+        lat=anchor.lat,
+        lon=anchor.lon,
+        height=anchor.height,
+        yaw_deg=anchor.yaw_deg,
+        accuracy=anchor.accuracy,
+        position=anchor.position,
+        frame=stored.frame,
+        applies=stored.frame == snapshot.frame,
+        author=author_for(principal, stored.author),
+        time=stored.time,
+    )

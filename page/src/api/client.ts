@@ -1,6 +1,6 @@
 // The public HTTP API. Every address is relative to the page, so it holds behind a path prefix.
 import type {
-  Alignment, Anchor, KeyInfo, LocalizeAnswer, MapList, MapSummary, MatchAnswer, Merged, RobotState,
+  Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, RobotState,
   Scan, Version, Written,
 } from "./types";
 
@@ -91,7 +91,7 @@ export const api = {
   info: () => json<{ version: string; model: { model_id: string } }>("info"),
   metrics: async () => (await send("metrics", { headers: { Accept: "text/plain" } })).text(),
   maps: () => json<MapList>("maps"),
-  map: (name: string) => json<MapSummary>(pathOf("maps", name)),
+  map: (name: string) => json<MapDetail>(pathOf("maps", name)),
   versions: async (name: string) =>
     (await json<{ versions: Version[] }>(pathOf("maps", name, "versions"))).versions,
   restore: (name: string, version: number, etag: string, dryRun = false) =>
@@ -140,7 +140,6 @@ export const api = {
   match: (body: unknown) => json<MatchAnswer>("match", { method: "POST", json: body }),
   localize: (body: unknown) => json<LocalizeAnswer>("localize", { method: "POST", json: body }),
   robots: async () => (await json<{ robots: RobotState[] }>("robots")).robots,
-  anchor: (name: string) => json<Anchor>(pathOf("maps", name, "anchor")),
   mapFile: (name: string, headers: Record<string, string>, version?: number) =>
     send(pathOf("maps", name), { headers: { Accept: "*/*", ...headers }, query: { version } }),
   exportMap: async (name: string, to: string) =>

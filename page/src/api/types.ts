@@ -20,8 +20,12 @@ export interface MapSummary {
   sources: Record<string, number>;
   time_span: [number, number] | null;
   optional: string[];
-  tags?: string[];
-  calibration?: { state: string; read: number } | null;
+  tags: string[];
+}
+
+export interface MapDetail extends MapSummary {
+  calibration: { state: string; read: number } | null;
+  anchor: Anchor | null;
 }
 
 export interface MapList {
@@ -32,7 +36,7 @@ export interface MapList {
 
 export interface KeyInfo {
   name: string;
-  role: "read" | "write" | "admin";
+  role: "none" | "read" | "write" | "admin";
   may_write: boolean;
   maps: string[];
   robot: string | null;
@@ -183,4 +187,8 @@ export interface Anchor {
   lon: number;
   height: number;
   yaw_deg: number;
+  /** Point of the map that is at this place, meters. */
+  position: Vector;
+  /** False if the map has another frame now. */
+  applies: boolean;
 }

@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { api, ApiError, storeKey, storedKey } from "../api/client";
 import { follow, type ServiceEvent } from "../api/events";
 import { readMap, type MapContent } from "../api/map_file";
-import type { Anchor, KeyInfo, MapList, MapSummary, RobotState } from "../api/types";
+import type { Anchor, KeyInfo, MapDetail, MapList, MapSummary, RobotState } from "../api/types";
 import { CLASSES, colorSegments, type ColorBy, type Legend } from "../scene/coloring";
 import { MapLayer } from "../scene/map_layer";
 import type { View } from "../scene/scene";
@@ -43,7 +43,7 @@ export const robots = signal<RobotState[]>([]);
 export const trails = signal<ReadonlyMap<string, { map: string; places: [number, number, number][] }>>(new Map());
 export const events = signal<ServiceEvent[]>([]);
 export const connected = signal<{ on: boolean; reason: string }>({ on: false, reason: "" });
-export const anchors = signal<ReadonlyMap<string, Anchor>>(new Map());
+export const details = signal<ReadonlyMap<string, MapDetail>>(new Map());
 export const above = signal(false);
 export const measuring = signal(false);
 export const measured = signal<{ from: Selection; meters: number; vertical: number } | null>(null);
@@ -53,6 +53,12 @@ export const picture = signal(0);
 export const currentSummary = computed<MapSummary | null>(
   () => list.value?.maps.find((each) => each.name === current.value) ?? null,
 );
+
+/** Place of the current map on the Earth, if it is known. */
+export const anchor = computed<Anchor | null>(() => {
+  const found = current.value ? details.value.get(current.value)?.anchor : null;
+  return found?.applies ? found : null;
+});
 
 let view: View | null = null;
 let counter = 0;
@@ -114,14 +120,15 @@ export async function signIn(typed: string): Promise<void> {
   stop.abort();
   stop = new AbortController();
   try {
-    key.value = await api.key();
-    needsKey.value = null;
-    version.value = (await api.info()).version;
-  } catch (error) {
-    if (error instanceof ApiError && error.status === 401) {
+    const found = await api.key();
+    if (found.role === "none") {
       needsKey.value = typed ? "The service does not know this key. Check it, or ask for a new one." : "";
       return;
     }
+    key.value = found;
+    needsKey.value = null;
+    version.value = (await api.info()).version;
+  } catch (error) {
     await attempt(() => Promise.reject(error as Error));
     setTimeout(() => void signIn(typed), 3000);
     return;
@@ -223,10 +230,8 @@ export async function openMap(name: string, look = true): Promise<void> {
     scene().fit(name);
     location.hash = new URLSearchParams({ map: name }).toString();
   }
-  if (!anchors.value.has(name)) {
-    const anchor = await api.anchor(name).catch(() => null);
-    if (anchor) anchors.value = new Map([...anchors.value, [name, anchor]]);
-  }
+  const detail = await attempt(() => api.map(name));
+  if (detail) details.value = new Map([...details.value, [name, detail]]);
 }
 
 /** Maps of one frame lie on each other. A map of another frame lies beside, until it is aligned. */

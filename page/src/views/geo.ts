@@ -8,8 +8,9 @@ const FLATNESS = 1 / 298.257223563;
 /** Latitude and longitude, degrees, of a place in the map's frame, meters. */
 export function toWgs84(anchor: Anchor, x: number, y: number): { lat: number; lon: number } {
   const yaw = (anchor.yaw_deg * Math.PI) / 180;
-  const east = x * Math.cos(yaw) - y * Math.sin(yaw);
-  const north = x * Math.sin(yaw) + y * Math.cos(yaw);
+  const [dx, dy] = [x - anchor.position[0], y - anchor.position[1]];
+  const east = dx * Math.cos(yaw) - dy * Math.sin(yaw);
+  const north = dx * Math.sin(yaw) + dy * Math.cos(yaw);
   const lat = (anchor.lat * Math.PI) / 180;
   const squared = FLATNESS * (2 - FLATNESS);
   const root = Math.sqrt(1 - squared * Math.sin(lat) ** 2);

@@ -3,10 +3,10 @@ import { signal } from "@preact/signals";
 import { useState } from "preact/hooks";
 import { api, ApiError } from "../api/client";
 import { isMapFile } from "../api/map_file";
-import type { MapSummary } from "../api/types";
+import type { MapDetail, MapSummary } from "../api/types";
 import { moment } from "../scene/coloring";
 import {
-  attempt, closeMap, current, currentSummary, list, loading, mayWrite, mayWriteAny, open, openMap, refresh, say, scene, tab,
+  attempt, closeMap, current, currentSummary, details, list, loading, mayWrite, mayWriteAny, open, openMap, refresh, say, scene, tab,
 } from "../state/store";
 import { locate } from "./locate";
 import { Merge, UndoMerge } from "./merge";
@@ -30,7 +30,7 @@ export function Maps() {
   const [wanted, setWanted] = useState("");
   const maps = list.value?.maps ?? [];
   const shown = maps.filter((each) =>
-    `${each.name} ${Object.keys(each.robots).join(" ")} ${(each.tags ?? []).join(" ")}`.toLowerCase().includes(wanted.toLowerCase()));
+    `${each.name} ${Object.keys(each.robots).join(" ")} ${each.tags.join(" ")}`.toLowerCase().includes(wanted.toLowerCase()));
   return (
     <>
       <div class="row">
@@ -84,7 +84,6 @@ function Current(props: { map: MapSummary }) {
   const { map } = props;
   const [section, setSection] = useState<"facts" | "versions" | "merge" | "prune">("facts");
   const [format, setFormat] = useState("map");
-  const [calibration, setCalibration] = useState<string | null>(null);
   const download = async (): Promise<void> => {
     const blob = await attempt(async () => (format === "map" ? (await api.mapFile(map.name, {})).blob() : api.exportMap(map.name, format)));
     if (!blob) return;
@@ -100,12 +99,13 @@ function Current(props: { map: MapSummary }) {
   ];
   if (map.time_span) facts.push(["Seen", `${moment(map.time_span[0])} to ${moment(map.time_span[1])}`]);
   if (Object.keys(map.sources).length) facts.push(["Merged from", Object.keys(map.sources).join(", ")]);
-  if (map.tags?.length) facts.push(["Tags", map.tags.join(", ")]);
-  if (calibration) facts.push(["Calibration", calibration]);
-  const calibrate = async (): Promise<void> => {
-    const detail = await attempt(() => api.map(map.name));
-    if (detail) setCalibration(detail.calibration ? `${detail.calibration.state}, from ${count(detail.calibration.read)} segments` : "none: its model is not loaded");
-  };
+  if (map.tags.length) facts.push(["Tags", map.tags.join(", ")]);
+  const detail = details.value.get(map.name);
+  if (detail) facts.push(["Calibration", calibrationOf(detail)]);
+  if (detail?.anchor) {
+    const { lat, lon, height } = detail.anchor;
+    facts.push(["On Earth", `${lat.toFixed(6)}, ${lon.toFixed(6)}, ${height.toFixed(1)} m${detail.anchor.applies ? "" : " (of an earlier frame)"}`]);
+  }
   const write = mayWrite(map.name);
   const sections: [typeof section, string][] = [["facts", "Facts"], ["versions", "Versions"]];
   sections.push(["merge", write ? "Align and merge" : "Align"]);
@@ -120,7 +120,6 @@ function Current(props: { map: MapSummary }) {
         <>
           <dl>{facts.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
           <div class="row">
-            {!calibration && <Button onClick={() => void calibrate()}>Show calibration</Button>}
             <label>
               <span class="hidden">File format</span>
               <select value={format} onChange={(event) => setFormat(event.currentTarget.value)}>
@@ -137,6 +136,12 @@ function Current(props: { map: MapSummary }) {
       {section === "prune" && <Prune map={map} />}
     </section>
   );
+}
+
+function calibrationOf(detail: MapDetail): string {
+  if (!detail.calibration) return "none: the model of the map is not loaded";
+  const { state, read } = detail.calibration;
+  return state === "default" ? "by the model" : `${state}, from ${count(read)} segments`;
 }
 
 function Prune(props: { map: MapSummary }) {

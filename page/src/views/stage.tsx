@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { COLOR_NAMES, type ColorBy } from "../scene/coloring";
 import { View } from "../scene/scene";
 import {
-  above, anchors, colorBy, current, hiddenKinds, legend, measured, measuring, open, picture, recolor, scene,
+  above, anchor, colorBy, current, hiddenKinds, legend, measured, measuring, open, picture, recolor, scene,
   select, selectId, showPaths, start,
 } from "../state/store";
 import { Button, count, meters } from "./parts";
@@ -149,18 +149,18 @@ export function Swatch(props: { color: string }) {
 
 function Compass() {
   const element = useRef<HTMLDivElement>(null);
-  const anchor = current.value ? anchors.value.get(current.value) : undefined;
+  const place = anchor.value;
   void picture.value;
   useEffect(() => {
     const view = scene();
     if (!view) return;
     // An anchor's yaw is the heading of the map's x axis, degrees from east to north.
-    const turn = view.north() + (anchor ? (anchor.yaw_deg * Math.PI) / 180 : 0);
+    const turn = view.north() + (place ? (place.yaw_deg * Math.PI) / 180 : 0);
     element.current!.style.transform = `rotate(${turn}rad)`;
   });
   return (
-    <div class="compass" title={anchor ? "North" : "The map's y axis. A map with a WGS84 anchor shows north."}>
-      <div ref={element}><i aria-hidden="true">▲</i><b>{anchor ? "N" : "y"}</b></div>
+    <div class="compass" title={place ? "North" : "The map's y axis. A map with a WGS84 anchor shows north."}>
+      <div ref={element}><i aria-hidden="true">▲</i><b>{place ? "N" : "y"}</b></div>
     </div>
   );
 }
@@ -176,8 +176,7 @@ function Scale(props: { pointer: [number, number] | null }) {
   const layer = view && current.value ? view.layers.get(current.value) : undefined;
   const place = view && props.pointer ? view.ground(...props.pointer) : null;
   const inMap = place && layer ? place.applyMatrix4(layer.pose.invert()) : place;
-  const anchor = current.value ? anchors.value.get(current.value) : undefined;
-  const earth = inMap && anchor ? toWgs84(anchor, inMap.x, inMap.y) : null;
+  const earth = inMap && anchor.value ? toWgs84(anchor.value, inMap.x, inMap.y) : null;
   return (
     <div class="scale">
       <div ref={bar} class="bar" />

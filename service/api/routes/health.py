@@ -10,7 +10,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 from placecell.localization import Confidence
 from service.api.body.problem_json import documented
-from service.api.dependencies import PrincipalOf, StateOf
+from service.api.dependencies import PrincipalOf, StateOf, principal_of
 from service.api.schemas.info import (
     AcceptanceOut,
     CostsOut,
@@ -86,9 +86,16 @@ async def info(request: Request, state: StateOf, principal: PrincipalOf) -> Info
     )
 
 
-@router.get("/key", summary="Read the scope of the key", responses=documented(401))
-async def key(state: StateOf, principal: PrincipalOf) -> KeyResponse:
-    """Return what the key of this request may do, so that a program offers no more."""
+@router.get("/key", summary="Read the scope of the key")
+async def key(request: Request, state: StateOf) -> KeyResponse:
+    """Return what the key of this request may do, so that a program offers no more.
+
+    A request without a known key is answered too: its role is `none`.
+    """
+    try:
+        principal = await principal_of(request)
+    except Problem:
+        return KeyResponse(name="", role="none", may_write=False, maps=[], robot=None, open=False)
     scope = principal.key
     return KeyResponse(
         name=principal.name,

@@ -105,7 +105,8 @@ async def get_map(
     """Return the map in canonical form: equal maps are equal files, byte by byte.
 
     With `Accept: application/json`, return facts about the newest version: those of `GET /maps`,
-    and how far its own segments calibrate its match probabilities.
+    how far its own
+    segments calibrate its match probabilities, and its place on the Earth.
 
     `Range: bytes=FIRST-LAST` asks for a part of the file (206). So a broken download continues
     (with `If-Range: "ETAG"`), and a client reads single columns of a large map. If several ranges
@@ -172,7 +173,14 @@ async def put_response(write: MapWrite, result: WriteResult) -> Response:
 def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
     site = state.engine.calibration(snapshot)
     return render(
-        detail_of(snapshot, principal, site, state.engine.annotations.tags(snapshot)), JSON
+        detail_of(
+            snapshot,
+            principal,
+            site,
+            state.engine.annotations.of(snapshot).geo,
+            state.engine.annotations.tags(snapshot),
+        ),
+        JSON,
     )
 
 

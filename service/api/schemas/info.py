@@ -93,10 +93,14 @@ class InfoResponse(BaseModel):
 class KeyResponse(BaseModel):
     """Scope of the key that sent the request."""
 
-    name: str = Field(description="Name of the key's principal; `anyone` without keys.")
-    role: Literal["read", "write", "admin"] = Field(
-        description="`read`: read maps and recognize. `write`: also write, merge and delete maps. "
-        "`admin`: also reload models and free ids."
+    name: str = Field(
+        description="Name of the key's principal; `anyone` on a service without keys. Empty if the "
+        "key is not known."
+    )
+    role: Literal["none", "read", "write", "admin"] = Field(
+        description="`none`: the request has no known key. `read`: read maps and "
+        "recognize. `write`: also write, merge and delete maps. `admin`: also reload models and "
+        "free ids."
     )
     may_write: bool = Field(description="True if the key may write maps in its scope.")
     maps: list[str] = Field(description="Patterns of the names of its maps, with * and ?.")

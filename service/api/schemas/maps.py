@@ -3,6 +3,7 @@
 from pydantic import BaseModel, Field
 
 from placecell.descriptors.site_calibration import CalibrationState
+from service.api.schemas.anchors import GeoAnchorOut
 
 
 class MapOut(BaseModel):
@@ -61,11 +62,14 @@ class CalibrationOut(BaseModel):
 
 
 class MapDetailOut(MapOut):
-    """Stored map, with the state of its calibration."""
+    """Stored map, with the state of its calibration and its place on the Earth."""
 
     calibration: CalibrationOut | None = Field(
         description="Calibration of the match probabilities. Null if the model of the map is not "
         "loaded or states no constants for it."
+    )
+    anchor: GeoAnchorOut | None = Field(
+        description="WGS 84 anchor, as `GET /maps/{map}/anchor` returns it. Null if there is none."
     )
 
 

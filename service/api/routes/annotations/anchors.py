@@ -17,6 +17,7 @@ from service.api.body.problem_json import documented
 from service.api.dependencies import MapWrite, MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import json_body
 from service.api.path_parameters import AnchorName, Name
+from service.api.responses import geo_anchor_of
 from service.api.schemas.anchors import (
     FitOut,
     FitRequest,
@@ -80,7 +81,7 @@ async def get_anchor(
         found = state.engine.annotations.of(snapshot).geo
         if found is None:
             raise no_anchor(name)
-        return _geo_of(snapshot, found, principal)
+        return geo_anchor_of(snapshot, found, principal)
 
 
 @router.put(
@@ -101,7 +102,7 @@ async def put_anchor(write: MapWriteOf) -> GeoAnchorOut:
         anchor = GeoAnchor(**asked.model_dump())
         snapshot, stored = await write.run(_writer(write).set_geo, write.name, anchor)
     write.record("anchor", "WGS 84 anchor set")
-    return _geo_of(snapshot, stored, write.principal)
+    return geo_anchor_of(snapshot, stored, write.principal)
 
 
 @router.delete(
@@ -142,7 +143,7 @@ async def fit_map_anchor(write: MapWriteOf) -> FitOut:
         write.record("anchor", f"WGS 84 anchor fitted to {len(asked.fixes)} fixes")
     return FitOut(
         dry_run=asked.dry_run,
-        anchor=_geo_of(snapshot, stored, write.principal),
+        anchor=geo_anchor_of(snapshot, stored, write.principal),
         yaw_deviation_deg=fit.yaw_deviation_deg,
         inliers=int(np.count_nonzero(fit.is_inlier)),
         residuals=[
@@ -253,23 +254,6 @@ def _fitted(asked: FitRequest) -> AnchorFit:
         return fit_anchor(fixes)
     except FitError as error:
         raise Problem(422, "anchor-not-determined", f"{error}") from error
-
-
-def _geo_of(snapshot: MapSnapshot, stored: StoredGeoAnchor, principal: Principal) -> GeoAnchorOut:
-    anchor = stored.anchor
-    return GeoAnchorOut(
-        map=snapshot.name,
-        lat=anchor.lat,
-        lon=anchor.lon,
-        height=anchor.height,
-        yaw_deg=anchor.yaw_deg,
-        accuracy=anchor.accuracy,
-        position=anchor.position,
-        frame=stored.frame,
-        applies=stored.frame == snapshot.frame,
-        author=author_for(principal, stored.author),
-        time=stored.time,
-    )
 
 
 def _named_of(snapshot: MapSnapshot, stored: NamedAnchor, principal: Principal) -> NamedAnchorOut:
