@@ -1,7 +1,7 @@
 // Describe a scan, localize it, and read a map: each command is a few lines with placecell.hpp.
 //
 //   placecell_example describe URL SCAN.json
-//   placecell_example localize URL SCAN.json [MAP...]
+//   placecell_example localize URL SCAN.json [--near X Y Z RADIUS] [MAP...]
 //   placecell_example download URL MAP FILE
 //   placecell_example map FILE
 //
@@ -26,7 +26,7 @@ using Arguments = std::vector<std::string>;
 
 constexpr const char* usage =
     "usage: placecell_example describe URL SCAN.json\n"
-    "       placecell_example localize URL SCAN.json [MAP...]\n"
+    "       placecell_example localize URL SCAN.json [--near X Y Z RADIUS] [MAP...]\n"
     "       placecell_example download URL MAP FILE\n"
     "       placecell_example map FILE\n";
 
@@ -105,7 +105,13 @@ void describe(const Arguments& arguments) {
 
 void localize(const Arguments& arguments) {
   placecell::LocalizeOptions options;
-  options.maps.assign(arguments.begin() + 2, arguments.end());
+  auto maps = arguments.begin() + 2;
+  if (arguments.size() >= 7 && *maps == "--near") {
+    const auto number = [&](int at) { return placecell::from_json(maps[at]).number(); };
+    options.hints = placecell::near({number(1), number(2), number(3)}, number(4));
+    maps += 5;
+  }
+  options.maps.assign(maps, arguments.end());
   const auto found = client_of(arguments[0]).localize(read_scan(arguments[1]), options);
   for (const auto& each : found.maps) {
     std::cout << "{\"map\":" << json(each.map) << ",\"frame\":" << json(each.frame)

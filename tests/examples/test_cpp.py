@@ -18,7 +18,15 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from placecell_client import Client, CompactMap, ServiceError, decode, encode
+from placecell_client import (
+    Client,
+    CompactMap,
+    Hints,
+    NearHint,
+    ServiceError,
+    decode,
+    encode,
+)
 from placecell_client.maps.compact_map import OPTIONAL
 
 from placecell.descriptors.manifest import Manifest
@@ -266,7 +274,8 @@ def python_request(method: str) -> bytes:
         if method == "describe":
             client.describe(scan(), SENSOR)
         else:
-            client.localize(segments=scan(), sensors=SENSOR, maps=["yard", "hall"])
+            hints = Hints(near=NearHint((1.5, -2.0, 0.25), 30.0)) if method == "near" else None
+            client.localize(segments=scan(), sensors=SENSOR, maps=["yard", "hall"], hints=hints)
     return sent[0]
 
 
@@ -275,14 +284,20 @@ def test_requests_equal_the_python_clients_bytes(
 ) -> None:
     url, given = answer
     given.status, given.body = 429, BUSY
-    for method, maps in (("describe", ()), ("localize", ("yard", "hall"))):
-        done = run(program, method, url + "/", scan_file, *maps, key="k-1")
+    near = ("--near", "1.5", "-2", "0.25", "30")
+    cases: dict[str, tuple[str, ...]] = {
+        "describe": ("describe",),
+        "localize": ("localize", "yard", "hall"),
+        "near": ("localize", *near, "yard", "hall"),
+    }
+    for name, (method, *rest) in cases.items():
+        done = run(program, method, url + "/", scan_file, *rest, key="k-1")
         assert (done.returncode, done.stderr) == (1, "429 Busy: It is full.\n")
         path, headers, body = given.requests.pop()
         assert path == f"/{method}"
         assert headers["authorization"] == "Bearer k-1"
         assert headers["content-type"] == "application/msgpack"
-        assert body == python_request(method)
+        assert body == python_request(name)
 
 
 @pytest.mark.parametrize(

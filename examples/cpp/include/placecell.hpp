@@ -26,6 +26,11 @@
 
 namespace placecell {
 
+// Return the hint that the sensor is within a radius of a position in the map; meters.
+inline Object near(const std::array<double, 3>& position, double radius) {
+  return {{"near", Object{{"position", position}, {"radius", radius}}}};
+}
+
 // Error: the service refused a request or failed; docs/reference/errors.md lists the types.
 struct ServiceError : std::runtime_error {
   ServiceError(int status_, std::string type_, const std::string& title, const std::string& detail,
@@ -108,6 +113,7 @@ struct LocalizeOptions {
   int k = 25;                     // candidates a segment
   std::string motion = "yaw";     // or "se3": all six degrees of freedom
   std::string session;            // name of this robot's session; all its requests are in one frame
+  Object hints;                   // where the robot is, as docs/reference/http-api.md has `hints`
 };
 
 struct ClientOptions {
@@ -153,6 +159,7 @@ class Client {
         body.emplace_back("maps", List(options.maps.begin(), options.maps.end()));
       body.emplace_back("motion", options.motion);
       if (!options.session.empty()) body.emplace_back("session", options.session);
+      if (!options.hints.empty()) body.emplace_back("hints", options.hints);
       body.emplace_back("segments", list_of(segments));
       const Value answer = post("/localize", std::move(body));
       Localizations result{answer["model_id"].text(), {}};
