@@ -87,6 +87,19 @@ export class MapLayer {
     return this.group.matrix.clone().multiply(new Matrix4().makeTranslation(this.middle.clone().negate()));
   }
 
+  /** Row of the segment with an id; undefined if there is none. */
+  rowOf(id: number): number | undefined {
+    // Ids ascend in a map file.
+    const { ids } = this.content;
+    let [low, high] = [0, ids.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (ids[middle]! < id) low = middle + 1;
+      else high = middle;
+    }
+    return ids[low] === id ? low : undefined;
+  }
+
   /** Position of a segment in the scene. */
   position(row: number): Vector3 {
     return new Vector3().fromArray(this.content.centroids, 3 * row).applyMatrix4(this.pose);

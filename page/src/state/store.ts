@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { api, ApiError, storeKey, storedKey } from "../api/client";
 import { follow, type ServiceEvent } from "../api/events";
 import { readMap, type MapContent } from "../api/map_file";
-import type { Anchor, KeyInfo, MapDetail, MapList, MapSummary, RobotState } from "../api/types";
+import type { Anchor, KeyInfo, MapDetail, MapList, MapSummary, RobotState, Vector } from "../api/types";
 import { CLASSES, colorSegments, type ColorBy, type Legend } from "../scene/coloring";
 import { MapLayer } from "../scene/map_layer";
 import type { View } from "../scene/scene";
@@ -41,6 +41,8 @@ export const tab = signal<Tab>("maps");
 export const messages = signal<Message[]>([]);
 export const robots = signal<RobotState[]>([]);
 export const trails = signal<ReadonlyMap<string, { map: string; places: [number, number, number][] }>>(new Map());
+/** Last pose from `/localize` of each robot, with the ids of the segments that agree. */
+export const fixes = signal<ReadonlyMap<string, { map: string; position: Vector; inliers: number[] }>>(new Map());
 export const events = signal<ServiceEvent[]>([]);
 export const connected = signal<{ on: boolean; reason: string }>({ on: false, reason: "" });
 export const details = signal<ReadonlyMap<string, MapDetail>>(new Map());
@@ -207,8 +209,32 @@ function extendTrails(): void {
 
 function onEvent(event: ServiceEvent): void {
   events.value = [event, ...events.value].slice(0, 100);
-  if (/upload|edit|merge|restore|delete|put|prune/.test(event.kind)) void refresh(true);
-  if (/fix|pose|robot|locali/.test(event.kind)) void refreshRobots();
+  const { data } = event;
+  if (["upload", "merge", "write"].includes(event.kind)) void refresh(true);
+  if (event.kind === "fix" && Array.isArray(data["inliers"])) {
+    const who = String(data["robot"] ?? data["session"] ?? "");
+    fixes.value = new Map([...fixes.value, [who, {
+      map: String(data["map"]), position: data["position"] as Vector, inliers: data["inliers"] as number[],
+    }]]);
+  }
+  if (event.kind === "no-fix") {
+    const who = String(data["robot"] ?? data["session"] ?? "");
+    fixes.value = new Map([...fixes.value].filter(([name]) => name !== who));
+  }
+  if (["fix", "no-fix", "robot"].includes(event.kind)) refreshRobotsSoon();
+  if (event.kind === "alarm" && data["raised"] === true) say("error", `Alarm: ${String(data["alarm"])}`, String(data["detail"] ?? ""));
+}
+
+let robotsDue = false;
+
+/** Several robots may report at once; one request is enough for all. */
+function refreshRobotsSoon(): void {
+  if (robotsDue) return;
+  robotsDue = true;
+  setTimeout(() => {
+    robotsDue = false;
+    void refreshRobots();
+  }, 300);
 }
 
 /** Read a map and show it. */
@@ -307,10 +333,10 @@ export function select(chosen: Selection | null): void {
 
 /** Select the segment with an id, in the current map. */
 export function selectId(id: number): boolean {
-  const content = current.value ? open.value.get(current.value) : undefined;
-  const row = content ? content.ids.indexOf(id) : -1;
-  if (row < 0 || !content) return false;
-  select({ map: content.name, row });
-  scene().look(scene().layers.get(content.name)!.position(row), Math.min(scene().reach(), 30));
+  const layer = current.value ? scene().layers.get(current.value) : undefined;
+  const row = layer?.rowOf(id);
+  if (!layer || row === undefined) return false;
+  select({ map: layer.content.name, row });
+  scene().look(layer.position(row), Math.min(scene().reach(), 30));
   return true;
 }

@@ -68,9 +68,8 @@ function draw(found: Located, answer: Localization | null): void {
   const colors = labels.map((label): Color => (label >= 0 ? kindColor(label) : GRAY));
   const lines: Line[] = [...arrow(pose, 2.5, FIX)];
   if (layer && answer) {
-    const rows = new Map(Array.from(layer.content.ids, (id, row) => [id, row]));
     for (const { query, id } of answer.inliers) {
-      const row = rows.get(id);
+      const row = layer.rowOf(id);
       const centroid = found.scan.segments[query]?.centroid;
       if (row === undefined || !centroid) continue;
       const from = vector(centroid).applyMatrix4(pose);

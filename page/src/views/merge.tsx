@@ -157,11 +157,9 @@ function draw(found: Alignment, pose: Pose): void {
   const [a, b] = [scene().layers.get(found.map), scene().layers.get(found.other)];
   if (!a || !b) return;
   b.place(a.pose.multiply(matrixOf(pose)));
-  const rows = (ids: Uint32Array): Map<number, number> => new Map(Array.from(ids, (id, row) => [id, row]));
-  const [mine, theirs] = [rows(a.content.ids), rows(b.content.ids)];
   const best = found.pose === pose;
   const lines: Line[] = found.inliers.flatMap((pair) => {
-    const [row, otherRow] = [mine.get(pair.id), theirs.get(pair.other_id)];
+    const [row, otherRow] = [a.rowOf(pair.id), b.rowOf(pair.other_id)];
     if (row === undefined || otherRow === undefined) return [];
     const from = a.position(row);
     const lift = from.clone().setZ(from.z + 6);

@@ -2,9 +2,9 @@
 import { useEffect } from "preact/hooks";
 import { Matrix4, Vector3 } from "three";
 import type { RobotState } from "../api/types";
-import { css, GRAY, kindColor } from "../scene/colors";
+import { css, FIX, GRAY, kindColor } from "../scene/colors";
 import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
-import { connected, current, events, open, openMap, robots, scene, tab, trails } from "../state/store";
+import { connected, current, events, fixes, open, openMap, robots, scene, tab, trails } from "../state/store";
 import { ago, Button, meters, percent } from "./parts";
 import { Swatch } from "./stage";
 
@@ -26,6 +26,15 @@ export function drawRobots(): void {
     if (trail?.map === robot.map) {
       const places = trail.places.map((place) => vector(place).applyMatrix4(new Matrix4().copy(layer.pose)));
       places.slice(1).forEach((to, index) => lines.push({ from: places[index]!, to, color }));
+    }
+  }
+  for (const fix of fixes.value.values()) {
+    const layer = view.layers.get(fix.map);
+    if (!layer) continue;
+    const from = vector(fix.position).applyMatrix4(layer.pose);
+    for (const id of fix.inliers) {
+      const row = layer.rowOf(id);
+      if (row !== undefined) lines.push({ from, to: layer.position(row), color: FIX });
     }
   }
   view.overlay("robots", lines);
@@ -85,7 +94,7 @@ function Entry(props: { robot: RobotState }) {
 
 /** Keeps the robots in the scene up to date, whichever panel is open. */
 export function RobotDrawer() {
-  const state = [robots.value, trails.value, open.value, tab.value];
+  const state = [robots.value, trails.value, fixes.value, open.value, tab.value];
   useEffect(drawRobots, state);
   return null;
 }

@@ -55,8 +55,8 @@ export function SegmentCard() {
 }
 
 function go(candidate: Candidate): void {
-  const row = open.value.get(candidate.map)?.ids.indexOf(candidate.id) ?? -1;
-  if (row >= 0) select({ map: candidate.map, row });
+  const row = scene().layers.get(candidate.map)?.rowOf(candidate.id);
+  if (row !== undefined) select({ map: candidate.map, row });
 }
 
 async function findAlike(map: MapContent, chosen: Selection): Promise<void> {
@@ -74,8 +74,8 @@ async function findAlike(map: MapContent, chosen: Selection): Promise<void> {
     if (!quality.has(each.map)) quality.set(each.map, new Map());
     quality.get(each.map)!.set(each.id, each.probability ?? 0);
     const layer = scene().layers.get(each.map);
-    const row = layer?.content.ids.indexOf(each.id) ?? -1;
-    if (layer && row >= 0) lines.push({ from, to: layer.position(row), color: FIX });
+    const row = layer?.rowOf(each.id);
+    if (layer && row !== undefined) lines.push({ from, to: layer.position(row), color: FIX });
   }
   matched.value = quality;
   scene().overlay("alike", lines);

@@ -89,8 +89,10 @@ async function showChanges(name: string, sequence: number): Promise<boolean> {
   const at = (centroids: Float64Array, row: number): Vector3 => new Vector3().fromArray(centroids, 3 * row).applyMatrix4(layer.pose);
   const added = Array.from(changed.ids, (_, row) => at(changed.centroids, row));
   const content = open.value.get(name)!;
-  const rows = new Map(Array.from(content.ids, (id, row) => [id, row]));
-  const gone = [...removed].flatMap((id) => (rows.has(id) ? [at(content.centroids, rows.get(id)!)] : []));
+  const gone = [...removed].flatMap((id) => {
+    const row = layer.rowOf(id);
+    return row === undefined ? [] : [at(content.centroids, row)];
+  });
   scene().overlay("version", [], [
     { points: added, colors: added.map(() => ADDED), size: 6 }, { points: gone, colors: gone.map(() => REMOVED), size: 6 },
   ]);
