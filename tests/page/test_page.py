@@ -164,6 +164,8 @@ def test_version_is_restored_after_a_confirmation_that_says_what_it_undoes(
     show(page, address, "trail")
     page.get_by_role("button", name="Versions").click()
     page.get_by_text("Version 1", exact=True).wait_for()
+    page.get_by_role("button", name="Show changes").first.click()
+    page.get_by_role("status").filter(has_text="replaced in version 2").wait_for()
     page.get_by_role("button", name="Restore").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_text("version 2, pruned by anyone").wait_for()

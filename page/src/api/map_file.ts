@@ -53,10 +53,12 @@ interface Piece {
   whole: boolean;
 }
 
-async function piece(name: string, first: number, last: number, etag?: string): Promise<Piece> {
+async function piece(
+  name: string, first: number, last: number, etag?: string, version?: number,
+): Promise<Piece> {
   const headers: Record<string, string> = { Range: `bytes=${first}-${last}` };
   if (etag) headers["If-Range"] = `"${etag}"`;
-  const answer = await api.mapFile(name, headers);
+  const answer = await api.mapFile(name, headers, version);
   return {
     bytes: await answer.arrayBuffer(),
     etag: (answer.headers.get("ETag") ?? "").replaceAll('"', ""),
@@ -64,21 +66,21 @@ async function piece(name: string, first: number, last: number, etag?: string): 
   };
 }
 
-/** Read what a picture of the map needs. A map that changes meanwhile is read again. */
-export async function readMap(name: string): Promise<MapContent> {
+/** Read what a picture of the map needs, also of an earlier version. A map that changes is read again. */
+export async function readMap(name: string, version?: number): Promise<MapContent> {
   for (let attempt = 0; attempt < 5; attempt += 1) {
-    const content = await readOnce(name);
+    const content = await readOnce(name, version);
     if (content) return content;
   }
   throw new ApiError(0, "Map changes", `The map ${name} changes faster than it can be read.`);
 }
 
-async function readOnce(name: string): Promise<MapContent | null> {
-  const head = await piece(name, 0, HEADER_BYTES - 1);
+async function readOnce(name: string, version?: number): Promise<MapContent | null> {
+  const head = await piece(name, 0, HEADER_BYTES - 1, undefined, version);
   const length = Number(new DataView(head.bytes).getBigUint64(0, true));
   let file = new Uint8Array(head.bytes);
   if (!head.whole && length + 8 > file.length) {
-    const rest = await piece(name, file.length, length + 7, head.etag);
+    const rest = await piece(name, file.length, length + 7, head.etag, version);
     if (rest.whole) return null;
     file = joined(file, new Uint8Array(rest.bytes));
   }
@@ -87,7 +89,7 @@ async function readOnce(name: string): Promise<MapContent | null> {
   const body = 8 + length;
   const needed = body + outer["codes"]!.data_offsets[0];
   if (!head.whole && needed > file.length) {
-    const rest = await piece(name, file.length, needed - 1, head.etag);
+    const rest = await piece(name, file.length, needed - 1, head.etag, version);
     if (rest.whole) return null;
     file = joined(file, new Uint8Array(rest.bytes));
   }
@@ -162,6 +164,17 @@ export async function readCodes(map: MapContent, row: number): Promise<number[]>
   }
   const bytes = found.whole ? found.bytes.slice(first, first + map.codes.bytes) : found.bytes;
   return [...new Int8Array(bytes)];
+}
+
+/** Row of the segment with an id, where ids ascend as in a file; undefined if there is none. */
+export function rowOf(ids: Uint32Array, id: number): number | undefined {
+  let [low, high] = [0, ids.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ids[middle]! < id) low = middle + 1;
+    else high = middle;
+  }
+  return ids[low] === id ? low : undefined;
 }
 
 /** Whether the first bytes of a file are those of a map file. */

@@ -3,7 +3,7 @@ import {
   BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Points,
   ShaderMaterial, type PerspectiveCamera, type OrthographicCamera, Vector3,
 } from "three";
-import type { MapContent } from "../api/map_file";
+import { rowOf, type MapContent } from "../api/map_file";
 import type { Color } from "./colors";
 
 const VERTEX = `
@@ -89,15 +89,7 @@ export class MapLayer {
 
   /** Row of the segment with an id; undefined if there is none. */
   rowOf(id: number): number | undefined {
-    // Ids ascend in a map file.
-    const { ids } = this.content;
-    let [low, high] = [0, ids.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (ids[middle]! < id) low = middle + 1;
-      else high = middle;
-    }
-    return ids[low] === id ? low : undefined;
+    return rowOf(this.content.ids, id);
   }
 
   /** Position of a segment in the scene. */

@@ -1,10 +1,10 @@
 // The versions of a map as a time line; a version can be looked at and restored.
 import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
-import { parseDelta } from "../api/map_file";
+import { parseDelta, readMap, rowOf, type MapContent } from "../api/map_file";
 import type { MapSummary, Version, Written } from "../api/types";
 import { ADDED, css, REMOVED } from "../scene/colors";
-import { attempt, mayWrite, open, refresh, say, scene } from "../state/store";
+import { attempt, mayWrite, refresh, say, scene } from "../state/store";
 import { Button, count, Dialog } from "./parts";
 import { Swatch } from "./stage";
 import { Vector3 } from "three";
@@ -59,7 +59,7 @@ export function Versions(props: { map: MapSummary }) {
         ))}
       </ol>
       {shown !== null && (
-        <p role="status"><Swatch color={css(ADDED)} /> added or replaced in version {shown} <Swatch color={css(REMOVED)} /> removed, where it is still known</p>
+        <p role="status"><Swatch color={css(ADDED)} /> added or replaced in version {shown} <Swatch color={css(REMOVED)} /> removed</p>
       )}
       {asked && (
         <Dialog title={`Restore version ${asked.version.sequence}?`} onClose={() => setAsked(null)}>
@@ -82,16 +82,19 @@ export function Versions(props: { map: MapSummary }) {
 }
 
 async function showChanges(name: string, sequence: number): Promise<boolean> {
-  const buffer = await attempt(() => api.versionChanges(name, sequence));
   const layer = scene().layers.get(name);
-  if (!buffer || !layer) return false;
-  const { changed, removed } = parseDelta(name, buffer);
-  const at = (centroids: Float64Array, row: number): Vector3 => new Vector3().fromArray(centroids, 3 * row).applyMatrix4(layer.pose);
-  const added = Array.from(changed.ids, (_, row) => at(changed.centroids, row));
-  const content = open.value.get(name)!;
+  const found = await attempt(async () => {
+    const delta = parseDelta(name, await api.versionChanges(name, sequence));
+    // The removed segments stand in the version before only.
+    return { ...delta, before: delta.removed.length ? await readMap(name, sequence - 1) : null };
+  });
+  if (!found || !layer) return false;
+  const { changed, removed, before } = found;
+  const at = (map: MapContent, row: number): Vector3 => new Vector3().fromArray(map.centroids, 3 * row).applyMatrix4(layer.pose);
+  const added = Array.from(changed.ids, (_, row) => at(changed, row));
   const gone = [...removed].flatMap((id) => {
-    const row = layer.rowOf(id);
-    return row === undefined ? [] : [at(content.centroids, row)];
+    const row = before ? rowOf(before.ids, id) : undefined;
+    return before && row !== undefined ? [at(before, row)] : [];
   });
   scene().overlay("version", [], [
     { points: added, colors: added.map(() => ADDED), size: 6 }, { points: gone, colors: gone.map(() => REMOVED), size: 6 },
