@@ -201,9 +201,9 @@ def foreign_names(stage: Stage) -> None:
 
 
 def docs_pages(stage: Stage) -> None:
-    """A20: the documentation pages, and the key requirements in the OpenAPI."""
+    """A20: the page, the documentation pages, and the key requirements in the OpenAPI."""
     with stage.service(own=False) as target:
-        for path in ("/docs", "/redoc"):
+        for path in ("/", "/docs", "/redoc"):
             page = stage.ask(target, AttackRequest("GET", path))
             if page.status in {401, 404}:
                 continue
@@ -420,7 +420,7 @@ CASES = (
     AttackCase("A9", foreign_pages, "Without keys, no foreign page reads or changes maps."),
     AttackCase("A12", broken_key_file, "/readyz and a metric report an unreadable key file."),
     AttackCase("A19", foreign_names, "A key learns nothing of maps and keys that are not its own."),
-    AttackCase("A20", docs_pages, "The documentation pages load nothing from other hosts."),
+    AttackCase("A20", docs_pages, "The page and the documentation load nothing from other hosts."),
     AttackCase("A21", unknown_keys, "The log records refused requests with the client's address."),
     AttackCase("A25", many_sessions, "One key's sessions displace no other key's."),
     AttackCase("A26", pinned_builds, "Builds install pinned versions only, by hash."),

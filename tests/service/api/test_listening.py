@@ -10,7 +10,7 @@ import pytest
 import typer
 from placecell_client import encode
 
-from cli.serve import _listening_socket
+from cli.serve import _listening_socket, _local
 from placecell.descriptors.manifest import Manifest
 from service.core.settings import Settings
 from tests.service.api.test_process import command, running
@@ -149,3 +149,17 @@ def test_B11_command_options_change_the_settings(models_dir: Path, data_dir: Pat
         answer = httpx.get(f"{address}/p/livez", headers={"Origin": "http://a.b"})
         assert answer.status_code == 200
         assert answer.headers["access-control-allow-origin"] == "http://a.b"
+
+
+@pytest.mark.parametrize(
+    ("address", "opened"),
+    [
+        ("http://127.0.0.1:8000", "http://127.0.0.1:8000"),
+        ("http://0.0.0.0:8000", "http://localhost:8000"),
+        ("http://[::]:80", "http://localhost:80"),
+        ("http://[::1]:80", "http://[::1]:80"),
+        ("http://10.0.0.0:8000", "http://10.0.0.0:8000"),
+    ],
+)
+def test_address_of_the_page_can_be_opened(address: str, opened: str) -> None:
+    assert _local(address) == opened

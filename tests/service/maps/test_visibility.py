@@ -66,6 +66,7 @@ def hall(start: Any, tmp_path: Path, manifest: Manifest) -> Iterator[Any]:
         yield service, boss, ann
 
 
+PLACE = {"lat": 49.0, "lon": 8.0}
 DIGEST = hashlib.sha256(b"part").hexdigest()
 
 
@@ -73,6 +74,9 @@ DIGEST = hashlib.sha256(b"part").hexdigest()
 def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) -> None:
     service, boss, ann = hall
     document = service.get("/openapi.json").json()
+    for address, body in (("anchor", PLACE), ("anchors/gate", {"position": [0, 0, 0]})):
+        stored = service.put(f"/maps/hall-site/{address}", json=body, headers=boss)
+        assert stored.is_success, stored.text
     queries = {"model_id": manifest.model_id, "codes": random_codes(3).tolist()}
     bodies: dict[str, list[dict[str, Any]]] = {
         "/describe": [{"json": request_of([cloud(0)])}],
@@ -93,6 +97,26 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
             {"content": b"rubbish"},
         ],
         "/robots/{robot}": [{"json": {"state": "lost"}}],
+        "/coverage": [{"json": queries | {"centroids": [[0, 0, 0], [5, 0, 0], [0, 5, 0]]}}],
+        "/maps/{map}/tags": [{"json": {"tags": ["indoor"]}}],
+        "/maps/{map}/anchor": [{"json": PLACE}],
+        "/maps/{map}/anchor/fit": [
+            {
+                "json": {
+                    "fixes": [
+                        {
+                            "position": [10.0 * x, 5.0 * y, 0.0],
+                            "lat": 49 + 4.5e-5 * y,
+                            "lon": 8 + 1.37e-4 * x,
+                            "accuracy": 1.0,
+                        }
+                        for x in range(4)
+                        for y in range(4)
+                    ]
+                }
+            }
+        ],
+        "/maps/{map}/anchors/{anchor}": [{"json": {"position": [1, 2, 3]}}],
         "/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
         "/maps/{map}/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
         "/maps/{map}/uploads/{digest}": [{"content": b"part"}],
@@ -114,14 +138,14 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     asked = set()
     for path, operations in document["paths"].items():
         # Removing requests come last.
-        for method in sorted(operations, key=lambda method: method == "delete"):
+        for method in sorted(operations, key=["post", "put", "get", "delete"].index):
             names = ["hall-site", "hall-none"] if method != "delete" else ["hall-none"]
             for name in names:
                 for query in options.get(path, [""]):
                     for body in bodies.get(path, [{}]) if method in {"post", "put"} else [{}]:
                         filled = path.replace("{map}", name).replace("{other}", "hall-a")
                         filled = filled.replace("{version}", "2").replace("{digest}", DIGEST)
-                        filled = filled.replace("{robot}", "ann")
+                        filled = filled.replace("{robot}", "ann").replace("{anchor}", "dock")
                         address = f"{filled}?{query}"
                         headers = ann | {"If-Match": "*"} if "hall-site" in filled else ann
                         answer = service.request(method, address, headers=headers, **body)
@@ -138,7 +162,8 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
         ("/models/reload", "post"), ("/maps/{map}/ids/reset", "post"), ("/maps/{map}", "delete"),
         ("/maps/{map}/merge", "post"), ("/maps/{map}/align/{other}", "post"),
         ("/maps/{map}", "put"), ("/maps/{map}/uploads/{digest}", "post"),
-        ("/maps/{map}/uploads/{digest}", "delete"),
+        ("/maps/{map}/uploads/{digest}", "delete"), ("/maps/{map}/anchor", "delete"),
+        ("/maps/{map}/anchors/{anchor}", "delete"),
     }  # fmt: skip
     # A key of all maps sees all names.
     assert service.get("/maps", headers=boss).json()["maps"][1]["sources"]
