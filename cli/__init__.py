@@ -13,6 +13,7 @@ from cli.drive_options import takes_drives
 from cli.errors import Commands
 from cli.evaluate import evaluate
 from cli.evaluate_poses import evaluate_poses
+from cli.events import events
 from cli.experiments import experiments
 from cli.export import export
 from cli.fit_confidence import fit_confidence
@@ -83,6 +84,7 @@ app.command(rich_help_panel=RUN)(config)
 app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)
 app.command(rich_help_panel=MAP)(robots)
+app.command(rich_help_panel=MAP)(events)
 app.command(rich_help_panel=MAP)(town)
 app.command(rich_help_panel=MAP)(takes_drives(inspect))
 app.command(rich_help_panel=MAP)(export)

@@ -28,7 +28,7 @@ from service.api.routes import (
 )
 from service.api.routes.annotations import anchors
 from service.api.routes.clouds import exports, scans
-from service.api.routes.live import robots
+from service.api.routes.live import events, robots
 from service.api.state import State, open_state
 from service.core.settings import Settings
 
@@ -62,6 +62,7 @@ ROUTES = (
     align,
     anchors,
     robots,
+    events,
     models,
     health,
 )

@@ -47,6 +47,8 @@ from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.inference.model_registry import Model, Models
 from service.inference.scan import Scan
+from service.live.alarms import StoreWatch
+from service.live.events import EventRing
 from service.live.robots import Robots
 from service.maps.cache import MapCache
 from service.maps.history import commits_of, version_file
@@ -97,6 +99,7 @@ class Engine:
         sync: incremental transfers of maps, for robots that keep a copy.
         sessions: results of robots' last requests.
         robots: last pose and state of each robot.
+        events: what happens, for clients that listen.
     """
 
     def __init__(
@@ -138,14 +141,19 @@ class Engine:
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
             self.robots = Robots(limits.robots, limits.robot_seconds)
+            self.events = EventRing(limits.events, limits.event_clients)
+            watch = StoreWatch(self.events, self.maps.trouble, self.maps.damaged)
             bounds = MaintenanceThresholds(
                 map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
             )
-            maintenance = Maintenance(self.maps, self.sync, cache, bounds, self.partial_uploads)
+            maintenance = Maintenance(
+                self.maps, self.sync, cache, bounds, self.partial_uploads, watch.check
+            )
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
         metrics.maps.set_function(lambda: len(self.maps))
         metrics.robots.set_function(lambda: len(self.robots))
+        metrics.event_clients.set_function(lambda: len(self.events))
         for name in get_args(CalibrationState):
             metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
         metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.all()))
@@ -201,7 +209,8 @@ class Engine:
         self.close()
 
     def close(self) -> None:
-        """Stop the maintenance and release the data directory."""
+        """Stop the maintenance, end streams of events and release the data directory."""
+        self.events.close()
         self._open_parts.close()
 
     @property

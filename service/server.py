@@ -5,6 +5,7 @@ import asyncio
 import fcntl
 import re
 import signal
+import socket
 import sys
 import termios
 import time
@@ -286,6 +287,11 @@ class Server(uvicorn.Server):
             )
         )
         self._state = state
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End the streams of events, which would not end by themselves, and stop."""
+        self._state.engine.events.close()
+        await super().shutdown(sockets)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Drain at the first signal; stop at once at the second."""

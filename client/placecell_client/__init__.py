@@ -14,6 +14,7 @@ from placecell_client.hints import (
     YawHint,
 )
 from placecell_client.http.errors import ServiceError
+from placecell_client.http.events import ServerEvent
 from placecell_client.http.point_clouds import PrecisionWarning
 from placecell_client.http.retry import Retries
 from placecell_client.maps.delta_file import Delta, decode_delta, encode_delta
@@ -97,6 +98,7 @@ __all__ = [
     "RobotState",
     "ScannedFile",
     "SensorPose",
+    "ServerEvent",
     "ServiceError",
     "Skipped",
     "UnusedHint",

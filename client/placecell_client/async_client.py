@@ -3,7 +3,7 @@
 import asyncio
 import random
 import time
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from types import TracebackType
 from typing import TypeVar
 
@@ -17,6 +17,13 @@ from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
+from placecell_client.http.events import (
+    EventLines,
+    Reconnection,
+    ServerEvent,
+    is_stream,
+    refused,
+)
 from placecell_client.http.requests import ALIGNMENT_SECONDS, Call, PointCloudFile
 from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
@@ -444,6 +451,32 @@ class AsyncClient(BaseClient):
     async def robot(self, robot: str) -> RobotState:
         """See `Client.robot`."""
         return await self._send(self._calls.robot(robot))
+
+    async def events(self, last_event_id: str = "") -> AsyncIterator[ServerEvent]:
+        """See `Client.events`."""
+        lines = EventLines(last_event_id)
+        again = Reconnection(self._policy.retries)
+        while True:
+            failed: Exception | None = None
+            try:
+                async for event in self._listen(lines, again):
+                    yield event
+            except (httpx.TransportError, ServiceError) as error:
+                failed = error
+            await self._sleep(again.wait_after(failed, self._policy.jitter()))
+
+    async def _listen(self, lines: EventLines, again: Reconnection) -> AsyncIterator[ServerEvent]:
+        headers = again.headers(lines)
+        async with self._http.stream(
+            "GET", "/events", headers=headers, timeout=again.timeout
+        ) as response:
+            if not is_stream(response):
+                raise refused(response, await response.aread())
+            async for line in response.aiter_lines():
+                event = lines.read(line)
+                if event is not None:
+                    again.failures = 0
+                    yield event
 
     async def _run(self, steps: transfers.Steps[T]) -> T:
         """Send the calls of a transfer one after the other and return its result."""

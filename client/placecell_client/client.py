@@ -2,7 +2,7 @@
 
 import random
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from types import TracebackType
 from typing import TypeVar
 
@@ -15,6 +15,13 @@ from placecell_client.hints import Hints
 from placecell_client.http.attempts import Attempt
 from placecell_client.http.encoding import Encoding
 from placecell_client.http.errors import ServiceError
+from placecell_client.http.events import (
+    EventLines,
+    Reconnection,
+    ServerEvent,
+    is_stream,
+    refused,
+)
 from placecell_client.http.requests import ALIGNMENT_SECONDS, Call, PointCloudFile
 from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import USUAL, Retries
@@ -797,6 +804,42 @@ class Client(BaseClient):
     def robot(self, robot: str) -> RobotState:
         """Return the last report of a robot."""
         return self._send(self._calls.robot(robot))
+
+    def events(self, last_event_id: str = "") -> Iterator[ServerEvent]:
+        """Listen to what happens in the service, without end; break the loop to stop.
+
+        A broken stream is opened again after the last event, so no event is lost as long as the
+        service keeps it. Otherwise an event of the kind `missed` comes. Waits between attempts are
+        those of `retries`, without a limit of attempts.
+
+        Args:
+            last_event_id: Id of an earlier event, to continue after it.
+
+        Raises:
+            ServiceError: The service refuses the stream, for example with status 401.
+        """
+        lines = EventLines(last_event_id)
+        again = Reconnection(self._policy.retries)
+        while True:
+            failed: Exception | None = None
+            try:
+                yield from self._listen(lines, again)
+            except (httpx.TransportError, ServiceError) as error:
+                failed = error
+            self._sleep(again.wait_after(failed, self._policy.jitter()))
+
+    def _listen(self, lines: EventLines, again: Reconnection) -> Iterator[ServerEvent]:
+        headers = again.headers(lines)
+        with self._http.stream(
+            "GET", "/events", headers=headers, timeout=again.timeout
+        ) as response:
+            if not is_stream(response):
+                raise refused(response, response.read())
+            for line in response.iter_lines():
+                event = lines.read(line)
+                if event is not None:
+                    again.failures = 0
+                    yield event
 
     def _run(self, steps: transfers.Steps[T]) -> T:
         """Send the calls of a transfer one after the other and return its result."""

@@ -5,9 +5,13 @@ import logging
 from fastapi import Request
 
 from service.api.state import State
+from service.live.events import Kind
 from service.maps.writes.writer import WriteResult
 
 logger = logging.getLogger("placecell.audit")
+
+KINDS: dict[str, Kind] = {"put": "upload", "merge": "merge"}
+"""Kinds of the events of some operations; all others are `write`."""
 
 
 def record_write(request: Request, state: State, operation: str, result: WriteResult) -> None:
@@ -32,6 +36,12 @@ def record(
     """
     facts = request.scope["state"]
     state.metrics.writes.labels(operation).inc()
+    state.engine.events.publish(
+        KINDS.get(operation, "write"),
+        {"operation": operation, "effect": effect, "segments": segments},
+        name,
+        facts["key"],
+    )
     logger.info(
         "%s %s map %s, %s",
         facts["key"],

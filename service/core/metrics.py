@@ -68,6 +68,9 @@ class Metrics:
             "Number of robots that reported within limits.robot_seconds.",
             registry=of,
         )
+        self.event_clients = Gauge(
+            "placecell_event_clients", "Number of streams of events.", registry=of
+        )
         self.calibrated = Gauge(
             "placecell_maps_by_calibration",
             "Number of maps that were searched since the start, by the state of the calibration "

@@ -278,6 +278,15 @@ class Limits(BaseModel):
         allow_inf_nan=False,
         description="Seconds after its last report when a robot is dropped from the list.",
     )
+    events: int = Field(
+        default=1_000, ge=1, description="Number of the last events that `/events` can repeat."
+    )
+    event_clients: int = Field(
+        default=100,
+        ge=1,
+        description="Largest number of streams of events; further ones get a 429. One client may "
+        "have a quarter.",
+    )
     connections: int = Field(
         default=1_000,
         ge=1,

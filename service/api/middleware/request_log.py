@@ -13,6 +13,7 @@ from service.api.body.problem_json import response_of
 from service.api.middleware.refusal_log import LOGGED_STATUSES, RefusalLog, address_of
 from service.core.problems import Problem, unexpected
 from service.core.timing import Timing
+from service.live.alarms import RefusalCounter
 
 logger = logging.getLogger("placecell.requests")
 
@@ -29,6 +30,7 @@ class RequestLog:
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
         self._refusals = RefusalLog()
+        self._refused = RefusalCounter()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on; record its status, time and client."""
@@ -89,6 +91,7 @@ class RequestLog:
         key, request_id = scope["state"].get("key"), scope["state"]["request_id"]
         if status in LOGGED_STATUSES:
             self._refusals.add(status, method, route, address, key, request_id)
+        self._refused.add(status, scope["app"].state.placecell.engine.events)
         logger.info(
             "%s %s %s",
             method,

@@ -28,6 +28,7 @@ from service.core.auth import Principal
 from service.core.problems import Problem
 from service.core.timing import Timing
 from service.inference.describer import Descriptors
+from service.live.robots import RobotReport
 from service.maps.snapshot import MapSnapshot
 from service.search.hints import AnchorOf
 from service.search.localization import LocalizationResult, MapLocalization, report_of
@@ -101,14 +102,34 @@ def _search(
         hints=None if request.hints is None else request.hints.hints(),
     )
     robot = request.robot or principal.key.robot
-    if robot is not None:
-        state.engine.robots.report(report_of(robot, result), principal)
+    if robot is not None or request.session is not None:
+        report = report_of(robot or "", result)
+        if robot is not None:
+            state.engine.robots.report(report, principal)
+        _publish(state, principal, robot, request.session, report)
     anchor_of = state.engine.annotations.geo_anchor
     content = render(
         _geopose(result, anchor_of) if answer == GEOPOSE else _response(result, anchor_of), answer
     )
     timing.lap("encode")
     return content
+
+
+def _publish(
+    state: State,
+    principal: Principal,
+    robot: str | None,
+    session: str | None,
+    report: RobotReport,
+) -> None:
+    """Publish the answer to a robot or a session as an event."""
+    who = {"robot": robot, "session": session}
+    pose = report.pose
+    if pose is None:
+        told = who | {"reason": report.reason}
+        state.engine.events.publish("no-fix", told, None, principal.name)
+    else:
+        state.engine.events.publish("fix", who | asdict(pose), pose.map, principal.name)
 
 
 def _geopose(result: LocalizationResult, anchor_of: AnchorOf) -> dict[str, Any]:

@@ -5,7 +5,7 @@ A kill at any point loses nothing.
 """
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import Event, Thread
@@ -69,7 +69,9 @@ class Maintenance:
         cache: MapCache,
         bounds: MaintenanceThresholds = MaintenanceThresholds(),
         partial_uploads: PartialUploads | None = None,
+        watch: Callable[[], None] = lambda: None,
     ) -> None:
+        self._watch = watch
         self._maps = maps
         self._sync = sync
         self._cache = cache
@@ -111,6 +113,8 @@ class Maintenance:
             self._free_space()
         if self._maps.copied_segments - self._released > self._bounds.handled:
             self._release()
+        with _logged("the watch of the store"):
+            self._watch()
         with _logged("the data directory"):
             self._sync.expire()
             if self._partial_uploads is not None:

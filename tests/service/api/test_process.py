@@ -360,3 +360,38 @@ def test_second_signal_stops_at_once(models_dir: Path, data_dir: Path) -> None:
             process.send_signal(signal.SIGTERM)
             # Without the second signal, the upload could take ten more seconds.
             process.wait(5)
+
+
+def test_streams_of_events_do_not_delay_the_stop(
+    models_dir: Path, data_dir: Path, manifest: Manifest
+) -> None:
+    with running(models_dir, data_dir) as (process, address), Client(address) as client:
+        with httpx.stream("GET", f"{address}/events", timeout=30) as response:
+            lines = response.iter_lines()
+            assert next(lines) == "retry: 2000"
+            client.put_map("yard", map_of(random_codes(5), manifest.model_id))
+            assert any(line == "event: upload" for line in lines)
+            process.send_signal(signal.SIGTERM)
+            began = time.monotonic()
+            assert any(line == "event: stopping" for line in lines)
+            assert [*lines][-1:] in ([], [""])  # the stream ends
+        assert process.wait(30) == 0
+        assert time.monotonic() - began < 8
+
+
+def test_answered_tags_and_anchors_survive_sigkill(
+    models_dir: Path, data_dir: Path, manifest: Manifest
+) -> None:
+    with running(models_dir, data_dir) as (process, address), Client(address) as client:
+        client.put_map("yard", map_of(random_codes(5), manifest.model_id))
+        client.set_tags("yard", ["outdoor"])
+        client.set_anchor("yard", 49.0, 8.4, yaw_deg=20.0)
+        for number in range(20):
+            client.set_named_anchor("yard", f"dock-{number}", (number, 0, 0))
+        process.send_signal(signal.SIGKILL)
+        process.wait(60)
+    with running(models_dir, data_dir) as (_, address), Client(address) as client:
+        assert client.tags("yard") == ("outdoor",)
+        assert client.anchor("yard").yaw_deg == 20.0
+        found = {each.name: each.position[0] for each in client.anchors("yard")}
+        assert found == {f"dock-{number}": number for number in range(20)}

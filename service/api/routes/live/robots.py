@@ -53,7 +53,9 @@ async def report_robot(
                 probability=asked.probability,
             )
         report = RobotReport(robot, pose, asked.state, asked.reason, asked.time, "report")
-        return RobotOut(**robot_of(state.engine.robots.report(report, principal)))
+        told = robot_of(state.engine.robots.report(report, principal))
+        state.engine.events.publish("robot", told, told["map"], principal.name)
+        return RobotOut(**told)
 
 
 @router.get(
