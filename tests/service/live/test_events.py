@@ -31,7 +31,9 @@ def read(text: str, last_id: str = "") -> list[ServerEvent]:
     return [event for event in events if event is not None]
 
 
-def listen(service: Any, seconds: float = 0.2, **headers: str) -> list[ServerEvent]:
+def listen(
+    service: Any, headers: dict[str, str] | None = None, seconds: float = 0.2
+) -> list[ServerEvent]:
     response = service.get("/events", params={"seconds": seconds}, headers=headers)
     assert response.status_code == 200, response.text
     assert response.headers["content-type"].startswith("text/event-stream")
@@ -157,7 +159,7 @@ def test_stream_resumes_after_an_event(stocked: Any) -> None:
     stocked.put("/robots/ann", json={"map": "yard", "position": [1, 2, 3], "reason": "<b>\n"})
     stocked.put("/maps/yard/tags", json={"tags": ["x"]})
     stocked.delete("/maps/yard")
-    told = listen(stocked, **{"Last-Event-ID": log.id_of(0)})
+    told = listen(stocked, {"Last-Event-ID": log.id_of(0)})
     assert [event.kind for event in told] == ["upload", "robot", "write", "write"]
     upload, robot, tags, deletion = told
     assert upload.data["map"] == "yard"
@@ -165,9 +167,9 @@ def test_stream_resumes_after_an_event(stocked: Any) -> None:
     assert (robot.data["robot"], robot.data["reason"]) == ("ann", "<b>\n")
     assert robot.data["position"] == [1, 2, 3]
     assert (tags.data["operation"], deletion.data["operation"]) == ("tags", "delete")
-    rest = listen(stocked, **{"Last-Event-ID": robot.id})
+    rest = listen(stocked, {"Last-Event-ID": robot.id})
     assert [event.id for event in rest] == [tags.id, deletion.id]
-    assert listen(stocked, **{"Last-Event-ID": deletion.id}) == []
+    assert listen(stocked, {"Last-Event-ID": deletion.id}) == []
 
 
 def test_lost_events_and_a_restart_are_told(start: Any) -> None:
@@ -175,12 +177,12 @@ def test_lost_events_and_a_restart_are_told(start: Any) -> None:
         log = service.app.state.placecell.engine.events
         for number in range(5):
             log.publish("robot", {"n": number})
-        missed, *rest = listen(service, **{"Last-Event-ID": log.id_of(1)})
+        missed, *rest = listen(service, {"Last-Event-ID": log.id_of(1)})
         assert (missed.kind, missed.data) == ("missed", {"missed": 2, "restarted": False})
         assert [event.data["n"] for event in rest] == [3, 4]
-        (restarted,) = listen(service, **{"Last-Event-ID": "00000000-3"})
+        (restarted,) = listen(service, {"Last-Event-ID": "00000000-3"})
         assert restarted.data == {"missed": None, "restarted": True}
-        assert listen(service, **{"Last-Event-ID": restarted.id}) == []
+        assert listen(service, {"Last-Event-ID": restarted.id}) == []
 
 
 def test_standing_alarms_come_first(stocked: Any) -> None:
@@ -200,7 +202,7 @@ def test_fix_and_no_fix_are_told(service: Any, manifest: Manifest) -> None:
     service.post("/localize", json=body | {"session": "s1"})
     service.post("/localize", json=body | {"robot": "ann"})
     service.post("/localize", json=body | {"robot": "ann", "tags": ["none"]})
-    fix, also, lost = listen(service, **{"Last-Event-ID": begun})
+    fix, also, lost = listen(service, {"Last-Event-ID": begun})
     assert (fix.kind, fix.data["session"], fix.data["robot"]) == ("fix", "s1", None)
     assert (also.data["robot"], also.data["map"]) == ("ann", "street")
     assert also.data["probability"] > 0.9
@@ -220,9 +222,9 @@ def test_stream_shows_only_what_the_key_may_read(
             service.put(f"/maps/{name}", content=data, headers=all_maps)
         assert_problem(service.get("/events?seconds=0"), 401, "unauthorized")
         since = {"Last-Event-ID": log.id_of(0)}
-        told = listen(service, **hall, **since)
+        told = listen(service, hall | since)
         assert [(event.kind, event.data["map"]) for event in told] == [("upload", "hall")]
-        everything = listen(service, **all_maps, **since)
+        everything = listen(service, all_maps | since)
         assert [event.kind for event in everything] == ["upload", "upload", "alarm"]
         assert everything[-1].data["counts"] == {"401": 1}
 
@@ -238,7 +240,7 @@ def test_head_and_wrong_parameters(stocked: Any) -> None:
 
 def test_too_many_streams_are_refused(start: Any) -> None:
     with start(limits={"event_clients": 1}) as service:
-        done = threading.Thread(target=listen, args=(service, 1.0))
+        done = threading.Thread(target=listen, args=(service, None, 1.0))
         done.start()
         log = service.app.state.placecell.engine.events
         while not len(log):
@@ -248,13 +250,13 @@ def test_too_many_streams_are_refused(start: Any) -> None:
         assert "retry-after" in refused.headers
         assert "placecell_event_clients 1.0" in service.get("/metrics").text
         done.join()
-        assert listen(service, 0.0) == []
+        assert listen(service, None, 0.0) == []
 
 
 def test_closed_log_ends_the_stream(stocked: Any) -> None:
     log = stocked.app.state.placecell.engine.events
     threading.Timer(0.3, log.close).start()
-    (last,) = listen(stocked, 60.0)
+    (last,) = listen(stocked, None, 60.0)
     assert last.kind == "stopping"
 
 
