@@ -14,6 +14,9 @@ from service.api.schemas.recognition import (
     Request,
 )
 
+# Lists, as some readers of OpenAPI do not understand the schema of a nullable tuple.
+Position = Annotated[list[float], Field(min_length=3, max_length=3)]
+Rotation = Annotated[list[float], Field(min_length=4, max_length=4)]
 State = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,63}$")]
 
 
@@ -63,10 +66,10 @@ class RobotOut(BaseModel):
 
     robot: str
     map: str | None = Field(description="Name of the map. Null: the robot had no pose yet.")
-    position: Point | None = Field(
+    position: Position | None = Field(
         description="Last position of the sensor in the map's frame, x, y, z, meters."
     )
-    orientation: Quaternion | None = Field(
+    orientation: Rotation | None = Field(
         description="Last orientation of the sensor, a quaternion x, y, z, w."
     )
     covariance: list[list[float]] | None = Field(

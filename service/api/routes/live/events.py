@@ -32,8 +32,20 @@ RETRY_MILLISECONDS = 2_000
 
 _STREAM: dict[int | str, dict[str, Any]] = {
     200: {
-        "description": "The stream of events.",
-        "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+        "description": "The stream of events; the schema is that of one event.",
+        "content": {
+            MEDIA_TYPE: {
+                "schema": {
+                    "type": "object",
+                    "properties": {
+                        "id": {"type": "string"},
+                        "event": {"type": "string"},
+                        "data": {"type": "string", "description": "JSON of the event."},
+                        "retry": {"type": "integer"},
+                    },
+                }
+            }
+        },
     }
 }
 

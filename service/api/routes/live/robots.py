@@ -108,8 +108,8 @@ def robot_of(status: RobotStatus) -> dict[str, Any]:
     return {
         "robot": report.robot,
         "map": None if pose is None else pose.map,
-        "position": None if pose is None else pose.position,
-        "orientation": None if pose is None else pose.orientation,
+        "position": None if pose is None else [*pose.position],
+        "orientation": None if pose is None else [*pose.orientation],
         "covariance": None if pose is None else pose.covariance,
         "probability": None if pose is None else pose.probability,
         "state": report.state,
