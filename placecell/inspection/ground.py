@@ -94,7 +94,8 @@ def possible_ups(clouds: Sequence[Float32]) -> list[str]:
     points = np.concatenate([cloud[:: max(1, len(cloud) // 20_000)] for cloud in clouds] or [NONE])
     if not len(points):
         return []
-    sines = points / np.maximum(np.linalg.norm(points, axis=1), 1e-6)[:, None]
+    with np.errstate(over="ignore"):  # A damaged scan may have points at any distance.
+        sines = points / np.maximum(np.linalg.norm(points, axis=1), 1e-6)[:, None]
     if np.quantile(sines[:, 2], 0.05) > AHEAD / 2 and np.median(sines[:, 2]) > AHEAD:
         return ["-y"]
     reach = np.minimum(np.quantile(sines, 0.98, axis=0), -np.quantile(sines, 0.02, axis=0))

@@ -291,7 +291,10 @@ def without_scans(path: Path, error: DriveError) -> Subject:
                 f"{path}: holds {len(trajectory)} poses and no scans",
                 "Give the drive or bag with the scans, and this file with --poses.",
             ),
-            *(SourceProblem.of("info", f"{path}: {remark}", "") for remark in trajectory.remarks),
+            *(
+                SourceProblem.of("info", f"{path}: {remark}", "No action is needed.")
+                for remark in trajectory.remarks
+            ),
         ),
     )
 

@@ -88,7 +88,8 @@ def find_ground(points: Float32, expected_up: Sequence[float] = UP) -> GroundPla
     """
     toward = np.asarray(expected_up, dtype=np.float64)
     turn = rotation_between(toward / np.linalg.norm(toward), np.array(UP))
-    ranges = np.linalg.norm(points, axis=1)
+    with np.errstate(over="ignore"):  # A damaged scan may have points at any distance.
+        ranges = np.linalg.norm(points, axis=1)
     best: GroundPlane | None = None
     reason = f"fewer than {FEWEST_CELLS} points within {RADII[-1]:g} m"
     for radius in RADII:

@@ -103,6 +103,7 @@ def run(
     settings: OdometrySettings,
     progress: Progress,
     title: str,
+    guide: Float64 | None = None,
 ) -> Float64:
     """Return the pose of each scan in the frame of the first, float64 (scans, 4, 4).
 
@@ -112,9 +113,11 @@ def run(
         settings: settings of the odometry.
         progress: shows the progress.
         title: title of the progress bar.
+        guide: poses of the same scans by an earlier pass: its motion deskews the scans and is where
+            the registration starts; None: the motion goes on as between the two scans before.
     """
-    odometry = ScanOdometry(settings)
     stamps = times_of(source, scans)
+    odometry = ScanOdometry(settings, None if guide is None else SensorMotion.of(stamps, guide))
     forward = 1.0 if scans[-1] >= scans[0] else -1.0
     poses = np.tile(np.eye(4), (len(scans), 1, 1))
     for step in progress(range(len(scans)), len(scans), title):
@@ -130,14 +133,19 @@ class ScanOdometry:
         poses: poses of the last scans in the frame of the first, at most two.
     """
 
-    def __init__(self, settings: OdometrySettings) -> None:
+    def __init__(self, settings: OdometrySettings, motion: SensorMotion | None = None) -> None:
         """Begin an odometry.
+
+        Args:
+            settings: settings of the odometry.
+            motion: motion of the sensor as far as it is known; None: it is expected to go on.
 
         Raises:
             DriveError: KISS-ICP is not installed.
         """
         self._odometry = kiss_icp(settings)
         self._deskew = settings.deskew
+        self._motion = motion
         self.stamps: list[float] = []
         self.poses: list[Float64] = []
 
@@ -156,7 +164,7 @@ class ScanOdometry:
         if not len(points):
             pose = self.poses[-1] if self.poses else np.eye(4)
         else:
-            if expected is not None:
+            if expected is not None and self.stamps:
                 # KISS-ICP expects the last step again; scans may be missing between two.
                 last, now = expected.at(np.array([self.stamps[-1], stamp]))
                 self._odometry.last_delta = np.linalg.inv(last) @ now
@@ -167,7 +175,9 @@ class ScanOdometry:
         return pose
 
     def _expected(self) -> SensorMotion | None:
-        """Return the motion that goes on as between the two scans before."""
+        """Return the known motion, else the one that goes on as between the two scans before."""
+        if self._motion is not None:
+            return self._motion
         if len(self.poses) < 2:
             return None
         return SensorMotion(np.array(self.stamps), np.array(self.poses))

@@ -18,14 +18,18 @@ from placecell.odometry.ground_plane import UP, GroundPlane
 from placecell.odometry.inertial_odometry import INSTALL as INSTALL_INERTIAL
 from placecell.odometry.inertial_odometry import imu_of, run_inertial
 from placecell.odometry.leveling import first_scans, ground_in_world, leveling_of
-from placecell.odometry.scan_odometry import INSTALL, OdometrySettings, run
+from placecell.odometry.scan_odometry import INSTALL, OdometrySettings, read, run
 from placecell.sources.errors import DriveError
 from placecell.sources.imu import ImuSamples
 from placecell.sources.scan_options import KISS_ICP, RKO_LIO
 from placecell.sources.source import ScanSource
 
-VERSION = 1
+VERSION = 2
 """Version of the odometry; part of the cache's key."""
+START = 20
+"""Number of first scans whose poses come from a run backward."""
+PROBED = 3
+"""Number of scans that tell whether points have times."""
 LARGE_DRIFT = 3.0
 """Drift from which the user is warned, percent of the path."""
 
@@ -165,7 +169,7 @@ def compute(
     everything = range(len(source))
     if imu is not None:  # It does not run backward, so nothing tells its drift.
         return CachedOdometry(run_inertial(source, settings, imu, progress), None)
-    poses = run(source, everything, settings, progress, f"odometry of {source.title}")
+    poses = run_twice(source, everything, settings, progress, f"odometry of {source.title}")
     if not np.isfinite(poses).all():
         raise DriveError(
             f"{source.path}: odometry found no motion that fits the scans. Give poses with --poses "
@@ -173,9 +177,57 @@ def compute(
         )
 
     def backward(part: Sequence[int]) -> Float64:
-        return run(source, part, settings, progress, f"drift of {source.title}")
+        return run_joined(source, part, settings, progress, f"drift of {source.title}")
 
     return CachedOdometry(poses, estimate_drift(poses, backward))
+
+
+def run_twice(
+    source: ScanSource,
+    scans: Sequence[int],
+    settings: OdometrySettings,
+    progress: Progress,
+    title: str,
+) -> Float64:
+    """Return the poses of scans by two passes, float64 (scans, 4, 4).
+
+    The first pass expects each motion to go on as before, and deskews with a wrong motion in turns.
+    The second pass has the right one. Scans without times have one pass.
+    """
+    poses = run_joined(source, scans, settings, progress, title)
+    times = any(read(source, int(index)).times is not None for index in scans[:PROBED])
+    if not (settings.deskew and times and np.isfinite(poses).all()):
+        return poses
+    return run_joined(source, scans, settings, progress, f"{title}, second pass", poses)
+
+
+def run_joined(
+    source: ScanSource,
+    scans: Sequence[int],
+    settings: OdometrySettings,
+    progress: Progress,
+    title: str,
+    guide: Float64 | None = None,
+) -> Float64:
+    """Return the poses of scans, those of the first ones by a run backward, float64 (scans, 4, 4).
+
+    A sensor that moves at its first scan misleads the odometry for some scans: it expects a sensor
+    that stands, and the rings on the ground look alike. A run backward comes to these scans with
+    the right motion.
+    """
+    forward = run(source, scans, settings, progress, title, guide)
+    count = min(len(scans), 2 * START)
+    if count < 3 or not np.isfinite(forward).all():
+        return forward
+    reverse = None if guide is None else guide[:count][::-1]
+    told = f"{title}, start"
+    backward = run(source, scans[:count][::-1], settings, progress, told, reverse)[::-1]
+    if not np.isfinite(backward).all():
+        return forward
+    at = count // 2
+    start = forward[at] @ np.linalg.inv(backward[at]) @ backward[:at]
+    poses = np.concatenate([start, forward[at:]])
+    return np.asarray(np.linalg.inv(poses[0]) @ poses)
 
 
 def describe_drift(percent: float | None, method: str = KISS_ICP) -> str:

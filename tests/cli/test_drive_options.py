@@ -108,6 +108,18 @@ def test_bag_has_its_own_poses_and_the_mount_is_stated(bag: Path, tmp_path: Path
     assert drive.times[0] == pytest.approx(START)
 
 
+def test_bag_is_a_source_of_training_and_of_the_demo(bag: Path) -> None:
+    from cli.sources import source
+    from evaluation.poses.robots import robots_of_drive
+
+    whole, part = source(str(bag)), source(f"{bag}@0:{SCANS - 2}")
+    assert (whole.first, whole.last) == (0, SCANS - 1)
+    assert (part.first, part.last) == (0, SCANS - 2)
+    assert len(whole.recording.segments)
+    mapper, asker = robots_of_drive(bag, lambda items, *_: items)
+    assert len(mapper.drive) == len(asker.drive) == SCANS
+
+
 def test_topics_are_stated(bag: Path, tmp_path: Path) -> None:
     words = ("--topic", "/points", "--odometry", "/odom")
     recording, said = prepared(tmp_path / "out", bag, *words)

@@ -227,3 +227,38 @@ def test_cache_keeps_a_trajectory_whole_or_not_at_all(folder: Path, tmp_path: Pa
     (tmp_path / "file").write_text("")
     assert not cache.save(tmp_path / "file" / "x.txt", CachedOdometry(poses, None))
     assert [each.name for each in folder.iterdir()] == [file.name]
+
+
+def test_first_poses_come_from_a_run_backward(monkeypatch: pytest.MonkeyPatch) -> None:
+    truth = np.stack([pose(0.7 * step, 0.01 * step**2, 0, 0.02 * step) for step in range(60)])
+    guides: list[object] = []
+
+    def fake(source: object, scans: Sequence[int], *rest: object) -> Float64:
+        guides.append(rest[3] if len(rest) > 3 else None)
+        found = np.linalg.inv(truth[scans[0]]) @ truth[list(scans)]
+        found[1:5, 0, 3] -= 0.3  # Each run is wrong at its own start.
+        return found
+
+    monkeypatch.setattr(source_odometry, "run", fake)
+    settings = OdometrySettings(50.0, 1.0, 0.5, True)
+    drive = MemorySource([[[1.0, 0, 0]]] * 60, times=[np.zeros(1)] * 60)
+    joined = source_odometry.run_joined(drive, range(60), settings, silent, "")
+    expected = np.linalg.inv(truth[0]) @ truth
+    np.testing.assert_allclose(joined, expected, atol=1e-9)
+    assert guides == [None, None]
+    np.testing.assert_allclose(
+        source_odometry.run_twice(drive, range(60), settings, silent, ""), expected, atol=1e-9
+    )
+    assert [guide is None for guide in guides[2:]] == [True, True, False, False]
+    without = MemorySource([[[1.0, 0, 0]]] * 60)
+    source_odometry.run_twice(without, range(60), settings, silent, "")
+    assert len(guides) == 8  # Scans without times have one pass.
+
+
+def test_short_and_lost_runs_are_not_joined(monkeypatch: pytest.MonkeyPatch) -> None:
+    lost = np.full((5, 4, 4), np.nan)
+    monkeypatch.setattr(source_odometry, "run", lambda _, scans, *__: lost[: len(scans)])
+    drive = MemorySource([[[1.0, 0, 0]]] * 5)
+    settings = OdometrySettings(50.0, 1.0, 0.5, True)
+    assert np.isnan(source_odometry.run_twice(drive, range(5), settings, silent, "")).all()
+    assert len(source_odometry.run_joined(drive, range(2), settings, silent, "")) == 2
