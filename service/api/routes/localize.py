@@ -34,6 +34,9 @@ from service.search.hints import AnchorOf
 from service.search.localization import LocalizationResult, MapLocalization, report_of
 from service.search.query import Query
 
+INLIERS = 200
+"""Largest number of inliers in an event: a page draws them."""
+
 router = APIRouter(tags=["recognition"])
 
 LocalizeBody = LocalizeQuery[Any, Any, Any]
@@ -106,7 +109,7 @@ def _search(
         report = report_of(robot or "", result)
         if robot is not None:
             state.engine.robots.report(report, principal)
-        _publish(state, principal, robot, request.session, report)
+        _publish(state, principal, robot, request.session, report, result)
     anchor_of = state.engine.annotations.geo_anchor
     content = render(
         _geopose(result, anchor_of) if answer == GEOPOSE else _response(result, anchor_of), answer
@@ -121,6 +124,7 @@ def _publish(
     robot: str | None,
     session: str | None,
     report: RobotReport,
+    result: LocalizationResult,
 ) -> None:
     """Publish the answer to a robot or a session as an event."""
     who = {"robot": robot, "session": session}
@@ -129,7 +133,16 @@ def _publish(
         told = who | {"reason": report.reason}
         state.engine.events.publish("no-fix", told, None, principal.name)
     else:
-        state.engine.events.publish("fix", who | asdict(pose), pose.map, principal.name)
+        told = who | asdict(pose) | {"inliers": _inlier_ids(result)}
+        state.engine.events.publish("fix", told, pose.map, principal.name)
+
+
+def _inlier_ids(result: LocalizationResult) -> list[int]:
+    """Return the ids of the map's segments that agree with the best pose, at most `INLIERS`."""
+    best = result[0].localization.best
+    assert best is not None  # the robot has a pose
+    ids = result[0].snapshot.layers.column("ids", best.rows[:INLIERS])
+    return [int(id_) for id_ in ids]
 
 
 def _geopose(result: LocalizationResult, anchor_of: AnchorOf) -> dict[str, Any]:

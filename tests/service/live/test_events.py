@@ -204,6 +204,7 @@ def test_fix_and_no_fix_are_told(service: Any, manifest: Manifest) -> None:
     service.post("/localize", json=body | {"robot": "ann", "tags": ["none"]})
     fix, also, lost = listen(service, {"Last-Event-ID": begun})
     assert (fix.kind, fix.data["session"], fix.data["robot"]) == ("fix", "s1", None)
+    assert len(fix.data["inliers"]) >= 4
     assert (also.data["robot"], also.data["map"]) == ("ann", "street")
     assert also.data["probability"] > 0.9
     assert (lost.kind, lost.data["reason"]) == ("no-fix", "no map was searched")
