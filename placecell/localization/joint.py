@@ -48,7 +48,8 @@ class MapQuery:
         there: segments of the map, for guided matching.
         confidence: model of the probability.
         evidence: evidence of the session's earlier requests in the map.
-        guesses: poses to try besides those of the candidates, such as poses within a hint.
+        guesses: returns poses to try as well, such as poses within a hint, given the hypotheses
+            that were found without them; None: there are none.
     """
 
     name: str
@@ -57,7 +58,7 @@ class MapQuery:
     there: MapSegments
     confidence: Confidence
     evidence: Evidence | None = None
-    guesses: tuple[Pose, ...] = ()
+    guesses: Callable[[Sequence[Hypothesis]], tuple[Pose, ...]] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,7 +125,10 @@ def localize_jointly(
     )
     for number, query in enumerate(queries):
         current().check()
-        places = find_places(query.candidates, parameters, query.evidence, query.guesses)
+        places = find_places(query.candidates, parameters, query.evidence)
+        guesses = () if query.guesses is None else query.guesses(places.hypotheses)
+        if guesses:
+            places = find_places(query.candidates, parameters, query.evidence, guesses)
         beliefs = common.get(query.model)
         if len(queries) > 1 and not places.hypotheses and places.usable <= FEW:
             places = find_places(query.candidates, loose)

@@ -1,9 +1,9 @@
 """Hints: where a request says that its robot is. They narrow the answer and never decide it.
 
-The maps of the request are searched as without hints. In a narrowed map, the segments around the
-hint are searched a second time, and the poses that they suggest are tried too. All hypotheses then
-compete under the same thresholds, those outside the hints as well. So a wrong hint cannot hide the
-right place. At last a pose that contradicts a hint is withheld.
+The maps of the request are searched as without hints. If a narrowed map has no hypothesis within
+the hints, the segments around them are searched too, and the poses that these suggest are tried.
+All hypotheses then compete under the same thresholds, those outside the hints as well. So a wrong
+hint cannot hide the right place. At last a pose that contradicts a hint is withheld.
 """
 
 from collections.abc import Callable, Iterable, Sequence

@@ -13,6 +13,7 @@ from placecell.core.types import Float64, Int8, Int64
 from placecell.localization import (
     Candidates,
     Confidence,
+    Hypothesis,
     Localization,
     LocalizationParameters,
     Pose,
@@ -66,7 +67,7 @@ def map_query(
     snapshot: MapSnapshot,
     k: int,
     evidence: Evidence | None = None,
-    guesses: Callable[[MapSegments], tuple[Pose, ...]] = lambda _: (),
+    guesses: Callable[[MapSegments, Sequence[Hypothesis]], tuple[Pose, ...]] | None = None,
 ) -> MapQuery:
     """Search the candidates in one map.
 
@@ -77,7 +78,8 @@ def map_query(
         snapshot: the map, with an index.
         k: largest number of candidates of a segment.
         evidence: result of the robot's earlier requests.
-        guesses: returns poses to try, given the map's segments compared with the codes.
+        guesses: returns poses to try as well, given the map's segments, compared with the codes,
+            and the hypotheses that were found without them.
     """
     nearest = nearest_segments(codes, model, (snapshot,), k)
     there = StoredNeighborhood(codes, model, snapshot)
@@ -94,7 +96,7 @@ def map_query(
         there=there,
         confidence=model.confidence,
         evidence=evidence,
-        guesses=guesses(there),
+        guesses=None if guesses is None else partial(guesses, there),
     )
 
 
@@ -364,7 +366,9 @@ def localize_among(
                 snapshot=group.searched[place],
                 k=k,
                 evidence=past[number, place],
-                guesses=partial(_guesses, group, group.searched[place], parameters, hints),
+                guesses=None
+                if hints is None
+                else partial(_guesses, group, group.searched[place], parameters, hints),
             )
         )
     timing.lap("search")
@@ -399,12 +403,13 @@ def _guesses(
     group: ModelQuery,
     snapshot: MapSnapshot,
     parameters: LocalizationParameters,
-    hints: ResolvedHints | None,
+    hints: ResolvedHints,
     there: MapSegments,
+    found: Sequence[Hypothesis],
 ) -> tuple[Pose, ...]:
-    """Return poses within the hints to try in a map."""
-    area = None if hints is None else hints.areas.get(snapshot.head.uid)
-    if hints is None or area is None:
+    """Return poses within the hints to try in a map, if no hypothesis is within them."""
+    area = hints.areas.get(snapshot.head.uid)
+    if area is None or any(area.holds(each.pose, hints.sensor) for each in found):
         return ()
     return guesses_within(
         area=area,
