@@ -220,10 +220,7 @@ class RobotAgent:
         return self._spool.status().entries == 0
 
     def finish(self) -> None:
-        """Spool the segments that are not complete: the drive ends here."""
-        edit = self._perception.finish(self._engine.describe)
-        if edit is not None and self.settings.upload:
-            self._spool_edit(edit)
+        """Note that the drive ends here: the same session begins anew next time."""
         self._spool.finish()
 
     def close(self) -> Summary:

@@ -5,7 +5,6 @@ a run with a broken link, or one that was killed and continued, makes the same e
 without faults.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +12,9 @@ from placecell_client import CompactMap, Delta, encode_delta
 from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64, Int8, Int64
-from placecell.segmentation.incremental import LiveSegments
+
+VIEW_METERS = 10.0
+"""Distance after which a segment is stored again, as it looks from there, meters."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,6 +28,25 @@ class Capture:
 
     time: float
     odom_pose: Float64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SeenSegments:
+    """Segments around the robot with descriptors, in the odometry frame.
+
+    Attributes:
+        ids: id that each segment keeps while it grows, int64 (n,).
+        codes: descriptors, int8 (n, code bytes).
+        centroids: float64 (n, 3), meters.
+        model_id: id of the model of the descriptors.
+        preprocessing: version of the steps from points to the model's input.
+    """
+
+    ids: Int64
+    codes: Int8
+    centroids: Float64
+    model_id: str
+    preprocessing: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +69,9 @@ class MapEdit:
 class EditMaker:
     """Makes the edits of a session.
 
-    A segment is sent when it is complete, and again in place of its former view if it grew. The
-    robot begins each map and numbers its segments from 0, so no other robot has the same ids. The
-    service leaves out views that it has already.
+    A segment is sent when it is first seen, and again as another view after each 10 m of the way.
+    The robot begins each map and numbers its views from 0, so no other robot has the same ids. The
+    service leaves out views that it has already, and keeps at most eight of an object.
 
     Attributes:
         part: number of the map that is written now.
@@ -64,7 +84,7 @@ class EditMaker:
         self.part = 0
         self.sequence = 0
         self._next_id = 0
-        self._ids: dict[int, int] = {}
+        self._viewed_at: dict[int, float] = {}
 
     @property
     def frame(self) -> str:
@@ -73,71 +93,54 @@ class EditMaker:
 
     def add(
         self,
-        views: LiveSegments,
-        codes: Int8,
-        centroids: Float64,
-        captures: Sequence[Capture],
-        live: Int64,
-        model_id: str,
-        preprocessing: str,
-        is_last: bool = False,
+        seen: SeenSegments,
+        capture: Capture,
+        meters: float,
     ) -> MapEdit | None:
-        """Return the edit with the segments that became complete; None if there is none.
+        """Return the edit with the new views of a keyframe; None if there is none.
 
         Args:
-            views: final views of segments.
-            codes: their descriptors, int8 (n, code bytes).
-            centroids: their centroids, float64 (n, 3), meters.
-            captures: capture of each view.
-            live: ids of the segments that may still grow.
-            model_id: id of the model of the descriptors.
-            preprocessing: version of the steps from points to the model's input.
-            is_last: the drive ends here, so that segments that are not complete are sent, too.
+            seen: segments around the robot.
+            capture: moment of the keyframe.
+            meters: distance driven until then.
         """
-        chosen = np.flatnonzero(views.complete | is_last)
-        ids = [self._id_of(each) for each in views.ids[chosen].tolist()]
+        before = self._viewed_at
+        ids = seen.ids.tolist()
+        chosen = [
+            row
+            for row, each in enumerate(ids)
+            if each not in before or meters - before[each] >= VIEW_METERS
+        ]
         # A segment that was not found again does not come back under its old id.
-        going_on = set(live.tolist())
-        self._ids = {each: id_ for each, id_ in self._ids.items() if each in going_on}
-        if not len(chosen):
+        self._viewed_at = {each: before[each] for each in ids if each in before}
+        self._viewed_at |= {ids[row]: meters for row in chosen}
+        if not chosen:
             return None
-        _, first, frame_index = np.unique(
-            views.scans[chosen], return_index=True, return_inverse=True
-        )
-        moments = [captures[int(chosen[row])] for row in first]
-        poses = np.array([each.odom_pose for each in moments])
         count = len(chosen)
+        pose = capture.odom_pose
+        turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
         segments = CompactMap(
-            model_id=model_id,
-            preprocessing=preprocessing,
+            model_id=seen.model_id,
+            preprocessing=seen.preprocessing,
             frame=self.frame,
-            codes=codes[chosen],
-            centroids=centroids[chosen],
-            ids=np.array(ids, dtype=np.uint32),
+            codes=seen.codes[chosen],
+            centroids=seen.centroids[chosen],
+            ids=np.arange(self._next_id, self._next_id + count, dtype=np.uint32),
             robots=(self._robot,),
             robot=np.zeros(count, dtype=np.uint16),
-            frame_index=frame_index.astype(np.uint32).reshape(-1),
-            frame_times=np.array([each.time for each in moments]),
-            frame_positions=poses[:, :3, 3].copy(),
-            frame_orientations=Rotation.from_matrix(poses[:, :3, :3]).as_quat().astype(np.float32),
+            frame_index=np.zeros(count, dtype=np.uint32),
+            frame_times=np.array([capture.time]),
+            frame_positions=pose[None, :3, 3].copy(),
+            frame_orientations=turn[None].astype(np.float32),
         )
-        edit = MapEdit(
-            self.sequence,
-            self.part,
-            encode_delta(Delta(segments, np.zeros(0, dtype=np.uint32))),
-            count,
-        )
+        content = encode_delta(Delta(segments, np.zeros(0, dtype=np.uint32)))
+        edit = MapEdit(self.sequence, self.part, content, count)
         self.sequence += 1
+        self._next_id += count
         return edit
 
     def begin_part(self) -> None:
         """Begin another map: the odometry frame jumped, so new segments do not fit the old one."""
         self.part += 1
         self._next_id = 0
-        self._ids.clear()
-
-    def _id_of(self, live_id: int) -> int:
-        if live_id not in self._ids:
-            self._ids[live_id] = self._next_id
-            self._next_id += 1
-        return self._ids[live_id]
+        self._viewed_at.clear()

@@ -16,12 +16,10 @@ from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.segmentation.incremental import IncrementalSegmentation, LiveSegments
 from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
-from robot.mapping.map_out import Capture, EditMaker, MapEdit
+from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 
 VERSION = 1
 """Version of the checkpoints."""
-MOST_CAPTURES = 3000
-"""Number of scans whose time and pose are remembered, for the views that become final later."""
 STANDING = 0.1
 """Steps below this length are noise of the odometry of a standing robot, meters."""
 LARGE_STEP = 5.0
@@ -72,8 +70,6 @@ class Perception:
 
     Attributes:
         map_out: makes the edits.
-        captures: time and pose of the last scans, by their number.
-        taken: number of scans in the local map so far.
         scans: number of scans, with those that were dropped.
         meters: distance driven.
         keyframes: number of keyframes.
@@ -86,8 +82,6 @@ class Perception:
     model_id: str
     preprocessing: str
     agreement: ScanAgreement = field(default_factory=ScanAgreement)
-    captures: dict[int, Capture] = field(default_factory=dict)
-    taken: int = 0
     scans: int = 0
     meters: float = 0.0
     keyframes: int = 0
@@ -173,51 +167,18 @@ class Perception:
         self._take(points, capture)
         if not self.keyframe_rule.add(odom_pose):
             return PerceptionStep(jump)
-        keyframe, edit = self._keyframe(describe, is_last=False)
+        keyframe, edit = self._keyframe(describe, capture)
         return PerceptionStep(jump, keyframe, edit)
 
-    def finish(self, describe: Describe) -> MapEdit | None:
-        """Return the edit with the segments that are not complete at the end of the drive."""
-        if not self.captures:
-            return None
-        return self._keyframe(describe, is_last=True)[1]
-
-    def _keyframe(self, describe: Describe, is_last: bool) -> tuple[Keyframe, MapEdit | None]:
+    def _keyframe(self, describe: Describe, capture: Capture) -> tuple[Keyframe, MapEdit | None]:
         self.keyframes += 1
         live = self.segmentation.segments()
-        final = self.segmentation.take_final_views()
-        if is_last:
-            rest = np.flatnonzero(~np.isin(live.ids, final.ids))
-            final = LiveSegments.concatenate([final, live.take(rest)])
-        # The final views first, then what stands around them: the context of their descriptors.
-        others = live.take(np.flatnonzero(~np.isin(live.ids, final.ids)))
-        around = LiveSegments.concatenate([final, others])
-        codes, centroids, usable = describe(clouds_of(around), around.segments.sensors)
-        is_final = usable < len(final)
-        edit = self.map_out.add(
-            final.take(usable[is_final]),
-            codes[is_final],
-            centroids[is_final],
-            self._captures_of(final.scans[usable[is_final]]),
-            live.ids,
-            self.model_id,
-            self.preprocessing,
-            is_last,
-        )
-        if not len(final):
-            return Keyframe(live, codes, centroids), edit
-        codes, centroids, _ = describe(clouds_of(live), live.segments.sensors)
-        return Keyframe(live, codes, centroids), edit
-
-    def _captures_of(self, scans: Int64) -> list[Capture]:
-        """Return the capture of each scan; the oldest remembered one in place of an older one."""
-        oldest = next(iter(self.captures.values()))
-        return [self.captures.get(scan, oldest) for scan in scans.tolist()]
+        self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
+        codes, centroids, usable = describe(clouds_of(live), live.segments.sensors)
+        seen = SeenSegments(live.ids[usable], codes, centroids, self.model_id, self.preprocessing)
+        return Keyframe(live, codes, centroids), self.map_out.add(seen, capture, self.meters)
 
     def _take(self, points: Float32, capture: Capture) -> None:
-        self.captures[self.taken] = capture
-        self.captures.pop(self.taken - MOST_CAPTURES, None)
-        self.taken += 1
         self.segmentation.add(points, capture.odom_pose)
 
     def _begin_anew(self) -> None:

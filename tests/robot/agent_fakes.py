@@ -214,5 +214,6 @@ def drive(
 ) -> None:
     """Drive along a street: a scan at each place, with the pose of the odometry."""
     for number, place in enumerate(places):
-        agent.on_scan(street.scan(at(place)), first_time + 0.1 * number, odometry(place))
+        time = round(first_time + 0.1 * number, 6)
+        agent.on_scan(street.scan(at(place)), time, odometry(place))
         agent.wait(1.0)
