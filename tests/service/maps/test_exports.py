@@ -9,6 +9,7 @@ from placecell_client import encode
 from typer.testing import CliRunner
 
 from cli import app
+from placecell.core import geodesy
 from placecell.descriptors.manifest import Manifest
 from service.clouds import map_export
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
@@ -95,6 +96,10 @@ def test_large_map_and_distant_anchor_are_refused(
     monkeypatch.setattr(map_export, "MOST_CAPTURES", 0)
     assert_problem(yard.get("/maps/yard/export?to=tum"), 413, "too-many-segments", "captures")
     assert yard.get("/maps/yard/export?to=las").status_code == 200
+    monkeypatch.undo()
+    monkeypatch.setattr(geodesy, "FARTHEST", 1.0)
+    far = yard.get("/maps/yard/export", params={"to": "geojson", "anchor": ANCHOR})
+    assert_problem(far, 422, "invalid-request", "from the anchor")
 
 
 def test_folder_of_the_service_is_left_clean(yard: Any, data_dir: Path) -> None:
