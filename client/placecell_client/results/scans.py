@@ -99,8 +99,9 @@ class KeyScope:
     """Scope of the client's API key.
 
     Attributes:
-        name: Name of the key's principal; `anyone` if the service has no keys.
-        role: `read`, `write` or `admin`.
+        name: Name of the key's principal; `anyone` if the service has no keys; empty if the key is
+            not known.
+        role: `none` if the key is not known; else `read`, `write` or `admin`.
         may_write: Whether the key may write maps in its scope.
         maps: Patterns of the names of its maps, with * and ?.
         robot: Robot whose segments alone the key may write; None for all robots.

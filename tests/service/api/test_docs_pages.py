@@ -10,7 +10,7 @@ import pytest
 from service.api.pages.static_files import MEDIA_TYPES
 from tests.service.service_builders import assert_problem
 
-OPEN = {"/livez", "/readyz", "/metrics"}
+OPEN = {"/livez", "/readyz", "/metrics", "/key"}
 """Paths that need no key."""
 
 
