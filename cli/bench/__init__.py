@@ -15,6 +15,7 @@ from cli.bench.localize import localize
 from cli.bench.maps import maps
 from cli.bench.page import page
 from cli.bench.peers import peers
+from cli.bench.persistent import persistent
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
 from cli.bench.read import read
@@ -52,4 +53,5 @@ bench.command()(attack)
 bench.command("json")(json_requests)
 bench.command()(read)
 bench.command()(takes_drives(robot))
+bench.command()(takes_drives(persistent))
 bench.command()(page)

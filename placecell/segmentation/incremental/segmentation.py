@@ -149,7 +149,7 @@ class IncrementalSegmentation:
             np.full(len(chosen), self._scan, dtype=np.int64),
         )
 
-    def take_final_views(self) -> LiveSegments:
+    def take_final_views(self, at_end: bool = False) -> LiveSegments:
         """Return each best view that became final since the last call.
 
         The best view of a segment is the one with the most voxels, among those that are clear of
@@ -157,13 +157,17 @@ class IncrementalSegmentation:
         `accumulated_scans` scans and is clear of the border (then it is complete), or when its
         segment was not found again. If a segment grows later, its next best view is returned under
         the same id, in place of the former one. At most the last 1,000 views wait for the call.
+
+        Args:
+            at_end: whether no further scan comes, so that every best view is final.
         """
         final = list(self._final)
         self._final.clear()
         for identity, track in self._tracks.items():
-            if not track.reported and self._is_complete(track):
+            complete = self._is_complete(track)
+            if not track.reported and (complete or at_end):
                 track.reported = True
-                final.append((identity, track, True))
+                final.append((identity, track, complete))
         return LiveSegments(
             Segments.of(
                 [track.points for _, track, _ in final],

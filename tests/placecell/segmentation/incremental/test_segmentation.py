@@ -207,6 +207,17 @@ def test_best_view_of_a_segment_that_disappears_is_final() -> None:
     assert views[2].scans.tolist() == [1]
 
 
+def test_every_view_is_final_at_the_end() -> None:
+    segmentation = IncrementalSegmentation(EVERY_SCAN)
+    segmentation.add(yard(), pose())
+    segmentation.segments()
+    assert len(segmentation.take_final_views()) == 0
+    views = segmentation.take_final_views(at_end=True)
+    assert views.ids.tolist() == [0, 1]
+    assert not views.complete.any()
+    assert len(segmentation.take_final_views(at_end=True)) == 0
+
+
 def test_pose_jump_gives_new_ids_and_no_mixed_map() -> None:
     segmentation = IncrementalSegmentation(EVERY_SCAN)
     segmentation.add(yard(), pose())
