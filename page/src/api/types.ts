@@ -164,6 +164,8 @@ export interface Scan {
   points: number;
   dropped_points: number;
   segments: { points: Vector[]; centroid: Vector; extents: Vector }[];
+  /** Position of the sensor for each segment, in the frame of the points. */
+  sensors: Vector[];
   cloud: { points: Vector[]; labels: number[] };
   problems: { what: string; cure: string }[];
 }

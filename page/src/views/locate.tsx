@@ -36,7 +36,7 @@ export async function locate(file: File): Promise<void> {
 async function search(found: Located): Promise<void> {
   busy.value = "Searching the maps.";
   const answer = await attempt(() => api.localize({
-    segments: found.scan.segments.map(({ points }) => ({ points, sensor: [0, 0, 0] })),
+    segments: found.scan.segments.map(({ points }, index) => ({ points, sensor: found.scan.sensors[index] ?? [0, 0, 0] })),
     ...(searched.value ? { maps: [searched.value] } : {}),
   }));
   busy.value = "";
