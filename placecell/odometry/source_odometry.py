@@ -28,6 +28,8 @@ VERSION = 2
 """Version of the odometry; part of the cache's key."""
 START = 20
 """Number of first scans whose poses come from a run backward."""
+SAME_STEP = 0.1
+"""Difference of two runs from step to step that is the noise of the registration, meters."""
 PROBED = 3
 """Number of scans that tell whether points have times."""
 LARGE_DRIFT = 3.0
@@ -213,7 +215,7 @@ def run_joined(
 
     A sensor that moves at its first scan misleads the odometry for some scans: it expects a sensor
     that stands, and the rings on the ground look alike. A run backward comes to these scans with
-    the right motion.
+    the right motion. Where both runs agree, the run forward is kept.
     """
     forward = run(source, scans, settings, progress, title, guide)
     count = min(len(scans), 2 * START)
@@ -225,6 +227,9 @@ def run_joined(
     if not np.isfinite(backward).all():
         return forward
     at = count // 2
+    steps = [np.linalg.inv(each[:at]) @ each[1 : at + 1] for each in (forward, backward)]
+    if np.linalg.norm((steps[0] - steps[1])[:, :3, 3], axis=1).max() < SAME_STEP:
+        return forward
     start = forward[at] @ np.linalg.inv(backward[at]) @ backward[:at]
     poses = np.concatenate([start, forward[at:]])
     return np.asarray(np.linalg.inv(poses[0]) @ poses)

@@ -255,6 +255,20 @@ def test_first_poses_come_from_a_run_backward(monkeypatch: pytest.MonkeyPatch) -
     assert len(guides) == 8  # Scans without times have one pass.
 
 
+def test_start_on_which_both_runs_agree_is_that_of_the_run_forward(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fake(source: object, scans: Sequence[int], *rest: object) -> Float64:
+        sign = 1.0 if scans[-1] > scans[0] else -1.02
+        return np.stack([pose(sign * 0.7 * step) for step in range(len(scans))])
+
+    monkeypatch.setattr(source_odometry, "run", fake)
+    drive = MemorySource([[[1.0, 0, 0]]] * 60)
+    settings = OdometrySettings(50.0, 1.0, 0.5, True)
+    joined = source_odometry.run_joined(drive, range(60), settings, silent, "")
+    np.testing.assert_array_equal(joined, np.stack([pose(0.7 * step) for step in range(60)]))
+
+
 def test_short_and_lost_runs_are_not_joined(monkeypatch: pytest.MonkeyPatch) -> None:
     lost = np.full((5, 4, 4), np.nan)
     monkeypatch.setattr(source_odometry, "run", lambda _, scans, *__: lost[: len(scans)])
