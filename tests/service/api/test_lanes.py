@@ -261,7 +261,7 @@ def test_A6_bytes_of_bodies_are_bounded_for_each_key(
     file, headers = keys
 
     async def main() -> None:
-        limits = dict.fromkeys(("body_bytes", "json_bytes", "map_bytes"), 2_000)
+        limits = dict.fromkeys(("body_bytes", "json_bytes", "map_bytes", "scan_bytes"), 2_000)
         limits["held_bytes"] = 4_000
         async with (
             opened(models_dir, data_dir, keys_file=file, limits=limits) as (app, state),
