@@ -48,6 +48,14 @@ def robot(
     town_scans: Annotated[
         int, typer.Option(min=20, help="Number of scans of a simulated drive.")
     ] = 60,
+    town_columns: Annotated[
+        int | None,
+        typer.Option(
+            min=16,
+            help="Azimuth steps of a simulated sensor: 2048 for 210,000 points of 128 beams. "
+            "(default: the sensor's own)",
+        ),
+    ] = None,
     model: Model = None,
     output: Kept = Path("out/bench"),
     seed: Drawn = 7,
@@ -64,7 +72,7 @@ def robot(
     with clear_errors():
         if scans is not None and seconds is not None:
             raise ValueError("--scans and --seconds exclude each other.")
-        driven, mapped = driven_robots(drive, output / "robot", town_scans)
+        driven, mapped = driven_robots(drive, output / "robot", town_scans, town_columns)
         if seconds is not None:
             scans = max(1, round(seconds / period_of(driven)))
         with on_cores(cores):
@@ -81,7 +89,9 @@ def robot(
     print_steps(report)
 
 
-def driven_robots(text: str, folder: Path, scans: int) -> "tuple[Drive, Robot | None]":
+def driven_robots(
+    text: str, folder: Path, scans: int, columns: int | None
+) -> "tuple[Drive, Robot | None]":
     """Open or simulate the drive; return it and, in a town, the robot that made the map."""
     from placecell.datasets import open_drive
 
@@ -95,7 +105,7 @@ def driven_robots(text: str, folder: Path, scans: int) -> "tuple[Drive, Robot | 
     from placecell.segmentation.pipeline import record
 
     seed, sensor, place = parse_town(text)
-    name = folder / f"{place}-{seed}-{sensor}-{scans}"
+    name = folder / f"{place}-{seed}-{sensor}-{columns or 'own'}-{scans}"
     driven, other = name / "robot_a", name / "robot_b"
     if not (driven.exists() and other.exists()):
         driven, other = town.two_robots(
@@ -104,6 +114,7 @@ def driven_robots(text: str, folder: Path, scans: int) -> "tuple[Drive, Robot | 
             scans=scans,
             place=place,
             lidar=town.sensor(sensor),
+            columns=columns,
             overwrite=True,
             progress=show,
         )
