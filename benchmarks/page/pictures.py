@@ -5,6 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+from placecell_client import Client
+
 from benchmarks.page.browser import chromium
 from benchmarks.page.two_robots import TwoRobots
 from placecell.segmentation.pipeline import Progress
@@ -35,6 +38,7 @@ def take_pictures(folder: Path, seed: int, progress: Progress) -> list[Path]:
         scan = robots.scan_file(Path(scratch))
         with running_service(Path(scratch) / "service") as address:
             robots.store(address)
+            report_robots(address, robots)
             for width, ending in WIDTHS.items():
                 for name, act in views(scan).items():
                     page = browser.new_page(viewport={"width": width, "height": 800})
@@ -47,6 +51,16 @@ def take_pictures(folder: Path, seed: int, progress: Progress) -> list[Path]:
                     page.close()
                     files.append(file)
     return files
+
+
+def report_robots(address: str, robots: TwoRobots) -> None:
+    """Report three robots: one that is sure, one that is less sure, and one that is lost."""
+    x, y, z = robots.position
+    with Client(address) as client:
+        client.report_pose("carol", "yard", (x, y, z), covariance=np.diag([0.02, 0.02, 0.01]))
+        client.report_pose("dave", "yard", (x - 25, y, z), covariance=np.diag([4.0, 1.0, 0.01]))
+        client.report_pose("erin", "yard", (x - 40, y, z))
+        client.report_pose("erin", state="lost", reason="too few segments: drive 10 m")
 
 
 def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
@@ -83,12 +97,22 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
         page.get_by_label("Choose a scan").set_input_files(scan)
         page.locator(".answer").first.wait_for()
 
+    def watch(page: "Page") -> None:
+        show(page, "yard")
+        page.get_by_role("button", name="Robots").click()
+        page.get_by_text("carol").wait_for()
+
+    def service(page: "Page") -> None:
+        locate(page)
+        page.get_by_role("button", name="Service", exact=True).click()
+        page.wait_for_timeout(9000)
+
     return {
         "maps": lambda page: show(page, "yard"),
         "segment": segment,
         "align": align,
         "versions": versions,
         "locate": locate,
-        "robots": lambda page: page.get_by_role("button", name="Robots").click(),
-        "service": lambda page: page.get_by_role("button", name="Service", exact=True).click(),
+        "robots": watch,
+        "service": service,
     }
