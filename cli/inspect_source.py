@@ -129,9 +129,8 @@ def rows(found: "Inspection", facts: dict[str, object]) -> "list[tuple[str, str]
         facts_of = facts["trajectory"]
         assert isinstance(facts_of, dict)
         length = facts_of["length_m"]
-        listed.append(
-            ("poses", f"{len(poses):,} over {length:,.1f} m{f' ({frames})' if frames else ''}")
-        )
+        way = "no finite length" if length is None else f"{length:,.1f} m"
+        listed.append(("poses", f"{len(poses):,} over {way}{f' ({frames})' if frames else ''}"))
     if found.subject.transform:
         listed.append(("sensor on the robot", found.subject.transform))
     return listed

@@ -115,14 +115,16 @@ def ranges(samples: Samples) -> list[dict[str, Any]]:
 
 
 def of_trajectory(trajectory: Trajectory) -> dict[str, Any]:
-    """Return the facts on poses."""
-    steps = np.linalg.norm(np.diff(trajectory.poses[:, :3, 3], axis=0), axis=1)
+    """Return the facts on poses. The length of a damaged trajectory may be no number."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        steps = np.linalg.norm(np.diff(trajectory.poses[:, :3, 3], axis=0), axis=1)
+        length = float(steps.sum())
     stamps = trajectory.stamps
     rate = None
     if stamps is not None and len(stamps) > 1 and stamps[-1] > stamps[0]:
         rate = round(float((len(stamps) - 1) / (stamps[-1] - stamps[0])), 3)
     return {
-        "length_m": round(float(steps.sum()), 2),
+        "length_m": round(length, 2) if np.isfinite(length) else None,
         "rate_hz": rate,
         "frame": trajectory.frame,
         "world": trajectory.world,
@@ -134,6 +136,8 @@ def silent(items: Any, total: int, what: str) -> Any:  # noqa: ARG001
     return items
 
 
+# Damaged files hold any numbers. What overflows compares as infinite and is told as a problem.
+@np.errstate(over="ignore", invalid="ignore")
 def inspect_source(path: Path, scans: int = SCANS, progress: Progress = silent) -> Inspection:
     """Inspect a file or folder.
 

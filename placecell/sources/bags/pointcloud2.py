@@ -299,9 +299,15 @@ def cloud_clock(
 def time_samples(
     clouds: Sequence[PointCloud2], where: str, time: TimeField
 ) -> Iterator[tuple[NDArray[Any], int]]:
-    """Yield the raw times of the usable points of each cloud, with its stamp."""
+    """Yield the raw times of the usable points of each cloud, with its stamp.
+
+    A cloud whose field of times is damaged does not help; its scan raises the error.
+    """
     for cloud in clouds:
-        raw = raw_times(cloud, where, time)
+        try:
+            raw = raw_times(cloud, where, time)
+        except DriveError:
+            continue
         if raw is not None:
             scan = LidarScan.of(coordinates(cloud, where), raw, 0.0)
             if scan.times is not None:
