@@ -29,7 +29,7 @@ def draw_page(file: Path, address: str) -> bool:
         "--enable-unsafe-swiftshader",
         "--hide-scrollbars",
         "--window-size=1280,800",
-        "--timeout=8000",
+        "--virtual-time-budget=10000",
         f"--screenshot={file.resolve()}",
         f"{address}/#map={SITE}",
     ]
