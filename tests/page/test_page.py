@@ -65,14 +65,16 @@ def test_maps_are_listed_with_their_robots_and_sizes(page: "Page", address: str)
     page.get_by_role("button", name="hall").wait_for()
 
 
-def test_small_map_is_drawn_and_counted(page: "Page", address: str) -> None:
+@pytest.mark.parametrize("count", [100, 1_000_000])
+def test_map_of_any_size_is_drawn_and_counted(page: "Page", address: str, count: int) -> None:
     with Client(address) as client:
-        client.put_map("small", random_map(100))
-    show(page, address, "small")
-    page.get_by_text("100 segments", exact=True).wait_for()
+        client.put_map("sized", random_map(count))
+    page.set_default_timeout(60_000)
+    show(page, address, "sized")
+    page.get_by_text(f"{count:,} segments", exact=True).wait_for()
     page.wait_for_function(f"({COLORED})() > 100")
     with Client(address) as client:
-        client.delete_map("small")
+        client.delete_map("sized")
 
 
 def test_segment_is_picked_and_its_facts_are_right(
