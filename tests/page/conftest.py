@@ -58,7 +58,7 @@ def address(tmp_path_factory: pytest.TempPathFactory, two_robots: TwoRobots) -> 
         yield running
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator["Browser"]:
     """Chromium of the system."""
     try:
