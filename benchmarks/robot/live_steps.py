@@ -13,8 +13,9 @@ import resource
 import statistics
 import sys
 import time
+from array import array
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, MutableSequence, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -63,17 +64,19 @@ class StepTimes:
     Attributes:
         wall: wall times of each step, one a scan.
         processor: processor times of all threads of the process.
+
+    The times are kept in arrays: over an hour, lists would grow more than what is measured.
     """
 
-    wall: dict[str, list[float]] = field(default_factory=dict)
-    processor: dict[str, list[float]] = field(default_factory=dict)
+    wall: dict[str, MutableSequence[float]] = field(default_factory=dict)
+    processor: dict[str, MutableSequence[float]] = field(default_factory=dict)
 
     def measure(self, step: str, work: Callable[[], Result]) -> Result:
         """Do the work of a step and note its times."""
         began, spent = time.perf_counter(), time.process_time()
         result = work()
-        self.processor.setdefault(step, []).append(time.process_time() - spent)
-        self.wall.setdefault(step, []).append(time.perf_counter() - began)
+        self.processor.setdefault(step, array("d")).append(time.process_time() - spent)
+        self.wall.setdefault(step, array("d")).append(time.perf_counter() - began)
         return result
 
     def total(self, steps: Sequence[str], *, processor: bool = False) -> Float64:
@@ -187,14 +190,14 @@ def measure_robot(
         engine.put_map(MAP, content)
         times, memory = StepTimes(), list[tuple[int, float]]()
         segmentation = TimedSegmentation(parameters, times)
-        localized, segments, points = list[bool](), list[int](), list[int]()
+        localized, segments, points = array("b"), array("q"), array("q")
         every = max(1, count // MEMORY_SAMPLES)
         order = islice(forward_and_backward(len(drive)), warm + count)
         for number, index in enumerate(progress(order, warm + count, f"scans of {drive.title}")):
             if number == warm:
                 begin_peak()
                 forget(times)
-                localized.clear()
+                del localized[:]
             scan = times.measure("read", partial(drive.scan, index))
             segmentation.add(scan, drive.poses[index])
             live = segmentation.segments()
