@@ -35,6 +35,7 @@ def leaves(
 LEAVES = dict(leaves())
 NO_JSON: dict[tuple[str, ...], str] = {
     ("serve",): "runs until it is stopped",
+    ("events",): "prints lines of JSON",
     ("train",): "writes a model's folder",
     ("experiments",): "writes a report's folder",
     ("ablations",): "writes a report's folder with ablations.json",
