@@ -4,6 +4,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64
+from placecell.localization import Pose
+from placecell.localization.covariance import at_point
 
 
 def difference(pose: Float64, other: Float64) -> Float64:
@@ -52,7 +54,5 @@ def covariance_at_sensor(
         full[chosen] = covariance
     else:
         full[:] = covariance
-    x, y, z = transform[:3, :3] @ odom_position
-    jacobian = np.eye(6)
-    jacobian[:3, 3:] = [[0, z, -y], [-z, 0, x], [y, -x, 0]]
-    return np.asarray(jacobian @ full @ jacobian.T + np.diag(floor**2))
+    there = at_point(full, Pose.of_matrix(transform), odom_position)
+    return np.asarray(there + np.diag(floor**2))
