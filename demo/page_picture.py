@@ -1,12 +1,11 @@
 """Picture of the operator's page, taken with the browser of the system where there is one."""
 
-import shutil
 import subprocess
 from pathlib import Path
 
+from benchmarks.page.browser import OPTIONS, find_chromium
 from demo.meeting import SITE
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 SECONDS = 60
 
 
@@ -18,15 +17,13 @@ def draw_page(file: Path, address: str) -> bool:
         address: address of the service.
     """
     file.unlink(missing_ok=True)
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    browser = find_chromium()
     if browser is None:
         return False
     command = [
         browser,
         "--headless",
-        "--no-sandbox",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
+        *OPTIONS,
         "--hide-scrollbars",
         "--window-size=1280,800",
         "--virtual-time-budget=10000",

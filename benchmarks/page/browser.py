@@ -19,6 +19,11 @@ class BrowserError(ValueError):
     """No browser can be driven on this machine; the message says what to install."""
 
 
+def find_chromium() -> str | None:
+    """Return the path of Chromium; None if there is none."""
+    return next(filter(None, map(shutil.which, NAMES)), None)
+
+
 def program() -> str:
     """Return the path of Chromium.
 
@@ -31,7 +36,7 @@ def program() -> str:
         raise BrowserError(
             "Found no Playwright, which drives the browser. Run: pip install 'placecell[page]'"
         ) from error
-    found = next(filter(None, map(shutil.which, NAMES)), None)
+    found = find_chromium()
     if found is None:
         raise BrowserError(f"Found no {' or '.join(NAMES)}. Run: apt-get install chromium")
     return found
