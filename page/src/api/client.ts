@@ -82,10 +82,6 @@ async function json<Result>(path: string, options: Options = {}): Promise<Result
   return (await (await send(path, options)).json()) as Result;
 }
 
-const post = (path: string, options: Options = {}): Options & { path: string } => ({
-  path, ...options, method: "POST",
-});
-
 export const api = {
   key: () => json<KeyInfo>("key"),
   info: () => json<{ version: string; model: { model_id: string } }>("info"),
@@ -104,10 +100,8 @@ export const api = {
     (await send(pathOf("maps", name, "versions", version, "changes"), {
       headers: { Accept: "*/*" },
     })).arrayBuffer(),
-  align: (name: string, other: string) => {
-    const { path, ...rest } = post(pathOf("maps", name, "align", other), { query: { pairs: true } });
-    return json<Alignment>(path, rest);
-  },
+  align: (name: string, other: string) =>
+    json<Alignment>(pathOf("maps", name, "align", other), { method: "POST", query: { pairs: true } }),
   merge: (name: string, maps: string[], dryRun: boolean, etag: string | null) =>
     json<Merged>(pathOf("maps", name, "merge"), {
       method: "POST",

@@ -166,7 +166,7 @@ export class View {
     this.remove(layer.content.name);
     this.layers.set(layer.content.name, layer);
     this.scene.add(layer.group);
-    this.still();
+    this.redraw();
   }
 
   remove(name: string): void {
@@ -175,7 +175,7 @@ export class View {
     this.layers.delete(name);
     this.scene.remove(layer.group);
     layer.dispose();
-    this.still();
+    this.redraw();
   }
 
   /** Replace the lines and points of an overlay; empty ones remove it. */
@@ -207,7 +207,7 @@ export class View {
       this.overlays.set(name, group);
       this.scene.add(group);
     }
-    this.still();
+    this.redraw();
   }
 
   mark(position: Vector3 | null, size = 1): void {
@@ -216,7 +216,7 @@ export class View {
       this.marker.position.copy(position);
       this.marker.scale.setScalar(size);
     }
-    this.still();
+    this.redraw();
   }
 
   pick(x: number, y: number): Picked | null {
@@ -266,7 +266,7 @@ export class View {
     this.above.zoom *= top / this.above.top;
     [this.above.left, this.above.right, this.above.top, this.above.bottom] = [(-top * width) / height, (top * width) / height, top, -top];
     this.above.updateProjectionMatrix();
-    this.still();
+    this.redraw();
   }
 
   private move(): void {
@@ -274,7 +274,8 @@ export class View {
     this.schedule();
   }
 
-  private still(): void {
+  /** Draw again, after something has changed. */
+  redraw(): void {
     this.schedule();
   }
 

@@ -303,7 +303,7 @@ export function recolor(): void {
     for (const part of parts) seen.set(part.label, part);
   });
   legend.value = [...seen.values()];
-  scene().zoom(1);
+  scene().redraw();
 }
 
 export function select(chosen: Selection | null): void {

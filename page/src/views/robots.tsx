@@ -1,6 +1,6 @@
 // Robots that reported lately: where each is, how sure, or why it is not localized.
 import { useEffect } from "preact/hooks";
-import { Matrix4, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { RobotState } from "../api/types";
 import { css, FIX, GRAY, kindColor } from "../scene/colors";
 import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
@@ -19,12 +19,13 @@ export function drawRobots(): void {
     const layer = robot.map ? view.layers.get(robot.map) : undefined;
     if (!layer || !robot.position) continue;
     const color = robot.age > 60 ? GRAY : colorOf(robot.robot);
-    const pose = layer.pose.multiply(matrixOf({ translation: robot.position, rotation: robot.orientation ?? [0, 0, 0, 1] }));
+    const frame = layer.pose;
+    const pose = frame.clone().multiply(matrixOf({ translation: robot.position, rotation: robot.orientation ?? [0, 0, 0, 1] }));
     lines.push(...arrow(pose, Math.max(2, view.reach() / 25), color));
     if (robot.covariance) lines.push(...ellipse(new Vector3().applyMatrix4(pose), robot.covariance, color));
     const trail = trails.value.get(robot.robot);
     if (trail?.map === robot.map) {
-      const places = trail.places.map((place) => vector(place).applyMatrix4(new Matrix4().copy(layer.pose)));
+      const places = trail.places.map((place) => vector(place).applyMatrix4(frame));
       places.slice(1).forEach((to, index) => lines.push({ from: places[index]!, to, color }));
     }
   }
