@@ -67,7 +67,8 @@ function describe(data: Record<string, unknown>): string {
 function Entry(props: { robot: RobotState }) {
   const { robot } = props;
   const spread = robot.covariance ? Math.sqrt(Math.max(robot.covariance[0]?.[0] ?? 0, robot.covariance[1]?.[1] ?? 0)) : null;
-  const old = robot.pose_age === null || robot.pose_age > robot.age + 2;
+  // Both ages are of one moment: a pose of the last report is as old as the report.
+  const old = robot.pose_age === null || robot.pose_age > robot.age;
   const show = async (): Promise<void> => {
     if (!robot.map || !robot.position) return;
     if (!open.value.has(robot.map)) await openMap(robot.map, false);
