@@ -205,7 +205,7 @@ def test_pose_of_a_robot_moves_as_it_reports(page: "Page", address: str) -> None
         page.get_by_text("in yard at x 9.0, y 2.0").wait_for()
         client.report_pose("carol", state="lost", reason="too few segments")
         page.get_by_text("last seen in yard at x 9.0, y 2.0").wait_for()
-        page.get_by_text("too few segments").wait_for()
+        page.get_by_text("too few segments", exact=True).wait_for()
 
 
 def test_garbage_gives_a_clear_error(page: "Page", address: str, tmp_path: Path) -> None:
