@@ -18,7 +18,10 @@ LOCKED = {
     "build": None,
     "service": ["service"],
     "demo": ["service", "town", "plots"],
-    "development": ["service", "town", "plots", "training", "odometry", "development"],
+    "development": [
+        *("service", "town", "plots", "training", "odometry", "zenoh", "page"),
+        *("postgres", "s3", "tracing", "pose-graph", "development"),
+    ],
     "docs": ["docs"],
 }
 UNHASHED = {"torch", "pytorch-metric-learning"}
