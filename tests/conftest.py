@@ -13,6 +13,10 @@ from types import CodeType, FunctionType
 import pytest
 from hypothesis import settings
 
+from tests.service.postgres_server import postgres_database, postgres_server
+
+__all__ = ["postgres_database", "postgres_server"]  # fixtures
+
 settings.register_profile("fast", settings.get_profile("ci"), max_examples=20)
 
 if "PYTEST_XDIST_WORKER" in os.environ:
