@@ -56,8 +56,8 @@ from service.maps.quotas import Quotas
 from service.maps.repository import MapRepository
 from service.maps.shared_index import Patterns
 from service.maps.snapshot import MapSnapshot
-from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import Commit, StoreError, StoreLockedError
+from service.maps.stores import open_store
 from service.maps.sync import MapSync, SyncPage
 from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
@@ -125,7 +125,7 @@ class Engine:
         warm_up(self.models, limits)
         with ExitStack() as opened:
             try:
-                store = opened.enter_context(SqliteMapStore.owned(settings.data_dir))
+                store = opened.enter_context(open_store(settings))
                 cache = MapCache(settings.data_dir)
                 self.maps = MapRepository(store, self.models, Quotas(limits), cache)
             except (StoreLockedError, StoreError) as error:

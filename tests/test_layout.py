@@ -62,6 +62,7 @@ LAYERS = (
     ("service.clouds",),
     ("service.maps",),
     ("service.maps.sqlite", "service.maps.writes"),
+    ("service.maps.stores",),
     ("service.annotations",),
     ("service.search",),
     ("service.merging",),

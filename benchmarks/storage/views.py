@@ -12,7 +12,7 @@ from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.segmentation.recording import Recording
-from service.maps.deduplication import (
+from service.maps.writes.deduplication import (
     RADIUS,
     SAME_VIEW,
     SAME_VIEWPOINT,

@@ -8,7 +8,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal, TypeGuard
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SecretStr,
+    field_validator,
+    model_validator,
+)
 from pydantic_settings import (
     BaseSettings,
     EnvSettingsSource,
@@ -39,6 +46,9 @@ OTHER_NAMES = {
     "`~/.cache/placecell`)",
 }
 """Environment names that are not settings of the service, and their meaning."""
+
+DATABASE_URL = re.compile(r"postgres(ql)?://")
+"""Beginning of the URL of a database."""
 
 SERVICE_LINK = re.compile(
     r"PLACECELL_([A-Z0-9_]+_)?"
@@ -312,11 +322,20 @@ class Settings(BaseSettings):
     """Settings of the service; all defaults work in a checkout."""
 
     model_config = SettingsConfigDict(
-        env_prefix=PREFIX, env_nested_delimiter="__", frozen=True, extra="forbid"
+        env_prefix=PREFIX,
+        env_nested_delimiter="__",
+        frozen=True,
+        extra="forbid",
+        hide_input_in_errors=True,  # a value may hold a password
     )
 
     data_dir: Path = Field(
         default=Path("var"), description="Folder of the stored maps; only one service may use it."
+    )
+    database: SecretStr = Field(
+        default=SecretStr(""),
+        description="Database of the stored maps: postgresql://USER:PASSWORD@HOST:PORT/DATABASE, "
+        "which several services may use. If it is empty, the maps are in the data directory.",
     )
     models_dir: Path = Field(
         default=MODELS_FOLDER, description="Folder that holds one folder per model."
@@ -385,6 +404,17 @@ class Settings(BaseSettings):
     )
     log: Literal["json", "text"] = Field(default="text", description="Format of log lines.")
     limits: Limits = Field(default=Limits(), description="Limits of the service.")
+
+    @field_validator("database")
+    @classmethod
+    def _check_database(cls, given: SecretStr) -> SecretStr:
+        # The error shows nothing of the value, which may hold a password.
+        if given.get_secret_value() and not DATABASE_URL.match(given.get_secret_value()):
+            raise ValueError(
+                "the URL of a database must begin with postgresql:// , such as "
+                "postgresql://USER:PASSWORD@HOST:5432/placecell. Leave it empty for SQLite"
+            )
+        return given
 
     @classmethod
     def settings_customise_sources(

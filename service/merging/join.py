@@ -13,10 +13,10 @@ from placecell.core.types import Int64, UInt32
 from placecell.localization import Pose
 from placecell.localization.registration import register
 from placecell.map_alignment import AlignmentParameters
-from service.maps.deduplication import NONE, RADIUS, SameView, count_elsewhere, deduplicate
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, OutOfIdsError
+from service.maps.writes.deduplication import NONE, RADIUS, SameView, count_elsewhere, deduplicate
 from service.merging.alignment import MapSide
 from service.merging.provenance import keys_in, moments_of, of_source, shared
 

@@ -9,9 +9,9 @@ from placecell_client import MapFileError, encode
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from service.core.problems import Problem
-from service.maps.deduplication import RADIUS, SameView
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
+from service.maps.writes.deduplication import RADIUS, SameView
 from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
 from service.merging.alignment import CancellationCheck, check_same_model
 from service.merging.join import (

@@ -4,7 +4,7 @@ import numpy as np
 from placecell_client import CompactMap
 
 from placecell.core.types import Bool, Float64, Int64, UInt32
-from service.maps.deduplication import NONE
+from service.maps.writes.deduplication import NONE
 
 
 def moments_of(content: CompactMap, rows: Int64) -> Float64:

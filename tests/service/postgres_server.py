@@ -72,10 +72,10 @@ class PostgresServer:
         """Start the server and wait until it accepts connections."""
         named = {"port": str(self.port), "listen_addresses": "127.0.0.1"} | dict(options)
         named |= {"unix_socket_directories": ""}
+        stated = [part for name, value in named.items() for part in ("-c", f"{name}={value}")]
         with (self.folder / "log").open("ab") as log:
             self._process = subprocess.Popen(
-                [self.binaries / "postgres", "-D", self.data]
-                + [part for name, value in named.items() for part in ("-c", f"{name}={value}")],
+                [str(self.binaries / "postgres"), "-D", str(self.data), *stated],
                 user=self._user,
                 cwd=self.folder,
                 stdin=subprocess.DEVNULL,

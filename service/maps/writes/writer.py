@@ -13,7 +13,6 @@ from service.core.auth import Principal
 from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.inference.model_registry import Models
-from service.maps.deduplication import NONE, RADIUS, VIEWS, Deduplicated, SameView, deduplicate
 from service.maps.history import load_version, robots_ever
 from service.maps.layers import MapChange, MapLayers, robots_of
 from service.maps.quotas import OverQuotaError
@@ -22,6 +21,14 @@ from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, MapHead, OutOfIdsError, TooManyIdsError
 from service.maps.visibility import restore_names
 from service.maps.writes.clock_check import check_times
+from service.maps.writes.deduplication import (
+    NONE,
+    RADIUS,
+    VIEWS,
+    Deduplicated,
+    SameView,
+    deduplicate,
+)
 from service.maps.writes.id_rules import check_authors, check_new, check_only_new, check_own
 from service.maps.writes.validation import (
     FileKind,

@@ -104,3 +104,12 @@ def test_body_bytes_alone_limits_json_too() -> None:
     assert Limits(body_bytes=1_000).json_bytes == 1_000
     assert Limits(body_bytes=1_000, json_bytes=2_000).json_bytes == 2_000
     assert Limits().json_bytes > Limits().body_bytes
+
+
+def test_database_is_a_postgresql_url_and_never_shown() -> None:
+    settings = Settings(database="postgresql://ann:hidden@db/maps")  # type: ignore[arg-type]
+    assert settings.database.get_secret_value().endswith("@db/maps")
+    assert "hidden" not in repr(settings)
+    with pytest.raises(ValueError, match="must begin with postgresql://") as raised:
+        Settings(database="mysql://ann:hidden@db/maps")  # type: ignore[arg-type]
+    assert "hidden" not in str(raised.value)

@@ -16,8 +16,8 @@ from placecell_client.maps.edit import apply, empty, take, with_optional
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
-from service.maps import deduplication
-from service.maps.deduplication import (
+from service.maps.writes import deduplication
+from service.maps.writes.deduplication import (
     NONE,
     RADIUS,
     SAME_VIEW,

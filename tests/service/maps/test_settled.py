@@ -11,7 +11,7 @@ from placecell_client.maps.edit import difference, empty
 from placecell.descriptors.quantizer import Quantizer
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
-from service.maps.deduplication import RADIUS, VIEWS, SameView
+from service.maps.writes.deduplication import RADIUS, VIEWS, SameView
 from service.merging.join import ROUNDED, MergePart, PartOutcome, join, join_settled, known_pose
 
 PARAMETERS = AlignmentParameters()
