@@ -186,6 +186,23 @@ class Ids:
 NO_IDS = Ids()
 
 
+@dataclass(frozen=True, slots=True)
+class OwnedIds:
+    """Run of ids with one owner.
+
+    Attributes:
+        first: first id.
+        until: end of the run, exclusive.
+        author: name of the key; empty if it is not known.
+        reserved: time of the reservation, Unix seconds; None: the ids were written since.
+    """
+
+    first: int
+    until: int
+    author: str
+    reserved: float | None
+
+
 class MapHistory(Protocol):
     """Log of one map at one moment, unaffected by later writes."""
 
@@ -209,6 +226,22 @@ class MapHistory(Protocol):
             KeyError: the version `after` is not kept.
             StoreError: a commit is damaged.
         """
+
+
+class StoreSnapshot(Protocol):
+    """All maps of a store, or of a backup, at one moment."""
+
+    def heads(self) -> list[MapHead]:
+        """Return the heads of all maps, by name."""
+
+    def history(self, uid: str) -> MapHistory:
+        """Return a map's log, valid as long as the snapshot; KeyError if there is no such map."""
+
+    def owned_ids(self, uid: str) -> list[OwnedIds]:
+        """Return the ascending runs of owned ids; KeyError if there is no such map."""
+
+    def annotations(self) -> dict[str, list[Annotation]]:
+        """Return the annotations of all maps, by uid; StoreError if one was altered."""
 
 
 class MapStore(Protocol):
@@ -293,11 +326,38 @@ class MapStore(Protocol):
     def delete(self, uid: str) -> None:
         """Remove a map with all its versions; KeyError if there is no such map."""
 
+    def snapshot(self) -> AbstractContextManager[StoreSnapshot]:
+        """Read all maps at one moment, without blocking writers."""
+
+    def import_maps(
+        self, source: StoreSnapshot, skipped: int = 0, replaces: bool = False
+    ) -> list[MapHead]:
+        """Store all maps of a snapshot with uids, versions, marks, owners and annotations.
+
+        Args:
+            source: the maps to store.
+            skipped: number of ids of each map that are not given out again, because the source
+                may not know them; less if the store knows which ids it gave out.
+            replaces: whether the present maps are removed; otherwise a ValueError if there are any.
+        """
+
     def release_space(self) -> None:
         """Return the space of removed data to the disk, if it is large."""
 
     def trouble(self) -> str | None:
         """Return why the store accepts no writes; None if it accepts them."""
+
+
+def skipped_ids(head: MapHead, given_out: int, count: int) -> int:
+    """Return the first id of a map that may be given out after `count` ids are skipped.
+
+    Args:
+        head: head of the map.
+        given_out: end of the ids that are known to have been given out.
+        count: number of ids to skip after them; at most half of the free ids are skipped.
+    """
+    first = min(max(head.next_id, given_out), head.end_id)
+    return max(first, min(first + count, (first + head.end_id) // 2))
 
 
 def link_of(before: str, sequence: int, blob: bytes) -> str:

@@ -213,6 +213,22 @@ class Database:
             # The write succeeded. The freed pages return to the disk when there is space for that.
             logger.warning("freed pages were not returned to the disk: %s", error)
 
+    @staticmethod
+    @contextmanager
+    def reading(path: Path, layout: Layout) -> Iterator[tuple[sqlite3.Connection, int]]:
+        """Read one state of a database that another process may own; yield its version as well.
+
+        Raises:
+            StoreError: the file cannot be read; the message says what to do.
+        """
+        with _translated(path), closing(_connect(path)) as connection:
+            log = path.with_name(path.name + "-wal")
+            version = _checked(connection, path, log, layout)
+            connection.execute("PRAGMA query_only = ON")
+            connection.execute("BEGIN")
+            connection.execute("PRAGMA user_version").fetchone()  # the first read fixes the state
+            yield connection, version
+
     @contextmanager
     def snapshot(self) -> Iterator[sqlite3.Connection]:
         """Read one state of the database, without waiting for writers or blocking them."""
@@ -357,7 +373,7 @@ class Database:
             connection = _connect(self.path)
         try:
             with _translated(self.path):
-                found = self._checked(connection, layout)
+                found = _checked(connection, self.path, self._log_path, layout)
                 if found != layout.version:
                     self._migrate(connection, found, layout)
         except BaseException:
@@ -394,28 +410,6 @@ class Database:
             found = [str(row[0]) for row in connection.execute(f"PRAGMA integrity_check{part}")]
         return [] if found == ["ok"] else found
 
-    def _checked(self, connection: sqlite3.Connection, layout: Layout) -> int:
-        """Check that the file is complete and return the version of its tables."""
-        (application,) = connection.execute("PRAGMA application_id").fetchone()
-        (found,) = connection.execute("PRAGMA user_version").fetchone()
-        if application != APPLICATION:
-            raise StoreError("damaged", f"{self.path} is not a database of Placecell; {ADVICE}")
-        if found != layout.version and found not in layout.migrations:
-            raise StoreError(
-                "damaged",
-                f"{self.path} has version {found}; this program reads versions "
-                f"{min(layout.migrations, default=layout.version)} to {layout.version}. Use the "
-                "program that wrote it, or a later one",
-            )
-        (pages,) = connection.execute("PRAGMA page_count").fetchone()
-        (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()
-        # With a log, pages may still have to move into the file. Without one, SQLite would read
-        # zeros in place of a truncated last page.
-        has_log = self._log_path.exists() and self._log_path.stat().st_size
-        if not has_log and self.path.stat().st_size < pages * page_bytes:
-            raise StoreError("damaged", f"{self.path} was truncated; {ADVICE}")
-        return int(found)
-
 
 ADVICE = "restore it from a backup, or move it and the files beside it away to start without maps"
 
@@ -441,6 +435,29 @@ def _connect(path: Path, mode: Literal["rw", "rwc"] = "rw") -> sqlite3.Connectio
     ):
         connection.execute(f"PRAGMA {pragma}")
     return connection
+
+
+def _checked(connection: sqlite3.Connection, path: Path, log: Path, layout: Layout) -> int:
+    """Check that the file is complete and return the version of its tables."""
+    (application,) = connection.execute("PRAGMA application_id").fetchone()
+    (found,) = connection.execute("PRAGMA user_version").fetchone()
+    if application != APPLICATION:
+        raise StoreError("damaged", f"{path} is not a database of Placecell; {ADVICE}")
+    if found != layout.version and found not in layout.migrations:
+        raise StoreError(
+            "damaged",
+            f"{path} has version {found}; this program reads versions "
+            f"{min(layout.migrations, default=layout.version)} to {layout.version}. Use the "
+            "program that wrote it, or a later one",
+        )
+    (pages,) = connection.execute("PRAGMA page_count").fetchone()
+    (page_bytes,) = connection.execute("PRAGMA page_size").fetchone()
+    # With a log, pages may still have to move into the file. Without one, SQLite would read
+    # zeros in place of a truncated last page.
+    has_log = log.exists() and log.stat().st_size
+    if not has_log and path.stat().st_size < pages * page_bytes:
+        raise StoreError("damaged", f"{path} was truncated; {ADVICE}")
+    return int(found)
 
 
 def _make(path: Path, layout: Layout) -> None:

@@ -4,11 +4,10 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from service.maps.store import IDS, Owner, StoreError
+from service.maps.store import IDS, OwnedIds, Owner, StoreError
 
 CLOSED = 16_384
 """Largest gap of unowned ids between two written ids that becomes the writer's. Without it, a map
@@ -16,28 +15,6 @@ with scattered ids would have one run per id."""
 
 Run = tuple[int, int]
 """First id and exclusive end of a run."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Owned:
-    """Run of ids with one owner.
-
-    Attributes:
-        first: first id.
-        until: end of the run, exclusive.
-        author: name of the key; empty if it is not known.
-        reserved: time of the reservation, seconds; None: the ids were written since.
-    """
-
-    first: int
-    until: int
-    author: str
-    reserved: float | None
-
-    def digest(self, row: int) -> str:
-        """Hash the run, so that an altered run is noticed."""
-        fields = [row, self.first, self.until, self.author, self.reserved]
-        return hashlib.sha256(json.dumps(fields).encode()).hexdigest()[:16]
 
 
 class Owners:
@@ -95,15 +72,18 @@ class Owners:
         for each in self._within(0, IDS):
             begin, end = np.searchsorted(ids, [each.first, each.until])
             if end > begin:
-                kept.append(_Owned(int(ids[begin]), int(ids[end - 1]) + 1, each.author, None))
+                kept.append(OwnedIds(int(ids[begin]), int(ids[end - 1]) + 1, each.author, None))
         self._connection.execute("DELETE FROM owners WHERE map = ?", (self._row,))
-        self._insert(kept)
+        self.insert(kept)
 
-    def check(self) -> None:
-        """Raise a StoreError if a run was altered."""
-        self._read("SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1")
+    def all(self) -> list[OwnedIds]:
+        """Return all ascending runs; StoreError if one was altered."""
+        return self._read(
+            "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 "
+            "ORDER BY first"
+        )
 
-    def _within(self, first: int, until: int) -> list[_Owned]:
+    def _within(self, first: int, until: int) -> list[OwnedIds]:
         """Return the ascending runs that overlap these ids."""
         found = self._read(
             "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 AND "
@@ -114,11 +94,11 @@ class Owners:
         )
         return [each for each in found if each.until > first]
 
-    def _read(self, query: str, *values: int) -> list[_Owned]:
+    def _read(self, query: str, *values: int) -> list[OwnedIds]:
         found = []
         for *columns, digest in self._connection.execute(query, (self._row, *values)):
-            each = _Owned(*columns)
-            if digest != each.digest(self._row):
+            each = OwnedIds(*columns)
+            if digest != _digest_of(self._row, each):
                 raise StoreError("damaged", "a row of the table owners was altered")
             found.append(each)
         return found
@@ -129,7 +109,7 @@ class Owners:
         # One more id on either side joins the run with adjacent runs of the key.
         low, high = max(runs[0][0] - 1, 0), min(runs[-1][1] + 1, IDS)
         owned = self._within(low, high)
-        own = [_Owned(*run, author, reserved) for run in _closed(runs, owned)]
+        own = [OwnedIds(*run, author, reserved) for run in _closed(runs, owned)]
         starts = np.array([each.first for each in own])
         ends = np.array([each.until for each in own])
         left = []
@@ -139,17 +119,18 @@ class Owners:
             end = int(np.searchsorted(starts, each.until, "left"))
             for run in own[begin:end]:
                 if at < run.first:
-                    left.append(_Owned(at, run.first, each.author, each.reserved))
+                    left.append(OwnedIds(at, run.first, each.author, each.reserved))
                 at = max(at, run.until)
             if at < each.until:
-                left.append(_Owned(at, each.until, each.author, each.reserved))
+                left.append(OwnedIds(at, each.until, each.author, each.reserved))
         self._connection.executemany(
             "DELETE FROM owners WHERE map = ? AND first = ?",
             [(self._row, each.first) for each in owned],
         )
-        self._insert(_joined(sorted([*left, *own], key=lambda each: each.first)))
+        self.insert(_joined(sorted([*left, *own], key=lambda each: each.first)))
 
-    def _insert(self, owned: Iterable[_Owned]) -> None:
+    def insert(self, owned: Iterable[OwnedIds]) -> None:
+        """Add runs that overlap no present one."""
         self._connection.executemany(
             "INSERT INTO owners VALUES (?, ?, ?, ?, ?, ?)",
             [
@@ -159,18 +140,24 @@ class Owners:
                     each.until,
                     each.author,
                     each.reserved,
-                    each.digest(self._row),
+                    _digest_of(self._row, each),
                 )
                 for each in owned
             ],
         )
 
 
+def _digest_of(row: int, owned: OwnedIds) -> str:
+    """Hash a run of a map, so that an altered run is noticed."""
+    fields = [row, owned.first, owned.until, owned.author, owned.reserved]
+    return hashlib.sha256(json.dumps(fields).encode()).hexdigest()[:16]
+
+
 def _length(run: Run) -> int:
     return run[1] - run[0]
 
 
-def _closed(runs: Sequence[Run], owned: Sequence[_Owned]) -> list[Run]:
+def _closed(runs: Sequence[Run], owned: Sequence[OwnedIds]) -> list[Run]:
     """Join runs whose gaps are small and unowned."""
     starts = np.array([run[0] for run in runs])
     ends = np.array([run[1] for run in runs])
@@ -182,9 +169,9 @@ def _closed(runs: Sequence[Run], owned: Sequence[_Owned]) -> list[Run]:
     return list(zip(starts[first].tolist(), ends[last].tolist(), strict=True))
 
 
-def _joined(owned: Iterable[_Owned]) -> list[_Owned]:
+def _joined(owned: Iterable[OwnedIds]) -> list[OwnedIds]:
     """Join adjacent runs of one owner."""
-    joined: list[_Owned] = []
+    joined: list[OwnedIds] = []
     for each in owned:
         last = joined[-1] if joined else None
         if last and (last.until, last.author, last.reserved) == (
@@ -192,7 +179,7 @@ def _joined(owned: Iterable[_Owned]) -> list[_Owned]:
             each.author,
             each.reserved,
         ):
-            joined[-1] = _Owned(last.first, each.until, each.author, each.reserved)
+            joined[-1] = OwnedIds(last.first, each.until, each.author, each.reserved)
         else:
             joined.append(each)
     return joined

@@ -16,6 +16,7 @@ from service.maps.sqlite.database import ADVICE, Database, Layout
 from service.maps.sqlite.history import SqliteHistory
 from service.maps.sqlite.id_ledger import SKIPPED, IdLedger
 from service.maps.sqlite.owners import Owners
+from service.maps.sqlite.snapshot import SqliteSnapshot
 from service.maps.sqlite.tables import (
     HEAD,
     SCHEMA,
@@ -26,6 +27,7 @@ from service.maps.sqlite.tables import (
     head_of,
     insert_base,
     insert_commit,
+    insert_map,
     migrate,
     row_of,
     save_head,
@@ -40,8 +42,10 @@ from service.maps.store import (
     OutOfIdsError,
     Owner,
     StoreError,
+    StoreSnapshot,
     TooManyIdsError,
     commit_after,
+    skipped_ids,
 )
 
 FILE = "maps.sqlite"
@@ -51,6 +55,9 @@ LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate, 2: add_annotations})
 
 RESERVED_SECONDS = 7 * 24 * 3600.0
 """Time for which a reserved, unwritten id counts against its key's limit, seconds."""
+
+OF_MAPS = ("commits", "bases", "owners", "annotations", "maps")
+"""Tables whose rows belong to a map."""
 
 logger = logging.getLogger("placecell")
 
@@ -296,10 +303,46 @@ class SqliteMapStore:
 
         def remove(connection: sqlite3.Connection) -> None:
             row = row_of(connection, uid)
-            for table in ("commits", "bases", "owners", "annotations", "maps"):
+            for table in OF_MAPS:
                 connection.execute(f"DELETE FROM {table} WHERE map = ?", (row,))
 
         self._database.freeing(remove)
+
+    @contextmanager
+    def snapshot(self) -> Iterator[SqliteSnapshot]:
+        """Read all maps at one moment, without blocking writers."""
+        with self._database.snapshot() as connection:
+            yield SqliteSnapshot(connection)
+
+    def import_maps(
+        self, source: StoreSnapshot, skipped: int = 0, replaces: bool = False
+    ) -> list[MapHead]:
+        """Store all maps of a snapshot in one transaction. Parameters are those of `MapStore`."""
+        with self._database.transaction() as connection:
+            if not replaces and connection.execute("SELECT 1 FROM maps").fetchone():
+                raise ValueError(f"{self._database.path} has maps already")
+            for table in OF_MAPS:
+                connection.execute(f"DELETE FROM {table}")
+            return self._import(connection, source, skipped)
+
+    def _import(
+        self, connection: sqlite3.Connection, source: StoreSnapshot, skipped: int
+    ) -> list[MapHead]:
+        annotations = source.annotations()
+        heads = []
+        for head in source.heads():
+            known = self._ledger.limits.get(head.uid)
+            # A known limit is exact: the ledger was written before the ids were given out.
+            first = skipped_ids(head, known or 0, skipped if known is None else 0)
+            after = replace(head, next_id=first)
+            row = insert_map(connection, after, source.history(head.uid))
+            owners = Owners(connection, row)
+            owners.insert(source.owned_ids(head.uid))
+            if first > head.next_id:  # their owner is not known
+                owners.reserve(head.next_id, first, "", 0.0)
+            write_annotations(connection, row, annotations.get(head.uid, ()), ())
+            heads.append(after)
+        return heads
 
     def release_space(self) -> None:
         """Return the space of removed data to the disk."""
@@ -318,7 +361,7 @@ class SqliteMapStore:
         skipped = 0 if is_new or ledger.is_trusted else SKIPPED
         heads = self.heads()
         behind = {
-            head.uid: _skipped(head, ledger.limits.get(head.uid, 0), skipped)
+            head.uid: skipped_ids(head, ledger.limits.get(head.uid, 0), skipped)
             for head in heads
             if skipped or ledger.limits.get(head.uid, 0) > head.next_id
         }
@@ -356,7 +399,7 @@ class SqliteMapStore:
                     for _ in history.blobs(head.oldest, head.sequence):
                         pass
                 with self._database.snapshot() as connection:
-                    Owners(connection, row_of(connection, head.uid)).check()
+                    Owners(connection, row_of(connection, head.uid)).all()
             except StoreError as error:
                 found.append(str(error))
         return found
@@ -372,9 +415,3 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
         # Their owner is not known.
         Owners(connection, row).reserve(head.next_id, next_id, "", 0.0)
         save_head(connection, row, replace(head, next_id=next_id))
-
-
-def _skipped(head: MapHead, given_out: int, count: int) -> int:
-    """Return the first id of a map after all ids that may have been given out."""
-    first = min(max(head.next_id, given_out), head.end_id)
-    return max(first, min(first + count, (first + head.end_id) // 2))

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from service.maps.sqlite.owners import Owners
-from service.maps.store import Commit, MapHead, Note, StoreError
+from service.maps.store import Commit, MapHead, MapHistory, Note, StoreError
 
 VERSION = 3
 
@@ -175,6 +175,31 @@ def commit_from(row: Sequence[Any]) -> Commit:
     """Build a commit from a row of `COMMIT`."""
     sequence, *note, size, mark, link = row
     return Commit(sequence, Note(*note), size, mark, link)
+
+
+def insert_map(connection: sqlite3.Connection, head: MapHead, history: MapHistory) -> int:
+    """Add a map with all its versions; return its row number."""
+    row = connection.execute(
+        "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        (
+            head.name,
+            head.uid,
+            head.sequence,
+            head.mark,
+            head.oldest,
+            head.next_id,
+            head.base_bytes,
+            head.log_bytes,
+        ),
+    ).lastrowid
+    assert row is not None
+    insert_commit(connection, row, history.commits()[0], None)
+    for commit, blob in history.blobs(head.oldest, head.sequence):
+        insert_commit(connection, row, commit, blob)
+    insert_base(connection, row, history.base())
+    save_head(connection, row, head)
+    return row
 
 
 def insert_commit(
