@@ -1,4 +1,5 @@
-# The service only: no torch, no compiler, no recorded data. docs/tutorials/deploy.md runs it.
+# The service, with PostgreSQL, S3 and traces: no torch, no compiler, no recorded data.
+# docs/tutorials/deploy.md runs it.
 #
 #     docker build -t placecell:0.1.0 .
 #
@@ -17,7 +18,7 @@ RUN python -m venv /opt/build && \
     /opt/build/bin/pip install --require-hashes --only-binary :all: --requirement requirements/build.txt && \
     /opt/build/bin/pip wheel --no-deps --no-build-isolation --no-index --wheel-dir /wheels ./client . && \
     python -m venv /opt/venv && \
-    /opt/venv/bin/pip install --require-hashes --only-binary :all: --requirement requirements/service.txt && \
+    /opt/venv/bin/pip install --require-hashes --only-binary :all: --requirement requirements/fleet.txt && \
     /opt/venv/bin/pip install --no-deps --no-index /wheels/*.whl && \
     /opt/venv/bin/pip check
 

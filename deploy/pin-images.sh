@@ -4,7 +4,8 @@
 # It needs docker with buildx. Images of Placecell itself are left as they are.
 set -eu
 cd "$(dirname "$0")/.."
-files="Dockerfile deploy/compose.yaml deploy/kubernetes.yaml"
+files="Dockerfile deploy/compose.yaml deploy/kubernetes.yaml deploy/fleet/compose.yaml
+    deploy/fleet/kubernetes.yaml"
 images=$(sed -nE 's/^(FROM| *image:) +([^ @]+).*/\2/p' $files | grep -v '^placecell:' | sort -u)
 for image in $images; do
     digest=$(docker buildx imagetools inspect --format '{{.Manifest.Digest}}' "$image")

@@ -1,6 +1,7 @@
 """Tests of `Client.localize`: requests and results."""
 
 import json
+import re
 from typing import Any
 
 import httpx
@@ -49,6 +50,24 @@ def test_localize_sends_codes_with_centroids() -> None:
     assert found.maps[0].inliers.residuals.tolist() == [0.25]
     assert len(found.maps[0].inliers) == 1
     assert found.errors == {0: UNUSABLE}
+
+
+def test_requests_of_a_session_have_one_header_for_balancers() -> None:
+    sent: list[str | None] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        sent.append(request.headers.get("Placecell-Session"))
+        return packed(LOCALIZED)
+
+    with client_of(answer) as client:
+        for session in ("ann-7", "ann-7", "bob", "Zoë\r\n", None):
+            client.localize(DESCRIBED, session=session)
+        client.localize(segments=[CLOUD], sensors=np.zeros(3), session="ann-7")
+    first, second, other, odd, none, segments = sent
+    assert first == second == segments
+    assert len({first, other, odd, none}) == 4
+    assert none is None
+    assert all(each is None or re.fullmatch("[0-9a-f]{16}", each) for each in sent)
 
 
 def test_msgpack_sends_arrays_as_bytes() -> None:

@@ -17,6 +17,7 @@ CLIENT = tomllib.loads((ROOT / "client/pyproject.toml").read_text())["project"]
 LOCKED = {
     "build": None,
     "service": ["service"],
+    "fleet": ["service", "postgres", "s3", "tracing"],
     "demo": ["service", "town", "plots"],
     "development": [
         *("service", "town", "plots", "training", "odometry", "zenoh", "page"),
@@ -133,7 +134,8 @@ def test_A26_every_install_checks_hashes() -> None:
 
 
 def test_A26_images_are_pinned_by_the_digests_that_a_registry_tells(tmp_path: Path) -> None:
-    for name in ("Dockerfile", "deploy/compose.yaml", "deploy/kubernetes.yaml"):
+    fleet = ("deploy/fleet/compose.yaml", "deploy/fleet/kubernetes.yaml")
+    for name in ("Dockerfile", "deploy/compose.yaml", "deploy/kubernetes.yaml", *fleet):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     shutil.copy(ROOT / "deploy/pin-images.sh", tmp_path / "deploy/pin-images.sh")
@@ -157,6 +159,8 @@ def test_A26_images_are_pinned_by_the_digests_that_a_registry_tells(tmp_path: Pa
         assert len(re.findall(rf"^FROM python:3\S+@{digest}( AS builder)?$", dockerfile, re.M)) == 2
         assert len(re.findall(rf"image: \S+:v?[\d.]+@{digest}$", compose, re.M)) == 2
         assert "image: placecell:0.1.0\n" in compose
+        compose = (tmp_path / "deploy/fleet/compose.yaml").read_text()
+        assert len(re.findall(rf"image: \S+:[\d.]+@{digest}$", compose, re.M)) == 2
     before = (tmp_path / "Dockerfile").read_text()
     assert pinned("error: not found") == 1
     assert (tmp_path / "Dockerfile").read_text() == before

@@ -1,6 +1,7 @@
 """Requests to the service, each with the parser of its response; no input or output."""
 
 import gzip
+import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from os import PathLike
@@ -59,6 +60,9 @@ COVERAGE_K = 25
 """Candidates of each segment in `coverage`: those that re-ranking looks at."""
 
 OCTETS = "application/octet-stream"
+
+SESSION_HEADER = "Placecell-Session"
+"""Header by which a balancer sends all requests of a session to one replica."""
 
 COMPRESSED_BYTES = 1024
 """Smallest file that is compressed, bytes."""
@@ -229,16 +233,18 @@ class Calls:
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows) | self._centroids(description, rows)
-            return self._post(
+            call = self._post(
                 "/localize",
                 body,
                 lambda answer: parsing.localizations_of(answer, description, rows),
             )
+            return _of_session(call, session)
         if description is None and segments is not None and sensors is not None:
             own, dropped = segments_of(segments, sensors, self.encoding)
-            return self._post(
+            call = self._post(
                 "/localize", body | own, lambda answer: parsing.localizations(answer, dropped)
             )
+            return _of_session(call, session)
         raise ValueError("Give either a description, or segments and sensors.")
 
     def coverage(
@@ -595,6 +601,14 @@ class Calls:
         if not added:
             return call
         return replace(call, older=lambda: self._post(path, body, read))
+
+
+def _of_session(call: Call[T], session: str | None) -> Call[T]:
+    """Return a call with the header of its session; a hash, as an id may have any characters."""
+    if session is None:
+        return call
+    digest = hashlib.sha256(session.encode()).hexdigest()[:16]
+    return replace(call, headers=call.headers | {SESSION_HEADER: digest})
 
 
 def _search(

@@ -13,6 +13,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -161,7 +163,11 @@ class Client {
       if (!options.session.empty()) body.emplace_back("session", options.session);
       if (!options.hints.empty()) body.emplace_back("hints", options.hints);
       body.emplace_back("segments", list_of(segments));
-      const Value answer = post("/localize", std::move(body));
+      // A balancer sends all requests of a session to one replica.
+      std::map<std::string, std::string> headers;
+      if (!options.session.empty())
+        headers["Placecell-Session"] = std::to_string(std::hash<std::string>{}(options.session));
+      const Value answer = post("/localize", std::move(body), std::move(headers));
       Localizations result{answer["model_id"].text(), {}};
       for (const Value& item : answer["localizations"].list())
         result.maps.push_back(localization_of(item));
@@ -178,8 +184,10 @@ class Client {
   Map get_map(const std::string& name) const { return decode_map(get_map_file(name)); }
 
  private:
-  HttpAnswer call(const std::string& method, const std::string& path, std::string body = {}) const {
+  HttpAnswer call(const std::string& method, const std::string& path, std::string body = {},
+                  std::map<std::string, std::string> headers = {}) const {
     HttpRequest request;
+    for (auto& [name, value] : headers) request.headers[name] = std::move(value);
     request.method = method;
     request.url = base_ + path;
     request.timeout_s = options_.timeout_s;
@@ -194,8 +202,10 @@ class Client {
     return answer;
   }
 
-  Value post(const std::string& path, Object body) const {
-    const HttpAnswer answer = call("POST", path, to_msgpack(std::move(body)));
+  Value post(const std::string& path, Object body,
+             std::map<std::string, std::string> headers = {}) const {
+    const HttpAnswer answer =
+        call("POST", path, to_msgpack(std::move(body)), std::move(headers));
     const auto type = answer.headers.find("content-type");
     if (type == answer.headers.end() || type->second.find("application/msgpack") != 0)
       throw FormatError("it is not msgpack.");
