@@ -19,6 +19,7 @@ from placecell.sources.file_hash import file_hash
 from placecell.sources.point_clock import PointClock, find_clock
 from placecell.sources.point_layout import KITTI, PointLayout, find_layout, implausible
 from placecell.sources.point_times import split_name
+from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import ScanOptions, current_scan_options
 from placecell.trajectories.times import TimeUnit
 
@@ -153,29 +154,40 @@ class Drive(ABC):
     def scan(self, index: int) -> Float32:
         """Return the points of a scan, float32 (n, 3), meters, sensor frame; none if unusable.
 
-        Points that are not finite are dropped. `dropouts` counts both.
+        Points that are not finite are dropped, and beams without an echo (0, 0, 0). `dropouts`
+        counts the former, and unusable scans.
 
         Raises:
-            DriveError: the options are strict, and the file is missing, empty or cut short, or a
-                point is not finite.
+            DriveError: the options are strict, and the scan cannot be used or has points that are
+                not finite.
         """
         try:
-            points = self.read_points(index)
-            times = self.read_times(index) if self.options.deskew else None
-            usable = usable_points(points, self.scan_files[index])
+            scan = self.read_scan(index)
+            check_points(scan, self.scan_path(index))
         except DriveError as error:
-            self.skip(index, str(error).rpartition(": ")[2])
+            why = str(error).removeprefix(f"{self.scan_path(index)}: ")
+            self.skip(index, why.removeprefix(f"{self.folder}: "))
             return np.zeros((0, 3), np.float32)
-        if bad := len(points) - len(usable):
+        if scan.not_finite:
             if self.options.strict:
                 raise DriveError(
-                    f"{self.scan_files[index]}: {bad} of {len(points)} points are not finite (NaN "
-                    "or infinity). Without --strict they are dropped"
+                    f"{self.scan_path(index)}: {scan.not_finite} of {scan.read} points are not "
+                    "finite (NaN or infinity). Without --strict they are dropped"
                 )
-            self.dropouts.dropped[index] = bad
-        if times is None:
-            return usable
-        return self.deskewed(usable, times[np.isfinite(points).all(axis=1)], index)
+            self.dropouts.dropped[index] = scan.not_finite
+        if scan.times is None:
+            return scan.points
+        return self.deskewed(scan.points, scan.times, index)
+
+    def read_scan(self, index: int) -> LidarScan:
+        """Read a scan, with times relative to the drive's time of the scan if it is deskewed.
+
+        Raises:
+            DriveError: the scan is missing, unreadable, empty or cut short.
+        """
+        points = self.read_points(index)
+        times = self.read_times(index) if self.options.deskew else None
+        return LidarScan.of(points, times, float(self.times[index]))
 
     @cached_property
     def motion(self) -> SensorMotion | None:
@@ -314,21 +326,23 @@ def size_problem(size: int) -> str:
     return f"{size} bytes is no whole number of points" if size else "no points (0 bytes)"
 
 
-def usable_points(points: Float32, file: Path) -> Float32:
-    """Drop points that are not finite.
+def check_points(scan: LidarScan, name: str) -> None:
+    """Refuse a scan without usable points.
 
     Raises:
-        DriveError: none is left, or most values are no coordinates.
+        DriveError: no point is left, or most values are no coordinates.
     """
-    finite = np.isfinite(points).all(axis=1)
-    usable = points if finite.all() else np.ascontiguousarray(points[finite])
-    if not len(usable):
-        raise DriveError(f"{file}: all {len(points)} points are not finite (NaN or infinity)")
-    if implausible(usable) > 0.4:
+    if not len(scan.points):
+        if not scan.read:
+            raise DriveError(f"{name}: holds no points")
         raise DriveError(
-            f"{file}: most values are not coordinates; the file is damaged or of another kind"
+            f"{name}: all {scan.read} points are not finite (NaN or infinity) or lie at (0, 0, 0), "
+            "where beams without an echo are"
         )
-    return usable
+    if implausible(scan.points) > 0.4:
+        raise DriveError(
+            f"{name}: most values are not coordinates; the file is damaged or of another kind"
+        )
 
 
 def read_velodyne(file: Path) -> Float32:

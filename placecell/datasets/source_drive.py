@@ -6,14 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from placecell.core.types import Float32, Float64
+from placecell.core.types import Float64
 from placecell.datasets.drive import Drive, check_motion
 from placecell.datasets.source_poses import SourcePoses, find_poses, prefixed
 from placecell.odometry.deskew import SensorMotion
 from placecell.odometry.leveling import ground_in_world, leveling_of
 from placecell.sources.bags import BagSource
 from placecell.sources.errors import DriveError
-from placecell.sources.point_layout import implausible
 from placecell.sources.scan import LidarScan
 from placecell.sources.scan_options import (
     current_scan_options,
@@ -147,32 +146,11 @@ class SourceDrive(Drive):
         poses[:, :3, 3] -= self.origin
         return SensorMotion.of(track.stamps, poses)
 
-    def scan(self, index: int) -> Float32:
-        """Return the points of a scan, float32 (n, 3), meters, sensor frame; none if unusable.
-
-        Points that are not finite are dropped, and beams without an echo (0, 0, 0).
-
-        Raises:
-            DriveError: the options are strict, and the scan is damaged or has points that are not
-                finite.
-        """
-        number = int(self.scans[index])
-        try:
-            scan = self.source.scan(number)
-            check_points(scan, f"{self.folder}, scan {number}")
-        except DriveError as error:
-            self.skip(index, str(error).removeprefix(f"{self.folder}: "))
-            return np.zeros((0, 3), np.float32)
-        if scan.not_finite:
-            if self.options.strict:
-                raise DriveError(
-                    f"{self.folder}, scan {number}: {scan.not_finite} of {scan.read} points are "
-                    "not finite (NaN or infinity). Without --strict they are dropped"
-                )
-            self.dropouts.dropped[index] = scan.not_finite
+    def read_scan(self, index: int) -> LidarScan:
+        scan = self.source.scan(int(self.scans[index]))
         if scan.times is None or not self.options.deskew:
-            return scan.points
-        return self.deskewed(scan.points, self.on_clock(scan, index), index)
+            return replace(scan, times=None)
+        return replace(scan, times=self.on_clock(scan, index))
 
     def on_clock(self, scan: LidarScan, index: int) -> Float64:
         """Return the times of a scan's points, relative to the drive's time of the scan."""
@@ -188,20 +166,6 @@ class SourceDrive(Drive):
 
     def scan_path(self, index: int) -> str:
         return f"{self.folder}, {self.scan_name(index)}"
-
-
-def check_points(scan: LidarScan, name: str) -> None:
-    """Refuse a scan without usable points.
-
-    Raises:
-        DriveError: no point is left, or most values are no coordinates.
-    """
-    if not len(scan.points):
-        if not scan.read:
-            raise DriveError(f"{name}: holds no points")
-        raise DriveError(f"{name}: none of the {scan.read} points is finite and not (0, 0, 0)")
-    if implausible(scan.points) > 0.4:
-        raise DriveError(f"{name}: most values are not coordinates; the scan is damaged")
 
 
 def open_source_drive(path: Path, folder: Path | None = None, layouts: str = "") -> SourceDrive:

@@ -35,10 +35,7 @@ def test_drive_is_recognized_and_read(folder: Path) -> None:
     drive = open_drive(folder)
     assert isinstance(drive, MulRan)
     assert len(drive) == 3
-    points = drive.scan(0)
-    assert points.shape == (64 * 1024, 3)
-    np.testing.assert_allclose(points[:2], SCAN)
-    assert not points[2:].any()
+    np.testing.assert_allclose(drive.scan(0), SCAN)  # Without the beams that have no echo.
     np.testing.assert_allclose(drive.times, [0, 0.1, 0.2], atol=1e-6)
 
 
