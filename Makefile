@@ -10,7 +10,9 @@ export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 
 # Test workers; each needs a core and some 2 GB of memory. JOBS=0 runs all in one process.
 JOBS ?= 2
-PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-loadscope-reorder
+# A worker that ends by a hanging test is replaced once; the second time, the run ends.
+PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-loadscope-reorder \
+	--max-worker-restart 1
 # Tests and the services that they start load compiled modules instead of compiling them again.
 unexport PYTHONDONTWRITEBYTECODE
 
