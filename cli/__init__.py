@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from cli.ablations import ablations
+from cli.backup import backup, migrate, restore
 from cli.bench import bench
 from cli.calibrate import calibrate
 from cli.config import config
@@ -83,6 +84,9 @@ app.command(rich_help_panel=RUN)(takes_drives(robot))
 app.command(rich_help_panel=RUN)(config)
 app.command(rich_help_panel=RUN)(keys)
 app.add_typer(maps, name="maps", rich_help_panel=MAP)
+app.command(rich_help_panel=MAP)(backup)
+app.command(rich_help_panel=MAP)(restore)
+app.command(rich_help_panel=MAP)(migrate)
 app.command(rich_help_panel=MAP)(robots)
 app.command(rich_help_panel=MAP)(events)
 app.command(rich_help_panel=MAP)(town)

@@ -63,7 +63,7 @@ LAYERS = (
     ("service.maps",),
     ("service.maps.sqlite", "service.maps.writes"),
     ("service.maps.stores",),
-    ("service.annotations",),
+    ("service.annotations", "service.backup"),
     ("service.search",),
     ("service.merging",),
     ("service.warm_up",),

@@ -1,0 +1,86 @@
+"""Stores by their name: the data directory of a service, or the URL of a PostgreSQL database."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from pydantic import SecretStr
+
+from service.core.settings import DATABASE_URL, Settings
+from service.maps.sqlite.data_lock import locked
+from service.maps.sqlite.snapshot import snapshot_of
+from service.maps.sqlite.store import FILE, LAYOUT
+from service.maps.store import MapStore, StoreSnapshot
+from service.maps.stores import open_store
+
+
+def database_of(settings: Settings) -> str:
+    """Return the name of the store that some settings select."""
+    return settings.database.get_secret_value() or str(settings.data_dir)
+
+
+def shown(database: str) -> str:
+    """Return the name of a store without its password."""
+    scheme, separator, rest = database.partition("://")
+    return f"{scheme}{separator}{rest.rpartition('@')[2]}" if separator else database
+
+
+@contextmanager
+def reading(database: str, owns: bool = False) -> Iterator[StoreSnapshot]:
+    """Read all maps of a store at one moment.
+
+    Args:
+        database: URL of a PostgreSQL database, data directory, or file of SQLite.
+        owns: whether no service may use a data directory meanwhile.
+
+    Raises:
+        FileNotFoundError: the data directory has no database.
+        StoreLockedError: a service uses the data directory.
+        StoreError: the store cannot be used; the message says what to do.
+    """
+    with ExitStack() as opened:
+        if DATABASE_URL.match(database):
+            store = opened.enter_context(open_store(_settings(database)))
+            yield opened.enter_context(store.snapshot())
+            return
+        file = _file_of(database)
+        if not file.is_file():
+            raise FileNotFoundError(
+                f"{database} holds no {FILE}. Name the data directory of a service, or the URL of "
+                "a PostgreSQL database."
+            )
+        if owns:
+            opened.enter_context(locked(file.parent))
+        yield opened.enter_context(snapshot_of(file, LAYOUT))
+
+
+@contextmanager
+def writing(database: str) -> Iterator[MapStore]:
+    """Open a store for an import.
+
+    Args:
+        database: URL of a PostgreSQL database, or data directory; the directory is created.
+
+    Raises:
+        ValueError: a file has another name than that of a data directory's database.
+        StoreLockedError: a service uses the data directory.
+        StoreError: the store cannot be used; the message says what to do.
+    """
+    if not DATABASE_URL.match(database) and _file_of(database).name != FILE:
+        raise ValueError(
+            f"{database} is a file. Name the folder that will hold {FILE}, or the URL of a "
+            "PostgreSQL database."
+        )
+    with open_store(_settings(database)) as store:
+        yield store
+
+
+def _settings(database: str) -> Settings:
+    if DATABASE_URL.match(database):
+        return Settings(database=SecretStr(database))
+    return Settings(database=SecretStr(""), data_dir=_file_of(database).parent)
+
+
+def _file_of(database: str) -> Path:
+    path = Path(database)
+    return path if path.is_file() else path / FILE

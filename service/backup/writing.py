@@ -1,0 +1,105 @@
+"""Writes a backup: new objects first, the manifest last, then removes what no backup needs."""
+
+from collections.abc import Iterable, Iterator
+
+from service.backup.format import (
+    PACK_BYTES,
+    PIECE_BYTES,
+    BackupManifest,
+    MapEntry,
+    MapLog,
+    encode_log,
+    encode_manifest,
+    name_of,
+)
+from service.backup.targets import BackupTarget, manifest_of
+from service.maps.snapshot import tag_of
+from service.maps.store import Annotation, MapHead, StoreSnapshot
+
+
+class BackupWriter:
+    """Writer of one backup.
+
+    Attributes:
+        new_bytes: bytes of objects that the previous backup in the same place did not have.
+    """
+
+    def __init__(self, target: BackupTarget) -> None:
+        self.new_bytes = 0
+        self._target = target
+        self._objects: dict[str, int] = {}
+        self._reused: set[str] = set()
+
+    def write(self, source: StoreSnapshot, program: str, now: float) -> BackupManifest:
+        """Write a backup of all maps. If it is interrupted, the previous backup stays.
+
+        Args:
+            source: the maps.
+            program: version of this program.
+            now: present time, Unix seconds.
+
+        Raises:
+            BackupError: the place cannot be used.
+            StoreError: a map is damaged.
+            OSError: the place cannot be written.
+        """
+        with self._target.writing():
+            if before := manifest_of(self._target):
+                present = self._target.objects()
+                self._reused = {
+                    name for name, size in before.objects.items() if present.get(name) == size
+                }
+            annotations = source.annotations()
+            maps = [
+                self._map(source, head, annotations.get(head.uid, [])) for head in source.heads()
+            ]
+            manifest = BackupManifest(now, program, maps, self._objects)
+            self._target.replace_manifest(encode_manifest(manifest))
+            self._target.remove_others(self._objects.keys())
+            return manifest
+
+    def _map(self, source: StoreSnapshot, head: MapHead, annotations: list[Annotation]) -> MapEntry:
+        history = source.history(head.uid)
+        blobs = (blob for _, blob in history.blobs(head.oldest, head.sequence))
+        log = MapLog(
+            head=head,
+            commits=history.commits(),
+            base=self._written(pieces_of(history.base())),
+            packs=self._written(packs_of(blobs)),
+            owned=source.owned_ids(head.uid),
+            annotations=annotations,
+        )
+        (name,) = self._written([encode_log(log)])
+        tag = tag_of(head.sequence, head.mark)
+        return MapEntry(head.name, head.uid, head.sequence, tag, head.bytes, name)
+
+    def _written(self, objects: Iterable[bytes]) -> list[str]:
+        names = []
+        for data in objects:
+            name = name_of(data)
+            names.append(name)
+            if name not in self._objects and name not in self._reused:
+                self._target.write(name, data)
+                self.new_bytes += len(data)
+            self._objects[name] = len(data)
+        return names
+
+
+def pieces_of(data: bytes, size: int = PIECE_BYTES) -> Iterator[bytes]:
+    """Cut bytes into pieces of a size; the last may be shorter."""
+    for start in range(0, len(data), size):
+        yield data[start : start + size]
+
+
+def packs_of(blobs: Iterable[bytes], size: int = PACK_BYTES) -> Iterator[bytes]:
+    """Join blobs into packs; later blobs never change a full pack, so backups can reuse it."""
+    pack: list[bytes] = []
+    filled = 0
+    for blob in blobs:
+        pack.append(blob)
+        filled += len(blob)
+        if filled >= size:
+            yield b"".join(pack)
+            pack, filled = [], 0
+    if pack:
+        yield b"".join(pack)
