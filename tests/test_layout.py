@@ -99,7 +99,7 @@ LAYERS = (
         "benchmarks.page",
     ),
     ("benchmarks.storage", "benchmarks.durability"),
-    ("benchmarks.durability.power_loss", "benchmarks.live"),
+    ("benchmarks.durability.power_loss", "benchmarks.live", "benchmarks.replicas"),
     ("demo",),
     ("cli",),
 )

@@ -7,6 +7,7 @@ from cli.bench.attack import attack
 from cli.bench.crash import crash
 from cli.bench.describe import describe
 from cli.bench.fleet import fleet
+from cli.bench.fleet_crash import fleet_crash
 from cli.bench.floors import floors
 from cli.bench.json_requests import json_requests
 from cli.bench.ladder import ladder
@@ -49,6 +50,7 @@ bench.command()(takes_drives(peers))
 bench.command()(crash)
 bench.command()(powerloss)
 bench.command()(fleet)
+bench.command()(fleet_crash)
 bench.command()(attack)
 bench.command("json")(json_requests)
 bench.command()(read)

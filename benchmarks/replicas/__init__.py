@@ -1,0 +1,1 @@
+"""Benchmarks of replicas on PostgreSQL behind a balancer: faults, and throughput."""

@@ -1,0 +1,158 @@
+"""Replicas: processes of `placecell serve` that share a database."""
+
+import os
+import signal
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from threading import Lock, Thread
+
+import httpx
+
+from benchmarks.replicas.missing_tool import free_port
+from service.child_process import Service
+
+READY_SECONDS = 120.0
+POLL_SECONDS = 0.05
+
+ENVIRONMENT = {
+    "PLACECELL_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    # As in deploy/fleet/compose.yaml.
+    "PLACECELL_KEEP_ALIVE_SECONDS": "75",
+    "PLACECELL_LIMITS__ADDRESS_CONNECTIONS": "1000",
+    "PLACECELL_PAGE": "false",
+    "PLACECELL_DOCS": "false",
+}
+
+
+class Replica:
+    """One replica, with the same port after each start.
+
+    Attributes:
+        port: port of the replica.
+        starts: seconds of each start, until it was ready.
+    """
+
+    def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
+        self.port = free_port()
+        self.starts: list[float] = []
+        self._folder = folder
+        self._environment = ENVIRONMENT | dict(environment)
+        self._service: Service | None = None
+        self._lock = Lock()
+
+    @property
+    def address(self) -> str:
+        """Return the address of the replica itself."""
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def pid(self) -> int:
+        """Return the id of the process."""
+        assert self._service is not None
+        return self._service.process.pid
+
+    @property
+    def is_ready(self) -> bool:
+        """Return whether the replica says that it is ready."""
+        with suppress(httpx.HTTPError):
+            return httpx.get(f"{self.address}/readyz", timeout=1.0).status_code == 200
+        return False
+
+    def start(self) -> None:
+        """Start the process, and wait until it is ready.
+
+        Raises:
+            RuntimeError: it is not ready in time; the message holds the end of its log.
+        """
+        begun = time.monotonic()
+        with self._lock:
+            self._service = service = Service(
+                self._folder, "--port", str(self.port), environment=self._environment
+            )
+        while not self.is_ready:
+            if service.process.poll() is not None or time.monotonic() > begun + READY_SECONDS:
+                raise RuntimeError(f"a replica is not ready: {service.log()[-3000:]}")
+            time.sleep(POLL_SECONDS)
+        self.starts.append(time.monotonic() - begun)
+
+    def kill(self) -> None:
+        """Kill the process with SIGKILL."""
+        with self._lock:
+            service, self._service = self._service, None
+            if service is not None:
+                service.kill()
+
+    def pause(self, seconds: float) -> None:
+        """Stop the process with SIGSTOP for a time."""
+        pid = self.pid
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            time.sleep(seconds)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+
+    def log(self) -> str:
+        """Return the whole log of the replica, over all starts."""
+        file = self._folder / "service.log"
+        return file.read_text(errors="replace") if file.exists() else ""
+
+
+class ReplicaGroup:
+    """All replicas of a benchmark.
+
+    Attributes:
+        replicas: the replicas.
+        faults: description of each failed restart.
+    """
+
+    def __init__(self, folder: Path, count: int, environment: Mapping[str, str]) -> None:
+        self.replicas = tuple(
+            Replica(folder / f"replica-{number}", environment) for number in range(1, count + 1)
+        )
+        self.faults: list[str] = []
+        self._restarts: list[Thread] = []
+
+    def start(self) -> None:
+        """Start all replicas; the first one creates the tables of the database."""
+        for replica in self.replicas:
+            replica.start()
+
+    def restart(self, replica: Replica) -> None:
+        """Kill a replica now; start it again in a thread of its own."""
+        replica.kill()
+        thread = Thread(target=self._start, args=(replica,), daemon=True)
+        self._restarts.append(thread)
+        thread.start()
+
+    def ready(self) -> list[Replica]:
+        """Return the replicas that are ready."""
+        return [each for each in self.replicas if each.is_ready]
+
+    def wait_ready(self, seconds: float = READY_SECONDS) -> bool:
+        """Wait until all restarts are done and all replicas are ready; return whether they are."""
+        until = time.monotonic() + seconds
+        for thread in self._restarts:
+            thread.join(max(until - time.monotonic(), 0.0))
+        while len(self.ready()) < len(self.replicas):
+            if time.monotonic() > until:
+                return False
+            time.sleep(POLL_SECONDS)
+        return True
+
+    def stop(self) -> None:
+        """Kill all replicas."""
+        for replica in self.replicas:
+            replica.kill()
+        for thread in self._restarts:
+            thread.join(READY_SECONDS)
+        for replica in self.replicas:  # one that was being started meanwhile
+            replica.kill()
+
+    def _start(self, replica: Replica) -> None:
+        try:
+            replica.start()
+        except (RuntimeError, OSError) as error:
+            self.faults.append(f"restart: {error}")
