@@ -1,0 +1,1 @@
+"""Drift: maps that bend, before and after the optimization of their pose graph."""
