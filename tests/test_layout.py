@@ -49,6 +49,7 @@ LAYERS = (
     ("placecell.segmentation", "placecell.localization"),
     ("placecell.segmentation.incremental",),
     ("placecell.map_alignment", "placecell.inspection", "placecell.export"),
+    ("placecell.pose_graph",),
     ("placecell",),
     ("town.geometry",),
     ("town.streets",),
@@ -99,7 +100,12 @@ LAYERS = (
         "benchmarks.page",
     ),
     ("benchmarks.storage", "benchmarks.durability"),
-    ("benchmarks.durability.power_loss", "benchmarks.live", "benchmarks.replicas"),
+    (
+        "benchmarks.durability.power_loss",
+        "benchmarks.live",
+        "benchmarks.replicas",
+        "benchmarks.drift",
+    ),
     ("demo",),
     ("cli",),
 )

@@ -12,7 +12,6 @@ from benchmarks.drift.drifting_odometry import WanderingOdometry
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.types import Float64
 from placecell.segmentation.incremental import IncrementalSegmentation
-
 from robot.localization.local_engine import LocalEngine
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, SeenSegments

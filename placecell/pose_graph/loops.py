@@ -15,13 +15,12 @@ from placecell.core.cancellation import current
 from placecell.core.progress import Progress, silent
 from placecell.core.spatial import evenly, within
 from placecell.core.types import Bool, Float64, Int64
-from placecell.localization import Candidates, Confidence, Hypothesis, Localization
-from placecell.localization.correspondences import number_places
-from placecell.localization.covariance import at_point, covariance_of
-from placecell.localization.guided_matching import match_guided
-from placecell.localization.localize import find_places, judge, unknown
+from placecell.localization import Candidates, Confidence, Localization
 from placecell.localization.confidence import shipped
-from placecell.localization.registration import register
+from placecell.localization.correspondences import number_places
+from placecell.localization.covariance import at_point
+from placecell.localization.guided_matching import match_guided
+from placecell.localization.localize import find_places, judge
 from placecell.map_alignment import MatchProbabilities
 from placecell.pose_graph.frames import GraphFrames, Links, relative, rotated
 from placecell.pose_graph.parameters import PoseGraphParameters
@@ -201,12 +200,11 @@ class _LoopFinder:
         query = self._query(capture)
         if query is None:
             return []
-        found = [
+        return [
             loop
             for rows in self._stretches(query)
             if (loop := self._localized(query, rows)) is not None
         ]
-        return found
 
     def _query(self, capture: int) -> _Query | None:
         """Search the candidates of the landmarks around a capture; None if there are too few."""
@@ -226,9 +224,7 @@ class _LoopFinder:
         excluded[self._rows_about(capture, parameters.away)] = True
         if excluded.all():
             return None
-        found, probabilities = self._search.nearest(
-            asked.ravel(), excluded, parameters.candidates
-        )
+        found, probabilities = self._search.nearest(asked.ravel(), excluded, parameters.candidates)
         repeated = np.zeros(asked.shape, dtype=bool)
         repeated[:, 1:] = asked[:, 1:] == asked[:, :-1]
         probabilities = np.where(repeated.ravel()[:, None], 0.0, probabilities)
@@ -270,9 +266,7 @@ class _LoopFinder:
             in_cell = left.copy()
             in_cell[left] = inverse.ravel() == weights.argmax()
             middle = np.average(self._ways[rows[in_cell]], weights=shares[in_cell])
-            inside = (self._tracks == best[0]) & (
-                np.abs(self._ways - middle) <= parameters.stretch
-            )
+            inside = (self._tracks == best[0]) & (np.abs(self._ways - middle) <= parameters.stretch)
             inside[self._rows_about(query.capture, parameters.away)] = False
             chosen.append(np.flatnonzero(inside))
             left &= ~inside[rows]
@@ -295,25 +289,19 @@ class _LoopFinder:
         hypotheses = [
             match_guided(each, candidates, there, local, beliefs) for each in places.hypotheses
         ]
-        told = judge(
-            hypotheses, candidates, there, places.usable, local, self._confidence
-        )
+        told = judge(hypotheses, candidates, there, places.usable, local, self._confidence)
         return self._loop(query, told) if told.pose is not None else None
 
     def _loop(self, query: _Query, told: Localization) -> FoundLoop | None:
         """Return the loop of a localization, by the segments that one pass of a robot saw."""
-        parameters, frames = self._parameters, self._graph.frames
+        frames = self._graph.frames
         best = told.best
         assert best is not None  # the capture is localized
         captures = self._graph.captures[best.rows]
         distances = np.linalg.norm(frames.positions[captures] - best.pose.translation, axis=1)
         one = int(captures[np.lexsort((captures, distances))[0]])
-        source, target = best.source, self._graph.centroids[best.rows]
-        pose = register(source, target, np.ones(len(source)), parameters.local)
-        pose = best.pose if pose is None else best.pose
-        covariance = at_point(
-            covariance_of(pose, source, target, parameters.local), pose, np.zeros(3)
-        )
+        pose = best.pose
+        covariance = at_point(best.covariance, pose, np.zeros(3))
         if not np.isfinite(covariance).all():
             return None
         position, yaw = relative(
@@ -336,9 +324,7 @@ class _LoopFinder:
 class _Stretch:
     """Segments of a stretch of the map, compared with the landmarks of a query (`MapSegments`)."""
 
-    def __init__(
-        self, graph: GraphMap, search: SegmentSearch, asked: Int64, rows: Int64
-    ) -> None:
+    def __init__(self, graph: GraphMap, search: SegmentSearch, asked: Int64, rows: Int64) -> None:
         self._rows = rows
         self._centroids = graph.centroids[rows]
         self._search = search

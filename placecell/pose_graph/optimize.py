@@ -5,7 +5,7 @@ solved by GTSAM, with graduated non-convexity against wrong loops (Yang et al. 2
 depend on them, and are a sparse linear system. So roll and pitch stay exactly as they are.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 
 import numpy as np
@@ -76,7 +76,9 @@ def anchors_of(frames: GraphFrames, parts: Int64) -> Int64:
     return order[np.unique(parts[order], return_index=True)[1]]
 
 
-def optimize(frames: GraphFrames, loops: Links, parameters: PoseGraphParameters) -> Solution:
+def optimize(
+    frames: GraphFrames, loops: Links, parameters: PoseGraphParameters, distrust: float = 1.0
+) -> Solution:
     """Return the poses that fit odometry and loops best.
 
     The earliest capture of each part keeps its pose. Captures without odometry and loops stay where
@@ -86,11 +88,13 @@ def optimize(frames: GraphFrames, loops: Links, parameters: PoseGraphParameters)
         frames: the captures; their poses are where the optimization begins.
         loops: relative poses by loops; some may be wrong.
         parameters: constants of the pose graph.
+        distrust: factor of the deviations of the odometry.
 
     Raises:
         PoseGraphUnavailableError: The extra `pose-graph` is not installed.
     """
     odometry = odometry_links(frames, parameters)
+    odometry = replace(odometry, deviations=distrust * odometry.deviations)
     anchors = anchors_of(frames, parts_of(frames, loops))
     plan, yaws, kept = _in_plan(frames, odometry, loops, anchors, parameters)
     heights = _heights(frames, odometry, loops.take(np.flatnonzero(kept)), anchors)
@@ -119,7 +123,7 @@ def _in_plan(
     middle = frames.positions[:, :2].mean(axis=0) if len(frames) else np.zeros(2)
     graph, initial = gtsam.NonlinearFactorGraph(), gtsam.Values()
     noises: dict[tuple[float, float], object] = {}
-    start = _start(frames, odometry, loops, anchors)
+    start = np.column_stack([frames.positions[:, :2], frames.yaws])
     for number, (x, y, yaw) in enumerate(start.tolist()):
         initial.insert(number, gtsam.Pose2(x - middle[0], y - middle[1], yaw))
     firm = gtsam.noiseModel.Isotropic.Sigma(3, ANCHOR)
@@ -141,6 +145,7 @@ def _in_plan(
                 noises[meters, radians] = noise
             graph.add(gtsam.BetweenFactorPose2(one, other, gtsam.Pose2(x, y, yaw), noise))
     known = len(anchors) + len(odometry)
+    values, kept = initial, np.zeros(0, dtype=bool)
     if len(loops):
         settings = gtsam.GncLMParams(gtsam.LevenbergMarquardtParams())
         settings.setLossType(gtsam.GncLossType.TLS)
@@ -149,18 +154,16 @@ def _in_plan(
         robust.setInlierCostThresholdsAtProbability(parameters.probability)
         values = robust.optimize()
         kept = np.asarray(robust.getWeights())[known:] > 0.5
-    else:
-        values = gtsam.LevenbergMarquardtOptimizer(graph, initial).optimize()
-        kept = np.zeros(0, dtype=bool)
+        for loop in np.flatnonzero(~kept).tolist():
+            graph.remove(known + loop)
+    # The robust optimization ends early: the least squares of the kept loops follow exactly.
+    exact = gtsam.LevenbergMarquardtParams()
+    exact.setRelativeErrorTol(1e-10)
+    exact.setAbsoluteErrorTol(1e-10)
+    values = gtsam.LevenbergMarquardtOptimizer(graph, values, exact).optimize()
     poses = [values.atPose2(number) for number in range(len(frames))]
     found = np.array([(each.x(), each.y(), each.theta()) for each in poses]).reshape(-1, 3)
     return found[:, :2] + middle, found[:, 2], kept
-
-
-def _start(frames: GraphFrames, odometry: Links, loops: Links, anchors: Int64) -> Float64:
-    """Return the poses to begin with: those of the frames, float64 (f, 3)."""
-    del odometry, loops, anchors
-    return np.column_stack([frames.positions[:, :2], frames.yaws])
 
 
 def _heights(frames: GraphFrames, odometry: Links, loops: Links, anchors: Int64) -> Float64:
@@ -183,6 +186,8 @@ def _heights(frames: GraphFrames, odometry: Links, loops: Links, anchors: Int64)
         ),
         shape=(count, count),
     )
-    right = np.bincount(other, weights * missing, count) - np.bincount(one, weights * missing, count)
+    right = np.bincount(other, weights * missing, count) - np.bincount(
+        one, weights * missing, count
+    )
     change = spsolve(matrix.tocsc(), right) if count else np.zeros(0)
     return np.asarray(frames.positions[:, 2] + np.atleast_1d(change))

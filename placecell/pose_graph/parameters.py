@@ -44,8 +44,8 @@ class PoseGraphParameters:
     # Plausibility: what drift explains.
     slack: float = 3.0
     slack_per_meter: float = 0.06
-    """Largest distance between a loop and the odometry, and what each meter of way adds to it: three
-    times a drift of 2%."""
+    """Largest distance between a loop and the odometry, and what each meter of way adds to it:
+    three times a drift of 2%."""
     slack_yaw: float = 4.0
     slack_yaw_growth: float = 0.35
     """The same for the heading; the second one is multiplied by the square root of the way."""
@@ -58,9 +58,8 @@ class PoseGraphParameters:
     same: float = 0.7
     same_per_meter: float = 0.03
     same_yaw: float = 3.0
-    """Largest difference of loops that support each other, and what each meter between them adds."""
-    most_loops: int = 4_000
-    """Largest number of loops whose pairs are compared."""
+    """Largest difference of loops that support each other, and what each meter between them
+    adds."""
 
     # Optimization.
     least_deviation: float = 0.15
