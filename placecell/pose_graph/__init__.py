@@ -8,18 +8,18 @@ requests.
 """
 
 from placecell.pose_graph.bend import BentMap, JudgedLoop, bend, judged
-from placecell.pose_graph.frames import GraphFrames, Odometry
+from placecell.pose_graph.frames import CaptureOdometry, GraphFrames
 from placecell.pose_graph.loops import FoundLoop, GraphMap, SegmentSearch
 from placecell.pose_graph.optimize import PoseGraphUnavailableError
 from placecell.pose_graph.parameters import PoseGraphParameters
 
 __all__ = [
     "BentMap",
+    "CaptureOdometry",
     "FoundLoop",
     "GraphFrames",
     "GraphMap",
     "JudgedLoop",
-    "Odometry",
     "PoseGraphParameters",
     "PoseGraphUnavailableError",
     "SegmentSearch",

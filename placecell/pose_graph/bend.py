@@ -23,13 +23,13 @@ from placecell.pose_graph.parameters import PoseGraphParameters
 PARAMETERS = PoseGraphParameters()
 
 Verdict = Literal["accepted", "not-explained-by-drift", "unsupported", "inconsistent", "outlier"]
-"""Judgement of a loop: it is part of the graph; or its drift is too large; or too few loops beside
+"""Judgment of a loop: it is part of the graph; or its drift is too large; or too few loops beside
 it agree; or it contradicts more loops than it agrees with; or the optimization rejects it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JudgedLoop:
-    """Loop with its judgement.
+    """Loop with its judgment.
 
     Attributes:
         loop: the loop.
@@ -52,7 +52,7 @@ class BentMap:
         frames: the captures as they were.
         positions: float64 (f, 3), meters, optimized positions.
         yaws: float64 (f,), radians, optimized headings.
-        loops: all loops that were found, with their judgement.
+        loops: all loops that were found, with their judgment.
         parts: int64 (f,), part of the graph that each capture is in; parts are not connected.
         before: root mean square of the accepted loops' distances before the optimization, meters.
         after: the same after it.
@@ -78,7 +78,7 @@ class BentMap:
 
     @property
     def verdicts(self) -> Counter[str]:
-        """Number of loops by judgement."""
+        """Number of loops by judgment."""
         return Counter(each.verdict for each in self.loops)
 
 

@@ -14,7 +14,7 @@ NO_TRACK = 0
 
 
 @dataclass(frozen=True, eq=False)
-class Odometry:
+class CaptureOdometry:
     """Odometry of f captures: poses in the frame of each track, and their accumulated variances.
 
     Attributes:
@@ -54,7 +54,7 @@ class GraphFrames:
     times: Float64
     positions: Float64
     yaws: Float64
-    odometry: Odometry
+    odometry: CaptureOdometry
 
     def __len__(self) -> int:
         return len(self.times)

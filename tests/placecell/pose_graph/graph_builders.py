@@ -3,7 +3,7 @@
 import numpy as np
 
 from placecell.core.types import Float64, Int64
-from placecell.pose_graph import FoundLoop, GraphFrames, Odometry
+from placecell.pose_graph import CaptureOdometry, FoundLoop, GraphFrames
 from placecell.pose_graph.frames import relative
 
 STEP = 5.0
@@ -42,14 +42,14 @@ def drifted(
 def frames_of(positions: Float64, yaws: Float64, track: int = 1, start: float = 0.0) -> GraphFrames:
     """Return captures whose poses are those of their odometry, a second apart."""
     tracks = np.full(len(yaws), track)
-    odometry = Odometry.from_poses(tracks, positions, yaws)
+    odometry = CaptureOdometry.from_poses(tracks, positions, yaws)
     return GraphFrames(start + np.arange(len(yaws), dtype=float), positions, yaws, odometry)
 
 
 def joined(parts: list[GraphFrames]) -> GraphFrames:
     """Return the captures of several robots as one graph."""
     names = ("tracks", "positions", "yaws", "variances")
-    odometry = Odometry(
+    odometry = CaptureOdometry(
         *(np.concatenate([getattr(each.odometry, name) for each in parts]) for name in names)
     )
     return GraphFrames(

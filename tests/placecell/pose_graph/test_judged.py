@@ -1,10 +1,10 @@
-"""Judgement of loops, and properties of the optimization as a whole."""
+"""Judgment of loops, and properties of the optimization as a whole."""
 
 import numpy as np
 import pytest
 
 from placecell.pose_graph import FoundLoop, GraphFrames, judged
-from placecell.pose_graph.frames import Odometry, composed, relative, rotated
+from placecell.pose_graph.frames import CaptureOdometry, composed, relative, rotated
 from tests.placecell.pose_graph.graph_builders import (
     drifted,
     error,
@@ -112,7 +112,7 @@ def test_order_of_robots_and_captures_does_not_matter() -> None:
         frames.times[order],
         frames.positions[order],
         frames.yaws[order],
-        Odometry(
+        CaptureOdometry(
             odometry.tracks[order],
             odometry.positions[order],
             odometry.yaws[order],
