@@ -70,12 +70,22 @@ def _problem_of_store(error: StoreError) -> Problem:
         return Problem(
             500, "map-damaged", "Stored data is damaged. The service's log says which data."
         )
+    if error.is_unsure:
+        return Problem(
+            503,
+            "store-unavailable",
+            "The database was lost during the commit, so it is not known whether the write was "
+            "stored. Read the map, then repeat the write if it is not there.",
+            headers={"Retry-After": "5"},
+        )
     detail = {
         "busy": "Another process holds the maps' database; nothing was changed.",
-        "read-only": "The disk is read-only; nothing was changed.",
-        "failing": "The disk fails; nothing was changed.",
+        "read-only": "The disk or the database is read-only; nothing was changed.",
+        "failing": "The disk or the database fails; nothing was changed.",
+        "unreachable": "The database cannot be reached; nothing was changed. Try again soon.",
     }[error.kind]
-    return Problem(503, "store-unavailable", detail, headers={"Retry-After": "5"})
+    seconds = "1" if error.kind == "unreachable" else "5"
+    return Problem(503, "store-unavailable", detail, headers={"Retry-After": seconds})
 
 
 def _disk_full() -> Problem:

@@ -16,7 +16,7 @@ NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 IDS = 1 << 32
 """Number of ids of a map: 0 to this, exclusive."""
 
-Trouble = Literal["full", "read-only", "failing", "busy", "damaged", "moved"]
+Trouble = Literal["full", "read-only", "failing", "busy", "damaged", "moved", "unreachable"]
 
 
 class StoreError(Exception):
@@ -25,12 +25,15 @@ class StoreError(Exception):
     Attributes:
         kind: the cause: a full disk (`full`), a read-only disk (`read-only`), a failing disk
             (`failing`), another process that locks the database (`busy`), altered bytes
-            (`damaged`), or files moved, removed or replaced while the service ran (`moved`).
+            (`damaged`), files moved, removed or replaced while the service ran (`moved`), or a
+            server of the database that does not answer (`unreachable`).
+        is_unsure: whether the operation may have been carried out nevertheless.
     """
 
-    def __init__(self, kind: Trouble, message: str) -> None:
+    def __init__(self, kind: Trouble, message: str, is_unsure: bool = False) -> None:
         super().__init__(message)
         self.kind = kind
+        self.is_unsure = is_unsure
 
 
 class StoreLockedError(Exception):

@@ -10,28 +10,25 @@ from dataclasses import replace
 from pathlib import Path
 
 from service.core.files import sync_folder
-from service.maps.sqlite.annotations import errors_in, read_annotations, write_annotations
+from service.maps.sql.annotations import errors_in, read_annotations, write_annotations
+from service.maps.sql.history import SqlHistory
+from service.maps.sql.operations import (
+    append_commit,
+    compact_map,
+    create_map,
+    delete_map,
+    free_unused,
+    import_all,
+    reserve_ids,
+)
+from service.maps.sql.owners import Owners
+from service.maps.sql.rows import Rows
+from service.maps.sql.snapshot import SqlSnapshot
+from service.maps.sql.tables import HEAD, head_from, head_of, row_of, save_head
 from service.maps.sqlite.data_lock import locked
 from service.maps.sqlite.database import ADVICE, Database, Layout
-from service.maps.sqlite.history import SqliteHistory
 from service.maps.sqlite.id_ledger import SKIPPED, IdLedger
-from service.maps.sqlite.owners import Owners
-from service.maps.sqlite.snapshot import SqliteSnapshot
-from service.maps.sqlite.tables import (
-    HEAD,
-    SCHEMA,
-    VERSION,
-    add_annotations,
-    fill,
-    head_from,
-    head_of,
-    insert_base,
-    insert_commit,
-    insert_map,
-    migrate,
-    row_of,
-    save_head,
-)
+from service.maps.sqlite.tables import SCHEMA, VERSION, add_annotations, fill, migrate
 from service.maps.store import (
     IDS,
     NO_IDS,
@@ -39,12 +36,9 @@ from service.maps.store import (
     Ids,
     MapHead,
     Note,
-    OutOfIdsError,
     Owner,
     StoreError,
     StoreSnapshot,
-    TooManyIdsError,
-    commit_after,
     skipped_ids,
 )
 
@@ -52,12 +46,6 @@ FILE = "maps.sqlite"
 LEDGER = "ids"
 
 LAYOUT = Layout(VERSION, SCHEMA, fill, {1: migrate, 2: add_annotations})
-
-RESERVED_SECONDS = 7 * 24 * 3600.0
-"""Time for which a reserved, unwritten id counts against its key's limit, seconds."""
-
-OF_MAPS = ("commits", "bases", "owners", "annotations", "maps")
-"""Tables whose rows belong to a map."""
 
 logger = logging.getLogger("placecell")
 
@@ -131,32 +119,17 @@ class SqliteMapStore:
             return [head_from(row) for row in connection.execute(f"{HEAD} ORDER BY name")]
 
     @contextmanager
-    def read(self, uid: str) -> Iterator[SqliteHistory]:
+    def read(self, uid: str) -> Iterator[SqlHistory]:
         """Read a map's log; KeyError if there is no such map."""
         with self._database.snapshot() as connection:
-            yield SqliteHistory(connection, row_of(connection, uid), head_of(connection, uid))
+            yield SqlHistory(connection, row_of(connection, uid), head_of(connection, uid))
 
     def create(
         self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
     ) -> MapHead:
         """Create a map with its first version, sequence 1; ValueError if the name is in use."""
-        uid = secrets.token_hex(8)
-        commit = commit_after(uid, 1, note, file, 0)
-        with self._database.transaction() as connection:
-            if connection.execute("SELECT 1 FROM maps WHERE name = ?", (name,)).fetchone():
-                raise ValueError(f"map {name!r} exists already")
-            first, end = ids.leave(next_id, IDS)
-            head = MapHead(name, uid, 1, commit.mark, 1, first, len(file), 0, note.author, end)
-            row = connection.execute(
-                "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
-                " VALUES (?, ?, 1, ?, 1, ?, ?, 0)",
-                (name, uid, commit.mark, next_id, len(file)),
-            ).lastrowid
-            assert row is not None
-            Owners(connection, row).write(ids.written, note.author)
-            insert_commit(connection, row, commit, None)
-            insert_base(connection, row, file)
-            return save_head(connection, row, head)
+        with self._database.transaction() as rows:
+            return create_map(rows, secrets.token_hex(8), name, file, note, next_id, ids)
 
     def append(
         self,
@@ -173,25 +146,8 @@ class SqliteMapStore:
             frees: whether the commit makes the map smaller, so that it may use the disk reserve.
         """
 
-        def add(connection: sqlite3.Connection) -> MapHead:
-            row, found = row_of(connection, head.uid), head_of(connection, head.uid)
-            if found.mark != head.mark:
-                raise KeyError(head.name)
-            commit = commit_after(head.mark, head.sequence + 1, note, blob, len(blob))
-            first, end = ids.leave(max(found.next_id, next_id), found.end_id)
-            after = replace(
-                found,
-                sequence=commit.sequence,
-                mark=commit.mark,
-                next_id=first,
-                end_id=end,
-                log_bytes=found.log_bytes + len(blob),
-            )
-            if after.next_id > found.next_id:
-                self._ledger.raise_to(head.uid, after.next_id)
-            Owners(connection, row).write(ids.written, note.author)
-            insert_commit(connection, row, commit, blob)
-            return save_head(connection, row, after)
+        def add(rows: Rows) -> MapHead:
+            return append_commit(rows, head, blob, note, next_id, ids, self._ledger)
 
         if frees:
             return self._database.freeing(add, share=0.5)
@@ -200,30 +156,8 @@ class SqliteMapStore:
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
         """Reserve ids that no segment ever had; return the first. Raises as `MapStore` does."""
-        with self._database.transaction() as connection:
-            row, head = row_of(connection, uid), head_of(connection, uid)
-            owners = Owners(connection, row)
-            now = self._clock()
-            reserved = owners.reserved(author, now - RESERVED_SECONDS)
-            if reserved + count > most:
-                raise TooManyIdsError(
-                    f"this key has {reserved:,} reserved ids that it has not written; the limit is "
-                    f"{most:,}"
-                )
-            if head.next_id + count > head.end_id:
-                # A larger gap may be beside an id that a robot chose far from the others.
-                first, end = owners.largest_gap()
-                if end - first < max(count, head.end_id - head.next_id):
-                    first, end = head.next_id, head.end_id
-                if first + count > end:
-                    raise OutOfIdsError(f"only {max(end - first, 0)} ids are left")
-                head = replace(head, next_id=first, end_id=end)
-                self._ledger.forget(uid)
-            first = head.next_id
-            self._ledger.raise_to(uid, first + count)
-            owners.reserve(first, first + count, author, now)
-            save_head(connection, row, replace(head, next_id=first + count))
-            return first
+        with self._database.transaction() as rows:
+            return reserve_ids(rows, uid, count, author, most, self._clock(), self._ledger)
 
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
         """Return the last owner of each of these ids; None for ids without an owner."""
@@ -237,16 +171,12 @@ class SqliteMapStore:
             uid: uid of the map; KeyError if there is no such map.
             used: ids in use, ascending.
         """
-        with self._database.transaction() as connection:
-            row, head = row_of(connection, uid), head_of(connection, uid)
-            owners = Owners(connection, row)
-            owners.keep_only(used)
-            first, end = owners.largest_gap()
-            after = save_head(connection, row, replace(head, next_id=first, end_id=end))
+        with self._database.transaction() as rows:
+            after = free_unused(rows, uid, used)
         try:
             # Otherwise the next start would treat freed ids as given out.
             self._ledger.forget(uid)
-            self._ledger.rewrite(self._ledger.limits | {uid: first})
+            self._ledger.rewrite(self._ledger.limits | {uid: after.next_id})
         except OSError as error:
             raise StoreError("failing", f"{self._folder / LEDGER}: {error}") from error
         return after
@@ -275,74 +205,24 @@ class SqliteMapStore:
 
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Drop the versions before one, whose file is given; KeyError if it is not kept."""
-
-        def shorten(connection: sqlite3.Connection) -> MapHead:
-            row, head = row_of(connection, uid), head_of(connection, uid)
-            found = connection.execute(
-                "UPDATE commits SET delta = NULL, bytes = 0 WHERE map = ? AND sequence = ?",
-                (row, sequence),
-            )
-            if not found.rowcount:
-                raise KeyError(sequence)
-            connection.execute(
-                "DELETE FROM commits WHERE map = ? AND sequence < ?", (row, sequence)
-            )
-            connection.execute("DELETE FROM bases WHERE map = ?", (row,))
-            insert_base(connection, row, file)
-            (left,) = connection.execute(
-                "SELECT coalesce(sum(bytes), 0) FROM commits WHERE map = ?", (row,)
-            ).fetchone()
-            after = replace(head, oldest=sequence, base_bytes=len(file), log_bytes=left)
-            save_head(connection, row, after)
-            return head_of(connection, uid)
-
-        return self._database.freeing(shorten)
+        return self._database.freeing(lambda rows: compact_map(rows, uid, sequence, file))
 
     def delete(self, uid: str) -> None:
         """Remove a map with all its versions; KeyError if there is no such map."""
-
-        def remove(connection: sqlite3.Connection) -> None:
-            row = row_of(connection, uid)
-            for table in OF_MAPS:
-                connection.execute(f"DELETE FROM {table} WHERE map = ?", (row,))
-
-        self._database.freeing(remove)
+        self._database.freeing(lambda rows: delete_map(rows, uid))
 
     @contextmanager
-    def snapshot(self) -> Iterator[SqliteSnapshot]:
+    def snapshot(self) -> Iterator[SqlSnapshot]:
         """Read all maps at one moment, without blocking writers."""
         with self._database.snapshot() as connection:
-            yield SqliteSnapshot(connection)
+            yield SqlSnapshot(connection)
 
     def import_maps(
         self, source: StoreSnapshot, skipped: int = 0, replaces: bool = False
     ) -> list[MapHead]:
         """Store all maps of a snapshot in one transaction. Parameters are those of `MapStore`."""
-        with self._database.transaction() as connection:
-            if not replaces and connection.execute("SELECT 1 FROM maps").fetchone():
-                raise ValueError(f"{self._database.path} has maps already")
-            for table in OF_MAPS:
-                connection.execute(f"DELETE FROM {table}")
-            return self._import(connection, source, skipped)
-
-    def _import(
-        self, connection: sqlite3.Connection, source: StoreSnapshot, skipped: int
-    ) -> list[MapHead]:
-        annotations = source.annotations()
-        heads = []
-        for head in source.heads():
-            known = self._ledger.limits.get(head.uid)
-            # A known limit is exact: the ledger was written before the ids were given out.
-            first = skipped_ids(head, known or 0, skipped if known is None else 0)
-            after = replace(head, next_id=first)
-            row = insert_map(connection, after, source.history(head.uid))
-            owners = Owners(connection, row)
-            owners.insert(source.owned_ids(head.uid))
-            if first > head.next_id:  # their owner is not known
-                owners.reserve(head.next_id, first, "", 0.0)
-            write_annotations(connection, row, annotations.get(head.uid, ()), ())
-            heads.append(after)
-        return heads
+        with self._database.transaction() as rows:
+            return import_all(rows, source, skipped, replaces, self._ledger.limits)
 
     def release_space(self) -> None:
         """Return the space of removed data to the disk."""

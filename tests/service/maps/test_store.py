@@ -11,12 +11,11 @@ from typing import Any
 
 import pytest
 
-from service.maps import store as map_store
+from service.maps.sql.tables import PART_BYTES
 from service.maps.sqlite.database import ADVICE, VACUUM_PAGES
 from service.maps.sqlite.id_ledger import SKIPPED
 from service.maps.sqlite.store import FILE, SqliteMapStore
-from service.maps.sqlite.tables import PART_BYTES
-from service.maps.store import IDS, Ids, MapHead, Note, OutOfIdsError, StoreError, StoreLockedError
+from service.maps.store import MapHead, Note, StoreError, StoreLockedError
 
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"
@@ -55,107 +54,11 @@ def grown(store: SqliteMapStore, name: str = "yard", commits: int = 4) -> MapHea
     return head
 
 
-def test_history_has_a_base_and_commits(store: SqliteMapStore) -> None:
-    first = store.create("yard", LARGE, NOTE, 7)
-    assert (first.name, first.sequence, first.oldest, first.next_id) == ("yard", 1, 1, 7)
-    second = store.append(first, b"one", NOTE, 9)
-    third = store.append(second, b"three", replace(NOTE, author="zoe"), 8)
-    assert (third.sequence, third.oldest, third.next_id) == (3, 1, 9)
-    assert (third.base_bytes, third.log_bytes, third.commits) == (len(LARGE), 8, 2)
-    assert all_of(store, first.uid) == (third, LARGE, [(2, b"one"), (3, b"three")])
-    assert store.heads() == [third]
-    with store.read(first.uid) as history:
-        assert [commit.sequence for commit in history.commits()] == [1, 2, 3]
-        assert [commit.note.author for commit in history.commits()] == ["ann", "ann", "zoe"]
-        assert [commit.mark for commit in history.commits()] == [
-            first.mark,
-            second.mark,
-            third.mark,
-        ]
-        assert [blob for _, blob in history.blobs(2, 3)] == [b"three"]
-        assert list(history.blobs(3, 3)) == []
-    assert store.verify() == []
-
-
 def test_reopened_store_has_all_maps(folder: Path) -> None:
     with SqliteMapStore.owned(folder) as store:
         before = all_of(store, grown(store).uid), store.heads()
     with SqliteMapStore.owned(folder) as store:
         assert (all_of(store, store.heads()[0].uid), store.heads()) == before
-
-
-def test_append_to_an_outdated_head_fails(store: SqliteMapStore) -> None:
-    first = store.create("yard", b"file", NOTE, 0)
-    second = store.append(first, b"a", NOTE, 0)
-    for wrong in (first, replace(second, mark="0" * 64), replace(second, uid="other")):
-        with pytest.raises(KeyError):
-            store.append(wrong, b"b", NOTE, 0)
-    assert store.heads() == [second]
-    with pytest.raises(ValueError, match="'yard' exists already"):
-        store.create("yard", b"other", NOTE, 0)
-    for call in (store.delete, lambda uid: store.reserve(uid, 1), lambda uid: all_of(store, uid)):
-        with pytest.raises(KeyError):
-            call("absent")
-
-
-def test_marks_identify_a_version_and_its_history(store: SqliteMapStore) -> None:
-    one, other = (store.create(name, b"file", NOTE, 0) for name in ("a", "b"))
-    assert one.mark != other.mark
-    same = [store.append(head, b"delta", NOTE, 0).mark for head in (one, other)]
-    assert same[0] != same[1]
-    store.delete(one.uid)
-    again = store.create("a", b"file", NOTE, 0)
-    assert again.uid != one.uid
-    assert store.append(again, b"delta", NOTE, 0).mark != same[0]
-
-
-def test_compaction_drops_earlier_versions(store: SqliteMapStore) -> None:
-    head = grown(store)
-    other = grown(store, "other")
-    before = all_of(store, other.uid)
-    compacted = store.compact(head.uid, 3, b"the file of version 3")
-    assert compacted == replace(
-        head, oldest=3, base_bytes=len(b"the file of version 3"), log_bytes=9_000 + 12_000
-    )
-    assert all_of(store, head.uid)[1:] == (
-        b"the file of version 3",
-        [(4, b"\2" * 9_000), (5, b"\3" * 12_000)],
-    )
-    with store.read(head.uid) as history:
-        assert [commit.sequence for commit in history.commits()] == [3, 4, 5]
-        with pytest.raises(KeyError):
-            list(history.blobs(2, 4))
-    for gone in (2, 6):
-        with pytest.raises(KeyError):
-            store.compact(head.uid, gone, b"")
-    assert store.compact(head.uid, 5, b"head").log_bytes == 0
-    assert all_of(store, other.uid) == before
-    assert store.verify() == []
-
-
-def test_reader_sees_one_state(store: SqliteMapStore) -> None:
-    head = grown(store)
-    before = all_of(store, head.uid)
-    with store.read(head.uid) as history:
-        store.compact(store.append(head, b"more", NOTE, 0).uid, 5, b"later")
-        assert (history.head, history.base()) == before[:2]
-        assert len(list(history.blobs(1, 5))) == 4
-        store.delete(head.uid)
-        assert len(history.commits()) == 5
-    assert store.heads() == []
-
-
-def test_reserve_gives_out_ids_once(store: SqliteMapStore) -> None:
-    head = store.create("yard", b"file", NOTE, 10)
-    assert [store.reserve(head.uid, count) for count in (5, 1, 3)] == [10, 15, 16]
-    assert store.append(head, b"", NOTE, 12).next_id == 19
-    (head,) = store.heads()
-    store.append(head, b"", NOTE, IDS - 2, Ids((), ((0, IDS - 2),)))
-    with pytest.raises(OutOfIdsError, match="2 ids"):
-        store.reserve(head.uid, 3)
-    assert store.reserve(head.uid, 2) == IDS - 2
-    with pytest.raises(OutOfIdsError, match="0 ids"):
-        store.reserve(head.uid, 1)
 
 
 def test_every_call_is_one_transaction(store: SqliteMapStore) -> None:
@@ -267,33 +170,6 @@ def test_locked_database_is_reported_after_a_wait(store: SqliteMapStore, folder:
         assert raised.value.kind == "busy"
         assert store.heads() == [head]
     assert store.append(head, b"", NOTE, 0).sequence == head.sequence + 1
-
-
-@pytest.mark.parametrize(
-    ("statement", "words"),
-    [
-        ("UPDATE commits SET delta = x'00' WHERE sequence = 3", "version 3"),
-        ("UPDATE commits SET delta = NULL WHERE sequence = 5", "version 5"),
-        ("UPDATE commits SET mark = 'x' WHERE sequence = 5", "version 5"),
-        ("DELETE FROM commits WHERE sequence = 4", "version 4"),
-        ("DELETE FROM commits WHERE sequence = 5", "version 5"),
-        ("UPDATE bases SET data = x'00' WHERE part = 1", "base"),
-        ("DELETE FROM bases WHERE part = 1", "base"),
-    ],
-)
-def test_damaged_blob_is_reported_and_other_maps_are_read(
-    store: SqliteMapStore, folder: Path, statement: str, words: str
-) -> None:
-    head, other = grown(store), grown(store, "other")
-    with behind(folder) as connection:
-        where = " AND" if "WHERE" in statement else " WHERE"
-        connection.execute(f"{statement}{where} map = 1")
-    with pytest.raises(StoreError, match=f"'yard': its {words} was altered or lost") as raised:
-        all_of(store, head.uid)
-    assert raised.value.kind == "damaged"
-    assert len(all_of(store, other.uid)[2]) == 4
-    (found,) = store.verify()
-    assert words in found
 
 
 def test_truncated_database_does_not_open(folder: Path) -> None:
@@ -410,14 +286,3 @@ def test_map_files_of_version_0_are_logged_not_read(
     assert "1 map files" in caplog.text
     assert "version 0" in caplog.text
     assert (folder / "maps" / "yard.safetensors").read_bytes() == b"old"
-
-
-def test_mark_depends_on_the_whole_history() -> None:
-    marks = {
-        map_store.mark_of(map_store.link_of(before, sequence, blob), note)
-        for before in ("a", "b")
-        for sequence in (1, 2)
-        for blob in (b"", b"x")
-        for note in (NOTE, replace(NOTE, author="zoe"), replace(NOTE, time=1.8e9))
-    }
-    assert len(marks) == 24

@@ -19,8 +19,8 @@ from placecell.localization.registration import register_yaw
 from placecell.map_alignment import MapAlignment
 from service.maps.index import index_of
 from service.maps.layers import MapLayers
-from service.maps.sqlite.owners import Owners
-from service.maps.sqlite.tables import row_of, save_head
+from service.maps.sql.owners import Owners
+from service.maps.sql.tables import row_of, save_head
 from service.merging import alignment
 from service.merging import plan as merging
 from tests.service.core.test_auth import made

@@ -2,24 +2,24 @@
 
 import hashlib
 import json
-import sqlite3
 from collections.abc import Collection, Iterator, Sequence
 
+from service.maps.sql.rows import Rows
 from service.maps.store import Annotation
 
 
 def read_annotations(
-    connection: sqlite3.Connection,
+    rows: Rows,
 ) -> tuple[dict[str, list[Annotation]], list[str]]:
     """Return the annotations of all maps, by uid, and an error for each altered one."""
     found: dict[str, list[Annotation]] = {}
     errors = []
-    rows = connection.execute(
+    found_rows = rows.execute(
         "SELECT uid, maps.name, maps.map, kind, annotations.name, value, author, time, "
         "annotations.digest FROM annotations JOIN maps ON maps.map = annotations.map "
         "ORDER BY uid, kind, annotations.name"
     )
-    for uid, of_map, row, *values, digest in rows:
+    for uid, of_map, row, *values, digest in found_rows:
         annotation = Annotation(*values)
         if digest == digest_of(row, annotation):
             found.setdefault(uid, []).append(annotation)
@@ -32,19 +32,22 @@ def read_annotations(
 
 
 def write_annotations(
-    connection: sqlite3.Connection,
+    rows: Rows,
     row: int,
     put: Sequence[Annotation],
     removed: Collection[tuple[str, str]],
 ) -> None:
     """Add or replace annotations of a map, and remove some, within a transaction."""
     for kind, name in removed:
-        connection.execute(
+        rows.execute(
             "DELETE FROM annotations WHERE map = ? AND kind = ? AND name = ?", (row, kind, name)
         )
     for each in put:
-        connection.execute(
-            "INSERT OR REPLACE INTO annotations VALUES (?, ?, ?, ?, ?, ?, ?)",
+        rows.execute(
+            "INSERT INTO annotations (map, kind, name, value, author, time, digest) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (map, kind, name) DO UPDATE SET "
+            "value = excluded.value, author = excluded.author, time = excluded.time, "
+            "digest = excluded.digest",
             (
                 row,
                 each.kind,
@@ -70,11 +73,11 @@ def digest_of(row: int, annotation: Annotation) -> str:
     return hashlib.sha256(json.dumps(fields).encode()).hexdigest()[:16]
 
 
-def errors_in(connection: sqlite3.Connection) -> Iterator[str]:
+def errors_in(rows: Rows) -> Iterator[str]:
     """Yield errors of the table: rows without a map, and altered rows."""
-    (lost,) = connection.execute(
+    (lost,) = rows.execute(
         "SELECT count(*) FROM annotations WHERE map NOT IN (SELECT map FROM maps)"
     ).fetchone()
     if lost:
         yield f"{lost} rows of the table annotations belong to no map"
-    yield from read_annotations(connection)[1]
+    yield from read_annotations(rows)[1]

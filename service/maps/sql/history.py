@@ -1,18 +1,18 @@
-"""History of one map in `maps.sqlite`, read and checked against its marks."""
+"""History of one map, read and checked against its marks."""
 
 import hashlib
-import sqlite3
 from collections.abc import Iterator
 
-from service.maps.sqlite.tables import COMMIT, commit_from
+from service.maps.sql.rows import Rows
+from service.maps.sql.tables import COMMIT, commit_from
 from service.maps.store import Commit, MapHead, StoreError, follows, is_own_mark
 
 
-class SqliteHistory:
+class SqlHistory:
     """Log of one map at one moment."""
 
-    def __init__(self, connection: sqlite3.Connection, row: int, head: MapHead) -> None:
-        self._connection = connection
+    def __init__(self, rows: Rows, row: int, head: MapHead) -> None:
+        self._rows = rows
         self._row = row
         self._head = head
 
@@ -23,7 +23,7 @@ class SqliteHistory:
 
     def commits(self) -> list[Commit]:
         """Return the commits from the base to the newest version."""
-        rows = self._connection.execute(
+        rows = self._rows.execute(
             f"{COMMIT} FROM commits WHERE map = ? ORDER BY sequence", (self._row,)
         )
         found = [commit_from(row) for row in rows]
@@ -39,7 +39,7 @@ class SqliteHistory:
 
     def mark(self, sequence: int) -> str:
         """Return the mark of one version; KeyError if it is not kept."""
-        found = self._connection.execute(
+        found = self._rows.execute(
             f"{COMMIT} FROM commits WHERE map = ? AND sequence = ?", (self._row, sequence)
         ).fetchone()
         if not self._head.oldest <= sequence <= self._head.sequence:
@@ -51,7 +51,7 @@ class SqliteHistory:
     def base(self) -> bytes:
         """Return the file of the oldest version; StoreError if it is damaged."""
         parts: list[bytes] = []
-        for part, sha256, data in self._connection.execute(
+        for part, sha256, data in self._rows.execute(
             "SELECT part, sha256, data FROM bases WHERE map = ? ORDER BY part", (self._row,)
         ):
             is_next = part == len(parts) and isinstance(data, bytes)
@@ -65,7 +65,7 @@ class SqliteHistory:
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
         """Yield the commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
         before, sequence = self.mark(after), after
-        for *columns, blob in self._connection.execute(
+        for *columns, blob in self._rows.execute(
             f"{COMMIT}, delta FROM commits "
             "WHERE map = ? AND sequence > ? AND sequence <= ? ORDER BY sequence",
             (self._row, after, until),

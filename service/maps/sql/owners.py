@@ -2,11 +2,11 @@
 
 import hashlib
 import json
-import sqlite3
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from service.maps.sql.rows import Rows
 from service.maps.store import IDS, OwnedIds, Owner, StoreError
 
 CLOSED = 16_384
@@ -20,8 +20,8 @@ Run = tuple[int, int]
 class Owners:
     """Owners of one map's ids, within a transaction."""
 
-    def __init__(self, connection: sqlite3.Connection, row: int) -> None:
-        self._connection = connection
+    def __init__(self, rows: Rows, row: int) -> None:
+        self._rows = rows
         self._row = row
 
     def write(self, runs: Sequence[Run], author: str) -> None:
@@ -34,7 +34,7 @@ class Owners:
 
     def reserved(self, author: str, since: float) -> int:
         """Count the ids that a key has reserved since a time and not written."""
-        (count,) = self._connection.execute(
+        (count,) = self._rows.execute(
             "SELECT coalesce(sum(until - first), 0) FROM owners "
             "WHERE map = ? AND author = ? AND reserved > ?",
             (self._row, author, since),
@@ -73,30 +73,34 @@ class Owners:
             begin, end = np.searchsorted(ids, [each.first, each.until])
             if end > begin:
                 kept.append(OwnedIds(int(ids[begin]), int(ids[end - 1]) + 1, each.author, None))
-        self._connection.execute("DELETE FROM owners WHERE map = ?", (self._row,))
+        self._rows.execute("DELETE FROM owners WHERE map = ?", (self._row,))
         self.insert(kept)
 
     def all(self) -> list[OwnedIds]:
         """Return all ascending runs; StoreError if one was altered."""
         return self._read(
-            "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 "
-            "ORDER BY first"
+            "SELECT first, until, author, reserved, digest FROM owners WHERE map = ? "
+            "ORDER BY first",
+            self._row,
         )
 
     def _within(self, first: int, until: int) -> list[OwnedIds]:
         """Return the ascending runs that overlap these ids."""
         found = self._read(
-            "SELECT first, until, author, reserved, digest FROM owners WHERE map = ?1 AND "
-            "first < ?3 AND first >= coalesce((SELECT max(first) FROM owners "
-            "WHERE map = ?1 AND first <= ?2), ?2) ORDER BY first",
-            first,
+            "SELECT first, until, author, reserved, digest FROM owners WHERE map = ? AND "
+            "first < ? AND first >= coalesce((SELECT max(first) FROM owners "
+            "WHERE map = ? AND first <= ?), ?) ORDER BY first",
+            self._row,
             until,
+            self._row,
+            first,
+            first,
         )
         return [each for each in found if each.until > first]
 
     def _read(self, query: str, *values: int) -> list[OwnedIds]:
         found = []
-        for *columns, digest in self._connection.execute(query, (self._row, *values)):
+        for *columns, digest in self._rows.execute(query, values):
             each = OwnedIds(*columns)
             if digest != _digest_of(self._row, each):
                 raise StoreError("damaged", "a row of the table owners was altered")
@@ -123,7 +127,7 @@ class Owners:
                 at = max(at, run.until)
             if at < each.until:
                 left.append(OwnedIds(at, each.until, each.author, each.reserved))
-        self._connection.executemany(
+        self._rows.executemany(
             "DELETE FROM owners WHERE map = ? AND first = ?",
             [(self._row, each.first) for each in owned],
         )
@@ -131,7 +135,7 @@ class Owners:
 
     def insert(self, owned: Iterable[OwnedIds]) -> None:
         """Add runs that overlap no present one."""
-        self._connection.executemany(
+        self._rows.executemany(
             "INSERT INTO owners VALUES (?, ?, ?, ?, ?, ?)",
             [
                 (

@@ -1,0 +1,1 @@
+"""Map store in PostgreSQL: the logs of all maps in one database that several services use."""

@@ -1,0 +1,318 @@
+"""Connections to PostgreSQL with bounded waits, and transactions that survive a lost connection."""
+
+import logging
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from functools import lru_cache
+from typing import Any, TypeVar
+
+import psycopg
+from psycopg import conninfo
+from psycopg_pool import ConnectionPool, PoolTimeout
+
+from service.maps.postgres.errors import is_busy, is_lost, translated
+from service.maps.postgres.tables import SCHEMA
+from service.maps.postgres.watchdog import Watchdog
+from service.maps.sql.rows import Rows
+from service.maps.store import StoreError
+
+Result = TypeVar("Result")
+Connection = psycopg.Connection[tuple[Any, ...]]
+Work = Callable[[Rows, bool], Result]
+"""Statements of a transaction. They may run again; the flag says whether an earlier run may have
+been committed."""
+
+CONNECT_SECONDS = 3
+"""Seconds within which a server must accept a connection."""
+
+POOL_SECONDS = 3.0
+"""Seconds to wait for a connection of the pool."""
+
+RECONNECT_SECONDS = 2.0
+"""Seconds for which the pool tries to connect before it gives up; the next request tries anew.
+The pool doubles its pauses, so a longer time would delay the first write after a failover."""
+
+RETRY_SECONDS = 6.0
+"""Seconds for which a write is repeated whose connection was lost."""
+
+PAUSE_SECONDS = 0.1
+"""Seconds between two tries."""
+
+STATEMENT_SECONDS = 20.0
+"""Seconds that a statement or a commit may take."""
+
+LOCK_SECONDS = 3.0
+"""Seconds to wait for a row that another transaction has locked."""
+
+IDLE_SECONDS = 5.0
+"""Seconds without a statement after which the server ends a write, so that a stopped service holds
+no lock."""
+
+READ_IDLE_SECONDS = 600.0
+"""Seconds without a statement after which the server ends a read."""
+
+NETWORK = {
+    "connect_timeout": f"{CONNECT_SECONDS}",
+    "keepalives_idle": "5",
+    "keepalives_interval": "2",
+    "keepalives_count": "3",
+    "tcp_user_timeout": "10000",
+    "application_name": "placecell",
+    # Of several hosts, and behind a proxy, only the primary is used.
+    "target_session_attrs": "read-write",
+}
+"""Parameters of connections; the URL can state others."""
+
+SYNC_CANCELED = {"57014", "57P01"}
+"""Codes of the warning that a commit did not wait for its synchronous standby."""
+
+logger = logging.getLogger("placecell")
+
+
+class PostgresRows:
+    """Statements on one connection; each has a time limit."""
+
+    def __init__(self, connection: Connection, watchdog: Watchdog) -> None:
+        self._connection = connection
+        self._watchdog = watchdog
+
+    def execute(self, statement: str, values: Sequence[Any] = (), /) -> Any:
+        """Run a statement; return its cursor."""
+        with self._watchdog.limit(self._connection, STATEMENT_SECONDS):
+            return self._connection.execute(_in_dialect(statement), values or None)
+
+    def executemany(self, statement: str, values: Iterable[Sequence[Any]], /) -> Any:
+        """Run a statement once for each row of values."""
+        rows = list(values)
+        cursor = self._connection.cursor()
+        if rows:
+            with self._watchdog.limit(self._connection, STATEMENT_SECONDS):
+                cursor.executemany(_in_dialect(statement), rows)
+        return cursor
+
+
+class PostgresDatabase:
+    """Database with a pool of connections. Safe to use from many threads."""
+
+    def __init__(self, url: str, connections: int) -> None:
+        """Prepare connections; none is made yet.
+
+        Args:
+            url: URL of the database; the password stays out of all messages.
+            connections: largest number of connections at once.
+
+        Raises:
+            StoreError: the URL is invalid.
+        """
+        try:
+            stated: Mapping[str, Any] = conninfo.conninfo_to_dict(url)
+        except psycopg.ProgrammingError as error:
+            raise StoreError(
+                "failing",
+                "The URL of the database is invalid. Expected "
+                "postgresql://USER:PASSWORD@HOST:PORT/DATABASE",
+            ) from error
+        self._parameters = conninfo.make_conninfo(**NETWORK | dict(stated))
+        self._last_error: psycopg.Error | None = None
+        self._watchdog = Watchdog()
+        self._parts = ExitStack()
+        self._parts.callback(self._watchdog.close)
+        self._pool = ConnectionPool(
+            self._parameters,
+            connection_class=_connecting(self._note_error),
+            min_size=1,
+            max_size=connections,
+            open=False,
+            configure=_configure,
+            timeout=POOL_SECONDS,
+            reconnect_timeout=RECONNECT_SECONDS,
+            num_workers=2,
+        )
+
+    def open(self) -> None:
+        """Open the pool; its connections are made in the background."""
+        self._pool.open()
+        self._parts.callback(self._pool.close, POOL_SECONDS)
+
+    def close(self) -> None:
+        """Close all connections."""
+        self._parts.close()
+
+    @contextmanager
+    def connected(self) -> Iterator[tuple[Connection, Rows]]:
+        """Make a connection outside of the pool; each statement is its own transaction.
+
+        Raises:
+            StoreError: the server does not accept it.
+        """
+        with _translated(), psycopg.connect(self._parameters, autocommit=True) as connection:
+            _configure(connection)
+            yield connection, PostgresRows(connection, self._watchdog)
+
+    def transaction(self, work: Work[Result]) -> Result:
+        """Run writes as one transaction, durable on return.
+
+        If the connection is lost, they run again on another one. If that was during the commit, its
+        outcome is not known; the next run is told so and finds out.
+
+        Raises:
+            StoreError: nothing was changed; unless its message says that this is not known.
+        """
+        until = time.monotonic() + RETRY_SECONDS
+        unsure = False
+        while True:
+            attempt = _Attempt()
+            try:
+                return self._run(work, unsure, attempt)
+            except PoolTimeout as error:
+                failed = self._unreachable(error)
+                if not unsure:
+                    raise failed from error
+            except psycopg.Error as error:
+                failed = translated(error)
+                unsure = unsure or (attempt.is_committing and is_lost(error))
+                if not (is_lost(error) or (is_busy(error) and (unsure or _is_conflict(error)))):
+                    raise failed from error
+            if time.monotonic() > until:
+                raise _unsure(failed) if unsure else failed
+            time.sleep(PAUSE_SECONDS)
+
+    @contextmanager
+    def snapshot(self) -> Iterator[Rows]:
+        """Read one state of the database, without waiting for writers or blocking them."""
+        with _translated(), ExitStack() as held:
+            connection = self._begin_reading(held)
+            yield PostgresRows(connection, self._watchdog)
+            connection.rollback()
+
+    def _begin_reading(self, held: ExitStack) -> Connection:
+        """Return a connection of the pool with a read transaction, held for a block."""
+        until = time.monotonic() + RETRY_SECONDS
+        while True:
+            with ExitStack() as trying:
+                try:
+                    connection = trying.enter_context(self._pool.connection())
+                    PostgresRows(connection, self._watchdog).execute(
+                        "SET TRANSACTION ISOLATION LEVEL REPEATABLE READ, READ ONLY;"
+                        "SET LOCAL idle_in_transaction_session_timeout = "
+                        f"'{READ_IDLE_SECONDS:.0f}s'"
+                    )
+                except PoolTimeout as error:
+                    raise self._unreachable(error) from error
+                except psycopg.Error as error:
+                    # A connection that was idle while the server restarted.
+                    if not is_lost(error) or time.monotonic() > until:
+                        raise
+                    continue
+                held.push(trying.pop_all())
+                return connection
+
+    def _run(self, work: Work[Result], unsure: bool, attempt: "_Attempt") -> Result:
+        with self._pool.connection() as connection:
+            try:
+                rows = PostgresRows(connection, self._watchdog)
+                result = work(rows, unsure)
+                attempt.is_committing = True
+                with (
+                    _noticing(connection) as notices,
+                    self._watchdog.limit(connection, STATEMENT_SECONDS),
+                ):
+                    connection.commit()
+            except psycopg.Error as error:
+                if is_lost(error):
+                    connection.close()  # the pool makes another one
+                raise
+            if SYNC_CANCELED & notices:
+                raise psycopg.OperationalError("the wait for the synchronous standby was canceled")
+            return result
+
+    def _note_error(self, error: psycopg.Error | None) -> None:
+        self._last_error = error
+
+    def _unreachable(self, timeout: PoolTimeout) -> StoreError:
+        """Return the reason why the pool has no connection."""
+        last = self._last_error
+        return translated(last if last is not None else timeout)
+
+
+class _Attempt:
+    """State of a run of a transaction."""
+
+    is_committing = False
+
+
+def _connecting(note: Callable[[psycopg.Error | None], None]) -> type[Connection]:
+    """Return a class of connections that notes why a connection could not be made."""
+
+    class Noting(psycopg.Connection[tuple[Any, ...]]):
+        @classmethod
+        def connect(cls, *args: Any, **options: Any) -> Any:
+            try:
+                connection = super().connect(*args, **options)
+            except psycopg.Error as error:
+                note(error)
+                raise
+            note(None)
+            return connection
+
+    return Noting
+
+
+def _configure(connection: Connection) -> None:
+    """Set what each connection needs; the server may have other defaults for the user.
+
+    A statement has no time limit at the server: it would also end the wait of a commit for its
+    synchronous standby, which then counts as committed.
+    """
+    was_auto = connection.autocommit
+    connection.autocommit = True
+    connection.execute(
+        f"SET search_path TO {SCHEMA}; SET statement_timeout = 0;"
+        f"SET lock_timeout = '{LOCK_SECONDS:.0f}s';"
+        f"SET idle_in_transaction_session_timeout = '{IDLE_SECONDS:.0f}s'".encode()
+    )
+    connection.autocommit = was_auto
+
+
+@contextmanager
+def _noticing(connection: Connection) -> Iterator[set[str]]:
+    """Collect the codes of the server's notices within a block."""
+    codes: set[str] = set()
+
+    def note(diagnostic: psycopg.errors.Diagnostic) -> None:
+        codes.add(diagnostic.sqlstate or "")
+
+    connection.add_notice_handler(note)
+    try:
+        yield codes
+    finally:
+        connection.remove_notice_handler(note)
+
+
+@contextmanager
+def _translated() -> Iterator[None]:
+    """Translate errors of PostgreSQL into a StoreError."""
+    try:
+        yield
+    except psycopg.Error as error:
+        raise translated(error) from error
+
+
+def _is_conflict(error: psycopg.Error) -> bool:
+    return isinstance(error, psycopg.errors.TransactionRollback)
+
+
+def _unsure(error: StoreError) -> StoreError:
+    return StoreError(
+        error.kind,
+        f"{error}. The connection was lost during a commit, so it is not known whether the write "
+        "was stored",
+        is_unsure=True,
+    )
+
+
+@lru_cache(maxsize=256)
+def _in_dialect(statement: str) -> bytes:
+    """Return a statement with the placeholders of the driver."""
+    return statement.replace("?", "%s").encode()

@@ -1,0 +1,1 @@
+"""Statements that the stores on SQLite and PostgreSQL share."""
