@@ -39,11 +39,11 @@ def backup(
     complete. A killed backup leaves the previous one as it was.
     """
     with _explained():
-        from service.app import version
         from service.backup.counting import CountedSnapshot
         from service.backup.databases import reading
         from service.backup.targets import target_at
         from service.backup.writing import BackupWriter
+        from service.core.version import version
 
         writer = BackupWriter(target_at(target, endpoint_url))
         with reading(_database(database)) as source, _progress("Back up") as (total, add):

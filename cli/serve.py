@@ -86,10 +86,11 @@ def serve(
     # Requests are searched in parallel; threads within one search would compete with them.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     from service.api.state import open_state
-    from service.app import create_app, version
+    from service.app import create_app
     from service.core import logging as logs
     from service.core import memory
     from service.core.settings import Settings
+    from service.core.version import version
     from service.engine import StartError
     from service.server import Server
 

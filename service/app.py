@@ -2,7 +2,6 @@
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from importlib import metadata
 
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
@@ -31,6 +30,7 @@ from service.api.routes.clouds import exports, scans
 from service.api.routes.live import events, robots
 from service.api.state import State, open_state
 from service.core.settings import Settings
+from service.core.version import version
 
 EXPOSED_HEADERS = (
     "Accept-Ranges",
@@ -44,6 +44,7 @@ EXPOSED_HEADERS = (
     "Placecell-Until",
     "Retry-After",
     "Server-Timing",
+    "Traceresponse",
     "X-Request-Id",
 )
 """Response headers that web pages of `cors_origins` may read."""
@@ -132,11 +133,3 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     for module in ROUTES:
         app.include_router(module.router)
     return app
-
-
-def version() -> str:
-    """Return the version of the installed Placecell; `unknown` in a checkout without one."""
-    try:
-        return metadata.version("placecell")
-    except metadata.PackageNotFoundError:
-        return "unknown"

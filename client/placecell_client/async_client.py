@@ -501,7 +501,7 @@ class AsyncClient(BaseClient):
             except (httpx.TransportError, ServiceError) as error:
                 wait = attempts.wait_after(error)
                 if wait is None:
-                    self._explain(error)
+                    self._explain(error, attempts.request_id)
                     raise
             await self._sleep(wait)
 

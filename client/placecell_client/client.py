@@ -864,7 +864,7 @@ class Client(BaseClient):
             except (httpx.TransportError, ServiceError) as error:
                 wait = attempts.wait_after(error)
                 if wait is None:
-                    self._explain(error)
+                    self._explain(error, attempts.request_id)
                     raise
             self._sleep(wait)
 

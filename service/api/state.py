@@ -1,7 +1,7 @@
 """State of the running service: the engine, and the parts that only the HTTP API needs."""
 
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from typing import ParamSpec, TypeVar
 
@@ -12,6 +12,8 @@ from service.api.body import json_arrays
 from service.core.auth import Keys
 from service.core.metrics import Metrics
 from service.core.settings import Settings
+from service.core.tracing import Tracing, TracingError, open_tracing
+from service.core.version import version
 from service.engine import Engine, StartError
 
 READ_THREADS = 2
@@ -106,6 +108,7 @@ class State:
         keys: API keys, and the maps that they open.
         lanes: admission control.
         answers: sends large answers.
+        tracing: source of the spans of requests; None without traces.
         draining: whether the service is about to stop; it is then no longer ready.
     """
 
@@ -113,6 +116,7 @@ class State:
     keys: Keys
     lanes: Lanes
     answers: Answers
+    tracing: Tracing | None = None
     draining: bool = False
 
     @property
@@ -151,7 +155,7 @@ def open_state(settings: Settings) -> Iterator[State]:
     """Open keys and engine for a block.
 
     Raises:
-        StartError: a model, the keys or the data directory cannot be used.
+        StartError: a model, the keys, the data directory or the traces cannot be used.
     """
     try:
         keys = Keys(settings.keys_file)
@@ -161,7 +165,12 @@ def open_state(settings: Settings) -> Iterator[State]:
     metrics = Metrics()
     metrics.keys_file_good.set_function(lambda: float(keys.is_good()))
     limits = settings.limits
-    with Engine.open(settings, metrics, lambda: keys.patterns) as engine:
+    with ExitStack() as opened:
+        try:
+            tracing = opened.enter_context(open_tracing(version()))
+        except TracingError as error:
+            raise StartError(str(error)) from error
+        engine = opened.enter_context(Engine.open(settings, metrics, lambda: keys.patterns))
         answers = Answers(settings.data_dir, limits.answer_bytes, limits.transfer_seconds)
-        with closing(answers):
-            yield State(engine, keys, Lanes.of(settings, metrics), answers)
+        opened.enter_context(closing(answers))
+        yield State(engine, keys, Lanes.of(settings, metrics), answers, tracing)

@@ -236,6 +236,14 @@ def test_all_attempts_of_a_call_have_the_same_id(make: Make) -> None:
     assert again.value.request_id not in ids
 
 
+def test_connection_errors_end_with_the_request_id(make: Make) -> None:
+    service = Service(*[httpx.ConnectError("refused")] * 9)
+    with pytest.raises(httpx.ConnectError) as raised:
+        make(service).info()
+    (request_id,) = set(service.sent("X-Request-Id"))
+    assert str(raised.value).endswith(f" (request {request_id})")
+
+
 @pytest.mark.parametrize("compress", [False, True])
 def test_repeated_uploads_are_the_same_bytes(make: Make, compress: bool) -> None:
     stored = httpx.Response(200, json=SUMMARY)

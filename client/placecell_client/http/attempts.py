@@ -1,5 +1,7 @@
 """Attempts of one call: the next request, and whether to repeat it; no input or output."""
 
+import importlib
+import sys
 import uuid
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -81,7 +83,11 @@ class Attempt:
 
 
 class Attempts(Generic[T]):
-    """One call, from its first attempt to its result or last error."""
+    """One call, from its first attempt to its result or last error.
+
+    Attributes:
+        request_id: Id of the call, sent as `X-Request-Id` in every attempt.
+    """
 
     def __init__(self, call: Call[T], policy: Policy) -> None:
         if call.timeout is not None:
@@ -89,7 +95,8 @@ class Attempts(Generic[T]):
         self._call = call
         self._policy = policy
         self._deadline = Deadline(policy.timeout, policy.clock)
-        self._request_id = uuid.uuid4().hex
+        self.request_id = uuid.uuid4().hex
+        self._trace = trace_headers()
         self._made = 0
         self._may_be_done = False
         self._last: Exception | None = None
@@ -105,8 +112,9 @@ class Attempts(Generic[T]):
         if self._last is not None and left <= 0:
             raise self._last
         seconds = min(left, self._policy.retries.longest_attempt or left)
-        headers = self._call.headers | {
-            "X-Request-Id": self._request_id,
+        headers = self._call.headers | self._trace
+        headers |= {
+            "X-Request-Id": self.request_id,
             "Placecell-Timeout": f"{seconds:.3f}",
         }
         if self._call.content is not None:
@@ -160,6 +168,14 @@ class Attempts(Generic[T]):
         if self._made >= retries.attempts or wait >= self._deadline.remaining():
             return None
         return wait
+
+
+def trace_headers() -> dict[str, str]:
+    """Return `traceparent` of the present span, if the program uses OpenTelemetry."""
+    carrier: dict[str, str] = {}
+    if "opentelemetry.trace" in sys.modules:
+        importlib.import_module("opentelemetry.propagate").inject(carrier)
+    return carrier
 
 
 def refuses_a_field(error: ServiceError) -> bool:

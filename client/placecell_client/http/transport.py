@@ -40,10 +40,10 @@ class BaseClient:
         # httpx hides a password in the URL.
         return f"{type(self).__name__}({self._base_url!r})"
 
-    def _explain(self, error: Exception) -> None:
-        """Add a hint to the last connection error of a call."""
+    def _explain(self, error: Exception, request_id: str) -> None:
+        """Add a hint and the request id to the last connection error of a call."""
         if isinstance(error, httpx.TransportError):
-            error.args = (explained(error, self._base_url),)
+            error.args = (f"{explained(error, self._base_url)} (request {request_id})",)
 
     def _attempts(self, call: Call[T]) -> Attempts[T]:
         return Attempts(call, self._policy)

@@ -13,6 +13,7 @@ from service.api.body.problem_json import response_of
 from service.api.middleware.refusal_log import LOGGED_STATUSES, RefusalLog, address_of
 from service.core.problems import Problem, unexpected
 from service.core.timing import Timing
+from service.core.tracing import RequestTrace
 from service.live.alarms import RefusalCounter
 
 logger = logging.getLogger("placecell.requests")
@@ -37,9 +38,17 @@ class RequestLog:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        given = dict(scope["headers"]).get(b"x-request-id", b"").decode("latin-1")
-        request_id = given if ID_PATTERN.fullmatch(given) else secrets.token_hex(8)
+        given = {
+            name: value
+            for name in ("x-request-id", "traceparent", "tracestate")
+            if (value := dict(scope["headers"]).get(name.encode(), b"").decode("latin-1"))
+        }
+        request_id = given.pop("x-request-id", "")
+        if not ID_PATTERN.fullmatch(request_id):
+            request_id = secrets.token_hex(8)
         timing = Timing()
+        tracing = scope["app"].state.placecell.tracing
+        trace = tracing.start(scope["method"], given, timing) if tracing else None
         # All requests share the server's dictionary, so each request gets a copy.
         facts = scope["state"] = dict(scope.get("state", {}))
         facts |= {"timing": timing, "request_id": request_id}
@@ -51,6 +60,8 @@ class RequestLog:
                 status = message["status"]
                 headers = MutableHeaders(scope=message)
                 headers["X-Request-Id"] = request_id
+                if trace is not None:
+                    headers["Traceresponse"] = trace.traceresponse
                 default = scope["app"].state.placecell.model_id
                 headers["Placecell-Model"] = facts.get("model_id", default)
                 if times := timing.header():
@@ -77,9 +88,9 @@ class RequestLog:
                 raise
             await response_of(unexpected())(scope, receive, noted)
         finally:
-            self._note(scope, status, timing)
+            self._note(scope, status, timing, trace)
 
-    def _note(self, scope: Scope, status: int, timing: Timing) -> None:
+    def _note(self, scope: Scope, status: int, timing: Timing, trace: RequestTrace | None) -> None:
         metrics = scope["app"].state.placecell.metrics
         seconds = perf_counter() - timing.started
         route = getattr(scope.get("route"), "path", "none")
@@ -103,5 +114,15 @@ class RequestLog:
                 "client": address,
                 "milliseconds": round(1e3 * seconds, 2),
                 "stages": {stage: round(1e3 * spent, 2) for stage, spent in timing.items()},
+                **(trace.ids if trace is not None else {}),
             },
         )
+        if trace is not None:
+            facts = {
+                "http.request.method": method,
+                "http.route": route,
+                "client.address": address,
+                "placecell.request_id": request_id,
+                "placecell.model": scope["state"].get("model_id"),
+            }
+            trace.end(f"{method} {route}", status, facts, timing)
