@@ -10,6 +10,7 @@ from service.api import error_handlers, openapi
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
+from service.api.middleware.prefix_slash import PrefixSlash
 from service.api.middleware.request_log import RequestLog
 from service.api.pages import docs_pages, page
 from service.api.routes import (
@@ -114,6 +115,8 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     # FastAPI deprecates the argument, as servers set the path; but not every server does.
     app.root_path = settings.root_path
     app.add_middleware(BodyLimit, limits=settings.limits)
+    if settings.root_path:
+        app.add_middleware(PrefixSlash, prefix=settings.root_path)
     app.add_middleware(Head)
     if settings.cors_origins:
         app.add_middleware(

@@ -100,7 +100,7 @@ def _measured(browser: "Browser", address: str, segments: int, seconds: float) -
     # The page opens the only map by itself. The second time counts: nothing is new but the map.
     page.get_by_text(f"{segments:,} segments", exact=True).wait_for()
     box.uncheck()
-    page.get_by_text("Open a map to see it here").wait_for()
+    page.get_by_text("Choose a map in the list").wait_for()
     started = time.perf_counter()
     box.check()
     page.get_by_text(f"{segments:,} segments", exact=True).wait_for()

@@ -79,7 +79,10 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
 
     def segment(page: "Page") -> None:
         show(page, "yard")
-        page.get_by_role("button", name="From above").click()
+        above = page.get_by_role("button", name="From above")
+        if not above.is_visible():  # a narrow page folds its tools
+            page.get_by_role("button", name="Tools").click()
+        above.click()
         page.get_by_placeholder("Segment id").fill("100")
         page.get_by_role("button", name="Find", exact=True).click()
         page.get_by_role("button", name="Find alike segments").click()
@@ -100,7 +103,7 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
     def watch(page: "Page") -> None:
         show(page, "yard")
         page.get_by_role("button", name="Robots").click()
-        page.get_by_text("carol").wait_for()
+        page.get_by_role("main").get_by_text("carol").wait_for()
 
     def service(page: "Page") -> None:
         locate(page)

@@ -4,7 +4,7 @@ import "./page.css";
 import { render } from "preact";
 import { useEffect } from "preact/hooks";
 import { connected, dismiss, key, messages, needsKey, selection, signOut, tab, type Tab } from "./state/store";
-import { KeyDialog } from "./views/key";
+import { KeyDialog, mayDo, roleOf } from "./views/key";
 import { Locate } from "./views/locate";
 import { Maps, takeFile, upload, UploadDialog } from "./views/maps";
 import { Button } from "./views/parts";
@@ -36,7 +36,7 @@ function App() {
         <h1>Placecell</h1>
         <span class={connected.value.on ? "state on" : "state"} role="status">{connected.value.on ? "connected" : "not connected"}</span>
         {key.value && !key.value.open && (
-          <span class="who">{key.value.name} ({key.value.role}) <Button kind="plain" onClick={signOut}>Sign out</Button></span>
+          <span class="who" title={mayDo(key.value)}>{key.value.name} ({roleOf(key.value)}) <Button kind="plain" onClick={signOut}>Sign out</Button></span>
         )}
       </header>
       <nav aria-label="Panels">
@@ -62,4 +62,5 @@ function App() {
   );
 }
 
+document.body.replaceChildren();
 render(<App />, document.body);

@@ -152,8 +152,12 @@ def test_two_maps_are_aligned_merged_and_the_merge_is_undone(page: "Page", addre
     page.get_by_role("checkbox", name="Show map site").wait_for()
     with Client(address) as client:
         assert {each.name for each in client.maps().maps} == {"hall", "site", "yard"}
+    page.get_by_text("segments added").wait_for()
+    # The merged map is shown alone: its parts would be drawn twice.
+    assert not page.get_by_role("checkbox", name="Show map hall").is_checked()
     page.get_by_role("button", name="Undo the merge").click()
     page.get_by_role("checkbox", name="Show map site").wait_for(state="detached")
+    page.get_by_role("checkbox", name="Show map hall", checked=True).wait_for()
 
 
 def test_version_is_restored_after_a_confirmation_that_says_what_it_undoes(
@@ -173,6 +177,12 @@ def test_version_is_restored_after_a_confirmation_that_says_what_it_undoes(
     dialog.get_by_text("version 2, pruned by anyone").wait_for()
     dialog.get_by_role("button", name="Restore").click()
     page.get_by_text("Version 3", exact=True).wait_for()
+    # The restore is stored whole. The page compares it with the version before.
+    page.get_by_role("button", name="Show changes").first.click()
+    back = len(two_robots.yard) - pruned
+    told = f"{back:,} segments added or replaced in version 3, 0 removed"
+    page.get_by_role("status").filter(has_text=told).wait_for()
+    page.get_by_role("list", name="Colors").get_by_text("added or replaced in version 3").wait_for()
     with Client(address) as client:
         assert segments_of(client, "trail") == len(two_robots.yard) > pruned
         client.delete_map("trail")
@@ -206,6 +216,10 @@ def test_pose_of_a_robot_moves_as_it_reports(page: "Page", address: str) -> None
         client.report_pose("carol", state="lost", reason="too few segments")
         page.get_by_text("last seen in yard at x 9.0, y 2.0").wait_for()
         page.get_by_text("too few segments", exact=True).wait_for()
+        page.get_by_text("What to do:").wait_for()
+        page.get_by_text("carol is lost. too few segments").wait_for()
+        page.get_by_role("button", name="Show the last pose of carol").click()
+        page.locator(".labels").get_by_text("carol, last pose").wait_for()
 
 
 def test_garbage_gives_a_clear_error(page: "Page", address: str, tmp_path: Path) -> None:
@@ -214,7 +228,13 @@ def test_garbage_gives_a_clear_error(page: "Page", address: str, tmp_path: Path)
     page.goto(address)
     page.get_by_role("button", name="Locate a scan").click()
     page.get_by_label("Choose a scan").set_input_files(file)
-    page.get_by_role("alert").filter(has_text="holiday.pcd").wait_for()
+    alert = page.get_by_role("alert").filter(has_text="holiday.pcd")
+    alert.wait_for()
+    # The file's bytes are not shown, and the button keeps its one line.
+    assert alert.inner_text().isascii()
+    box = alert.get_by_role("button", name="Close").bounding_box()
+    assert box is not None
+    assert box["width"] > box["height"]
 
 
 def test_map_file_is_stored_under_a_chosen_name(
@@ -249,6 +269,70 @@ def test_names_that_hold_scripts_are_shown_as_text(page: "Page", address: str) -
     assert page.locator("img").count() == 0
     with Client(address) as client:
         client.delete_map("evil")
+
+
+def test_segment_id_that_two_maps_have_is_found_in_both(page: "Page", address: str) -> None:
+    show(page, address, "hall", "yard")
+    page.get_by_placeholder("Segment id").fill("17")
+    page.keyboard.press("Enter")
+    page.get_by_role("alert").filter(has_text="hall has this id too").wait_for()
+    card = page.get_by_role("complementary", name="Selected segment")
+    card.get_by_text("yard", exact=True).wait_for()
+    page.keyboard.press("Enter")
+    card.get_by_text("hall", exact=True).wait_for()
+
+
+def test_second_way_to_align_is_a_preview_and_the_keyboard_keeps_its_place(
+    page: "Page", address: str
+) -> None:
+    show(page, address, "hall", "yard")
+    page.get_by_role("button", name="Align and merge").click()
+    page.get_by_role("button", name="Align", exact=True).focus()
+    page.keyboard.press("Enter")
+    page.get_by_text("hall fits").wait_for()
+    assert page.evaluate("document.activeElement.innerText") == "Align"
+    second = page.get_by_role("button", name="Second")
+    if second.count():
+        second.click()
+        page.get_by_text("A merge uses the best one").wait_for()
+    page.get_by_role("button", name="Try the merge").focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("dialog").wait_for()
+    page.keyboard.press("Escape")
+    page.wait_for_function("document.activeElement.innerText === 'Try the merge'")
+
+
+def test_facts_of_a_map_stand_below_its_entry(page: "Page", address: str) -> None:
+    page.goto(address)
+    page.get_by_role("button", name="hall", exact=True).click()
+    entry = page.get_by_role("listitem").filter(has=page.get_by_role("button", name="hall"))
+    entry.get_by_role("button", name="Versions").wait_for()
+
+
+def test_service_panel_opens_and_closes_without_an_error(page: "Page", address: str) -> None:
+    page.goto(address)
+    for name in ("Service", "Robots", "Service", "Maps"):
+        page.get_by_role("button", name=name, exact=True).click()
+        page.wait_for_timeout(300)
+    # The fixture checks that the page had no error.
+
+
+def test_page_without_maps_says_so_and_shows_a_scan(
+    browser: "Browser", tmp_path: Path, two_robots: TwoRobots
+) -> None:
+    with (
+        running_service(tmp_path / "empty", "--root-path", "/fleet/robots") as address,
+        browser.new_context() as context,
+    ):
+        # The service takes the prefix itself; it redirects to the address with a slash.
+        page = context.new_page()
+        page.goto(f"{address.rstrip('/')}/fleet/robots")
+        page.get_by_text("There are no maps yet").wait_for()
+        assert page.url.endswith("/fleet/robots/")
+        page.get_by_role("button", name="Locate a scan").click()
+        page.get_by_label("Choose a scan").set_input_files(two_robots.scan_file(tmp_path))
+        page.get_by_text("There is no map to search").wait_for()
+        assert page.get_by_text("Choose a map in the list").count() == 0
 
 
 @pytest.mark.parametrize("width", [1280, 390])
@@ -300,6 +384,11 @@ def test_key_is_asked_for_once_and_decides_what_can_be_done(
         page.get_by_role("heading", name="yard", exact=True).wait_for()
         page.get_by_role("button", name="Versions").click()
         page.get_by_text("Version 1", exact=True).wait_for()
+        page.get_by_text("reader (read only)").wait_for()
+        page.get_by_role("button", name="Service", exact=True).click()
+        page.get_by_text("You may not change, merge or upload maps").wait_for()
+        page.get_by_role("button", name="Maps", exact=True).click()
+        page.get_by_text("Model", exact=True).wait_for()
         for name in ("Add a file", "Prune", "Restore", "Merge"):
             assert page.get_by_role("button", name=name, exact=True).count() == 0
         page.reload()
@@ -316,10 +405,16 @@ def test_service_that_restarts_is_found_again(
         page = browser.new_page()
         page.goto(address)
         page.get_by_text("connected", exact=True).wait_for()
+        page.get_by_role("checkbox", name="Show map hall").check()
+        page.get_by_role("heading", name="hall", exact=True).wait_for()
     page.get_by_text("not connected", exact=True).wait_for()
+    page.get_by_role("button", name="Versions").click()
+    page.get_by_role("alert").filter(has_text="No connection").wait_for()
     port = address.rsplit(":", 1)[1]
     with running_service(tmp_path, "--port", port):
         page.get_by_text("connected", exact=True).wait_for()
+        page.get_by_role("alert").filter(has_text="No connection").wait_for(state="detached")
+        page.get_by_text("Version 1", exact=True).wait_for()
         page.get_by_role("checkbox", name="Show map yard").check()
         page.get_by_role("heading", name="yard", exact=True).wait_for()
     page.close()

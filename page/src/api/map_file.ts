@@ -144,15 +144,16 @@ export function contentOf(
   };
 }
 
-/** Parse a delta file: the segments that it adds or replaces, and the ids that it removes. */
-export function parseDelta(name: string, buffer: ArrayBuffer): { changed: MapContent; removed: Uint32Array } {
+/** Parse a delta file: the segments that it adds or replaces, or all of the map, and the ids that it removes. */
+export function parseDelta(name: string, buffer: ArrayBuffer): { changed: MapContent; removed: Uint32Array; whole: boolean } {
   const file = new Uint8Array(buffer);
   const length = Number(new DataView(buffer).getBigUint64(0, true));
   const outer = JSON.parse(new TextDecoder().decode(file.subarray(8, 8 + length))) as
     Record<string, Column> & { __metadata__: { placecell: string } };
   const changed = contentOf(name, "", file, outer, 8 + length);
   const [begin, end] = outer["removed"]!.data_offsets;
-  return { changed, removed: new Uint32Array(buffer.slice(8 + length + begin, 8 + length + end)) };
+  const { since, until } = JSON.parse(outer.__metadata__.placecell) as { since?: number; until?: number };
+  return { changed, whole: since === 0 && (until ?? 0) > 0, removed: new Uint32Array(buffer.slice(8 + length + begin, 8 + length + end)) };
 }
 
 /** Read the codes of one segment, by its row. */

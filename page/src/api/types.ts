@@ -152,6 +152,8 @@ export interface Localization {
   pose: Pose | null;
   covariance: number[][] | null;
   inliers: { query: number; id: number; residual: number }[];
+  /** Place of another map that fits nearly as well, or better. */
+  rival: { map: string } | null;
 }
 
 export interface LocalizeAnswer {

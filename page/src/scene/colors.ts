@@ -10,6 +10,8 @@ const CIVIDIS = [0x00224e, 0x123570, 0x3b496c, 0x575d6d, 0x707173, 0x8a8678, 0xa
 
 export const GRAY: Color = hex(0x66727d);
 export const ADDED: Color = hex(0x56b4e9);
+/** Color of the segments that a version did not change, while its changes are shown. */
+export const UNCHANGED: Color = hex(0x3a4650);
 export const REMOVED: Color = hex(0xd55e00);
 export const SELECTED: Color = hex(0xffffff);
 export const FIX: Color = hex(0xf0e442);

@@ -1,6 +1,6 @@
 // The scene: a view in perspective and one from above, drawn only when something changes.
 import {
-  Box3, BufferAttribute, BufferGeometry, Color as ThreeColor, Group, LineBasicMaterial, LineSegments,
+  Box3, BufferAttribute, BufferGeometry, Color as ThreeColor, ColorManagement, Group, LineBasicMaterial, LinearSRGBColorSpace, LineSegments,
   Matrix4, Mesh, MeshBasicMaterial, OrthographicCamera, PerspectiveCamera, Points, PointsMaterial, Quaternion,
   Scene as ThreeScene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
@@ -12,6 +12,9 @@ import type { MapLayer } from "./map_layer";
 /** Longest time to draw one picture while the view moves, milliseconds. */
 const FRAME_MS = 40;
 const BACKGROUND = 0x0f1720;
+
+// Colors are drawn as they are stated, so that points, lines and the legend have the same ones.
+ColorManagement.enabled = false;
 
 export interface Line {
   from: Vector3;
@@ -46,6 +49,7 @@ export class View {
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance", preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.scene.background = new ThreeColor(BACKGROUND);
     this.perspective.up.set(0, 0, 1);
@@ -58,7 +62,7 @@ export class View {
     };
     this.controls.above.enableRotate = false;
     this.controls.above.enabled = false;
-    this.marker = new Mesh(new SphereGeometry(1, 12, 8), new MeshBasicMaterial({ color: 0xffffff, wireframe: true }));
+    this.marker = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.6, depthTest: false }));
     this.marker.visible = false;
     this.scene.add(this.marker);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -234,10 +238,11 @@ export class View {
     return best;
   }
 
-  /** Pixel of a place in the scene. */
-  project(place: Vector3): [number, number] {
+  /** Pixel of a place in the scene; null if the place is not in the picture. */
+  project(place: Vector3): [number, number] | null {
     this.camera.updateMatrixWorld();
     const at = place.clone().project(this.camera);
+    if (Math.abs(at.x) > 1 || Math.abs(at.y) > 1 || Math.abs(at.z) > 1) return null;
     return [((at.x + 1) / 2) * this.canvas.clientWidth, ((1 - at.y) / 2) * this.canvas.clientHeight];
   }
 

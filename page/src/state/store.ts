@@ -1,5 +1,5 @@
 // What the page knows and shows. Views read these signals; actions change them.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal, untracked } from "@preact/signals";
 import { api, ApiError, storeKey, storedKey } from "../api/client";
 import { follow, type ServiceEvent } from "../api/events";
 import { readMap, type MapContent } from "../api/map_file";
@@ -8,7 +8,7 @@ import { CLASSES, colorSegments, type ColorBy, type Legend } from "../scene/colo
 import { MapLayer } from "../scene/map_layer";
 import type { View } from "../scene/scene";
 import { Matrix4, Vector3 } from "three";
-import { kindColor } from "../scene/colors";
+import { ADDED, css, kindColor, REMOVED, UNCHANGED, type Color } from "../scene/colors";
 
 export type Tab = "maps" | "robots" | "locate" | "service";
 
@@ -46,6 +46,10 @@ export const fixes = signal<ReadonlyMap<string, { map: string; position: Vector;
 export const events = signal<ServiceEvent[]>([]);
 export const connected = signal<{ on: boolean; reason: string }>({ on: false, reason: "" });
 export const details = signal<ReadonlyMap<string, MapDetail>>(new Map());
+/** Version whose changes the picture shows; its map and the other open ones are gray meanwhile. */
+export const changesShown = signal<{ map: string; version: number } | null>(null);
+/** Whether the picture has a scan, which it can show without any map. */
+export const scanShown = signal(false);
 export const above = signal(false);
 export const measuring = signal(false);
 export const measured = signal<{ from: Selection; meters: number; vertical: number } | null>(null);
@@ -55,6 +59,13 @@ export const picture = signal(0);
 export const currentSummary = computed<MapSummary | null>(
   () => list.value?.maps.find((each) => each.name === current.value) ?? null,
 );
+
+/** Names of the robots of the open maps and of those that report, sorted: each has one color everywhere. */
+const robotNames = computed(() =>
+  [...new Set([...[...open.value.values()].flatMap((each) => each.robots), ...robots.value.map((each) => each.robot)])].sort().join("\n"));
+const robotNumbers = computed(() => new Map(robotNames.value.split("\n").map((name, place) => [name, place])));
+
+export const robotColor = (name: string): Color => kindColor(robotNumbers.value.get(name) ?? 0);
 
 /** Place of the current map on the Earth, if it is known. */
 export const anchor = computed<Anchor | null>(() => {
@@ -71,8 +82,20 @@ export const scene = (): View => view!;
 export function say(kind: Message["kind"], text: string, detail = ""): void {
   counter += 1;
   const id = counter;
-  messages.value = [...messages.value.slice(-3), { id, kind, text, detail }];
+  // What was done before is old news; an error stays until it is closed.
+  const kept = messages.value.filter((each) => kind === "error" || each.kind === "error");
+  messages.value = [...kept.slice(-3), { id, kind, text, detail }];
   if (kind === "done") setTimeout(() => dismiss(id), 8000);
+}
+
+/** Title of the message about a service that does not answer; it goes when the service does. */
+const NO_CONNECTION = "No connection";
+
+function isBack(): void {
+  if (!connected.value.on) connected.value = { on: true, reason: "" };
+  if (messages.value.some((each) => each.text === NO_CONNECTION)) {
+    messages.value = messages.value.filter((each) => each.text !== NO_CONNECTION);
+  }
 }
 
 export function dismiss(id: number): void {
@@ -86,6 +109,8 @@ export async function attempt<Result>(work: () => Promise<Result>): Promise<Resu
   } catch (error) {
     if (error instanceof ApiError && error.status === 401) {
       needsKey.value = storedKey() ? "The service does not know this key." : "";
+    } else if (error instanceof ApiError && error.status === 0 && messages.value.some((each) => each.text === error.title)) {
+      // One message says it; each further request would say the same.
     } else if (error instanceof ApiError) {
       const wait = error.retryAfter ? ` Try again in ${error.retryAfter} s.` : "";
       say("error", error.title, error.detail + wait);
@@ -113,6 +138,10 @@ export function matches(pattern: string, name: string): boolean {
 export async function start(created: View): Promise<void> {
   view = created;
   view.onFrame = () => (picture.value += 1);
+  effect(() => {
+    void robotNames.value;
+    untracked(recolor);
+  });
   await signIn(storedKey());
 }
 
@@ -141,7 +170,7 @@ export async function signIn(typed: string): Promise<void> {
   const first = known.find((each) => each.name === asked) ?? (known.length === 1 ? known[0] : undefined);
   if (first) await openMap(first.name);
   const { signal } = stop;
-  void follow(signal, onEvent, (on, reason) => (connected.value = { on, reason }));
+  void follow(signal, onEvent, (on, reason) => (on ? isBack() : (connected.value = { on, reason })));
   void poll(signal);
 }
 
@@ -166,7 +195,7 @@ async function poll(signal: AbortSignal): Promise<void> {
 export async function refresh(quiet = false): Promise<void> {
   try {
     list.value = await api.maps();
-    if (!connected.value.on) connected.value = { on: true, reason: "" };
+    isBack();
   } catch (error) {
     if (quiet) {
       connected.value = { on: false, reason: error instanceof Error ? error.message : "" };
@@ -207,9 +236,17 @@ function extendTrails(): void {
   trails.value = next;
 }
 
+const lastStates = new Map<string, string>();
+
 function onEvent(event: ServiceEvent): void {
-  events.value = [event, ...events.value].slice(0, 100);
   const { data } = event;
+  // Robots report each second. The list of events has what is new in a report: another state.
+  const robot = String(data["robot"] ?? "");
+  const state = `${String(data["state"])} ${String(data["map"])}`;
+  if (event.kind !== "robot" || lastStates.get(robot) !== state) {
+    events.value = [{ ...event, data: { ...data, received: Date.now() / 1000 } }, ...events.value].slice(0, 100);
+  }
+  if (event.kind === "robot") lastStates.set(robot, state);
   if (["upload", "merge", "write"].includes(event.kind)) void refresh(true);
   if (event.kind === "fix" && Array.isArray(data["inliers"])) {
     const who = String(data["robot"] ?? data["session"] ?? "");
@@ -288,7 +325,20 @@ export function recolor(): void {
     const index = new Map([...new Set(names)].sort().map((name, place) => [name, place]));
     return (name) => index.get(name) ?? 0;
   };
-  const robotIndex = number(contents.flatMap((each) => each.robots));
+  const robotIndex = (name: string): number => robotNumbers.value.get(name) ?? 0;
+  if (changesShown.value) {
+    for (const layer of scene().layers.values()) {
+      layer.setColors(new Uint8Array(3 * layer.content.ids.length).map((_, place) => 255 * UNCHANGED[place % 3]!));
+      layer.paths.visible = false;
+    }
+    legend.value = [
+      { color: css(ADDED), label: `added or replaced in version ${changesShown.value.version}` },
+      { color: css(REMOVED), label: `removed in version ${changesShown.value.version}` },
+      { color: css(UNCHANGED), label: "not changed" },
+    ];
+    scene().redraw();
+    return;
+  }
   const kinds: Partial<Record<ColorBy, (name: string) => number>> = {
     robot: robotIndex, origin: number(contents.flatMap((each) => [each.name, ...each.sources])),
   };
@@ -299,7 +349,7 @@ export function recolor(): void {
     const layer = scene().layers.get(name);
     layer?.setColors(colors);
     if (layer) layer.paths.visible = showPaths.value;
-    layer?.colorPaths((robot) => kindColor(robotIndex(robot)));
+    layer?.colorPaths(robotColor);
     for (const part of parts) seen.set(part.label, part);
   });
   legend.value = [...seen.values()];
@@ -331,12 +381,20 @@ export function select(chosen: Selection | null): void {
   }
 }
 
-/** Select the segment with an id, in the current map. */
-export function selectId(id: number): boolean {
-  const layer = current.value ? scene().layers.get(current.value) : undefined;
-  const row = layer?.rowOf(id);
-  if (!layer || row === undefined) return false;
+/**
+ * Select the segment with an id: in the current map, and when asked again in the next open map that
+ * has it. Return the names of the maps that have it, the selected one first.
+ */
+export function selectId(id: number): string[] {
+  const names = [...scene().layers.keys()].sort((a, b) => Number(b === current.value) - Number(a === current.value));
+  const having = names.filter((name) => scene().layers.get(name)!.rowOf(id) !== undefined);
+  const chosen = selection.value;
+  const before = chosen ? having.findIndex((name) => name === chosen.map && scene().layers.get(name)!.rowOf(id) === chosen.row) : -1;
+  const order = [...having.slice(before + 1), ...having.slice(0, before + 1)];
+  const layer = order[0] === undefined ? undefined : scene().layers.get(order[0]);
+  if (!layer) return [];
+  const row = layer.rowOf(id)!;
   select({ map: layer.content.name, row });
   scene().look(layer.position(row), Math.min(scene().reach(), 30));
-  return true;
+  return order;
 }

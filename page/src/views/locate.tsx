@@ -5,7 +5,7 @@ import { api } from "../api/client";
 import type { Localization, Scan, Vector } from "../api/types";
 import { FIX, GRAY, kindColor, type Color } from "../scene/colors";
 import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
-import { attempt, current, list, matched, mayWriteAny, open, openMap, recolor, refresh, say, scene } from "../state/store";
+import { attempt, current, list, matched, mayWriteAny, open, openMap, recolor, refresh, say, scanShown, scene } from "../state/store";
 import { Button, count, degrees, FileButton, meters, percent } from "./parts";
 import { useState } from "preact/hooks";
 
@@ -20,10 +20,16 @@ const busy = signal("");
 /** Map to search; empty: all. Two maps of one place are rivals: only one of them can be meant. */
 const searched = signal("");
 
+function clear(): void {
+  located.value = null;
+  scanShown.value = false;
+  scene().overlay("scan", []);
+}
+
 /** Segment a scan, find its pose, and draw both. */
 export async function locate(file: File): Promise<void> {
   busy.value = `Cutting ${file.name} into segments.`;
-  located.value = null;
+  clear();
   const scan = await attempt(() => api.scan(file));
   if (scan) {
     located.value = { file, scan, answers: null };
@@ -78,6 +84,7 @@ function draw(found: Located, answer: Localization | null): void {
     }
     if (answer.covariance) lines.push(...ellipse(new Vector3().applyMatrix4(pose), answer.covariance, FIX));
   }
+  scanShown.value = true;
   scene().overlay("scan", lines, [{ points: places, colors, size: 2 }]);
   if (!answer) scene().look(new Vector3().applyMatrix4(pose), 45);
 }
@@ -90,8 +97,19 @@ function outside(): Vector {
 }
 
 const REASONS: Record<string, string> = {
-  "too-few-segments": "The scan shows too few segments.", ambiguous: "Two places fit nearly as well.", inconsistent: "No place fits.",
+  "too-few-segments": "The scan shows too few segments.", ambiguous: "Two places fit nearly as well.", inconsistent: "No place fits well enough.",
 };
+
+/** What an operator can do if no map gave a pose. The service's own advice is for the programs of robots. */
+function adviceFor(answers: Localization[], names: string[]): string {
+  const [first] = answers;
+  if (first?.rival) {
+    return `The maps ${first.map} and ${first.rival.map} both have a place like this one. If they show the same area, search one of them, or merge them.`;
+  }
+  const drive = first?.meters_to_drive;
+  const farther = drive ? ` Or take a scan about ${drive.toFixed(0)} m farther on, where there are more segments.` : " Or take another scan some meters farther on.";
+  return `Check that ${names.length === 1 ? "the map covers" : "one of the maps covers"} this place, that z points up, and that lengths are meters.${farther}`;
+}
 
 export function Locate() {
   const found = located.value;
@@ -105,7 +123,7 @@ export function Locate() {
   };
   return (
     <>
-      <p>Drop one LiDAR scan on this page to see its segments and where it was taken. PCD, PLY, LAS, KITTI .bin, NumPy and CSV files work; z must point up.</p>
+      <p>Drop one LiDAR scan on this page to see its segments and where it was taken. PCD, PLY, LAS, LAZ, KITTI .bin, NumPy and CSV files work; z must point up.</p>
       <div class="row">
         <label class="grow">
           Search in{" "}
@@ -129,15 +147,26 @@ export function Locate() {
           <p>{found.scan.format}: {count(found.scan.points)} points, {count(found.scan.segments.length)} segments.</p>
           {found.scan.problems.map((each) => <p key={each.what} class="warning">{each.what} {each.cure}</p>)}
           {!found.scan.segments.length && <p>No segment was found. A segment is an object of 100 or more points, such as a car or a trunk. Check that z points up and that lengths are meters.</p>}
-          {found.answers?.length === 0 && <p>There is no map to search.</p>}
+          {(found.answers?.length === 0 || list.value?.maps.length === 0) && <p>There is no map to search. {mayWriteAny.value && "Add the scan to a new map: it then has this place."}</p>}
+          {found.answers && found.answers.length > 0 && !found.answers.some((each) => each.localized) && (
+            <p class="warning"><b>The scan was not located.</b> {adviceFor(found.answers, (list.value?.maps ?? []).map((each) => each.name))}</p>
+          )}
+          {found.answers?.[0]?.rival && !found.answers[0].localized && (
+            <div class="row">
+              {[found.answers[0].map, found.answers[0].rival.map].map((each) => (
+                <Button key={each} onClick={() => { searched.value = each; void search(found); }}>Search only {each}</Button>
+              ))}
+            </div>
+          )}
           {(found.answers ?? []).slice(0, 5).map((answer) => <Answer key={answer.map} answer={answer} />)}
           {mayWriteAny.value && found.scan.segments.length > 0 && (
             <form class="row" onSubmit={(event) => { event.preventDefault(); void add(); }}>
-              <label class="grow">Add the scan to map <input required pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" value={name} onInput={(event) => setName(event.currentTarget.value)} /></label>
+              <label class="grow">Add the segments of the scan to a map, at its pose there; a new name makes a map <input list="map-names" placeholder="Name of the map" required pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" value={name} onInput={(event) => setName(event.currentTarget.value)} /></label>
+              <datalist id="map-names">{(list.value?.maps ?? []).map((each) => <option key={each.name} value={each.name} />)}</datalist>
               <button type="submit">Add</button>
             </form>
           )}
-          <Button onClick={() => { located.value = null; scene().overlay("scan", []); }}>Clear</Button>
+          <Button onClick={clear}>Clear</Button>
         </section>
       )}
     </>
@@ -157,7 +186,7 @@ function Answer(props: { answer: Localization }) {
           <Button onClick={() => void showIn(answer)}>Show</Button>
         </>
       ) : (
-        <p>{REASONS[answer.reason ?? ""] ?? ""} {answer.detail} {answer.advice}</p>
+        <p>{REASONS[answer.reason ?? ""] ?? ""} {answer.detail}</p>
       )}
     </div>
   );

@@ -31,6 +31,9 @@ export function Maps() {
   const maps = list.value?.maps ?? [];
   const shown = maps.filter((each) =>
     `${each.name} ${Object.keys(each.robots).join(" ")} ${each.tags.join(" ")}`.toLowerCase().includes(wanted.toLowerCase()));
+  const listed = shown.slice(0, 200);
+  // The facts of the current map stand below its entry; below the list if the search hides it.
+  const hidden = currentSummary.value && isCurrent(currentSummary.value) && !listed.includes(currentSummary.value) ? currentSummary.value : null;
   return (
     <>
       <div class="row">
@@ -40,19 +43,23 @@ export function Maps() {
         </label>
         {mayWriteAny.value && <FileButton label="Add a file" onFile={(file) => void takeFile(file)} />}
       </div>
-      {list.value && !maps.length && <p>There are no maps yet. Robots upload them, or drop a map file here.</p>}
+      {!list.value && <p role="status">Loading the list of maps.</p>}
+      {list.value && maps.length > 0 && !shown.length && <p>No map and no robot has {wanted} in its name.</p>}
+      {list.value && !maps.length && <p>There are no maps yet. A robot makes one with <code>placecell robot</code>; {mayWriteAny.value ? "or add a map file or a scan here." : "or sign in with a key that may write, and add a map file."}</p>}
       <UndoMerge />
       <ul class="maps">
-        {shown.slice(0, 200).map((each) => <Entry key={each.name} map={each} />)}
+        {listed.map((each) => <Entry key={each.name} map={each} />)}
         {(list.value?.damaged ?? []).map((name) => (
           <li key={name} class="damaged"><b>{name}</b><span>damaged: it cannot be read. Restore it from a backup.</span></li>
         ))}
       </ul>
       {shown.length > 200 && <p>{count(shown.length - 200)} more maps. Search for a name.</p>}
-      {currentSummary.value && open.value.has(currentSummary.value.name) && <Current map={currentSummary.value} />}
+      {hidden && <Current map={hidden} />}
     </>
   );
 }
+
+const isCurrent = (map: MapSummary): boolean => current.value === map.name && open.value.has(map.name);
 
 function Entry(props: { map: MapSummary }) {
   const { map } = props;
@@ -74,13 +81,14 @@ function Entry(props: { map: MapSummary }) {
         {last !== undefined && last > 1e8 ? `, seen ${ago(Date.now() / 1000 - last)}` : ""}
         {loading.value.has(map.name) ? ", loading" : ""}
       </span>
+      {isCurrent(map) && <Current map={map} inEntry />}
     </li>
   );
 }
 
 const FORMATS = { ply: "PLY", las: "LAS", pcd: "PCD", mcap: "MCAP (Foxglove)", geojson: "GeoJSON", tum: "TUM path", g2o: "g2o" };
 
-function Current(props: { map: MapSummary }) {
+function Current(props: { map: MapSummary; inEntry?: boolean }) {
   const { map } = props;
   const [section, setSection] = useState<"facts" | "versions" | "merge" | "prune">("facts");
   const [format, setFormat] = useState("map");
@@ -112,7 +120,7 @@ function Current(props: { map: MapSummary }) {
   if (write) sections.push(["prune", "Prune"]);
   return (
     <section class="current-map" aria-label={`Map ${map.name}`}>
-      <h2>{map.name}</h2>
+      <h2 class={props.inEntry ? "hidden" : ""}>{map.name}</h2>
       <div class="row" role="group" aria-label="Part">
         {sections.map(([name, label]) => <Button key={name} pressed={section === name} onClick={() => setSection(name)}>{label}</Button>)}
       </div>
@@ -164,7 +172,7 @@ function Prune(props: { map: MapSummary }) {
   };
   return (
     <>
-      <p>Remove segments that no robot has seen again.</p>
+      <p>Remove segments that no robot has seen again.{span && ` The segments of this map were last seen from ${moment(span[0])} to ${moment(span[1])}.`}</p>
       <div class="row">
         <label>
           {clock ? "Not seen for days " : "Not seen since second "}

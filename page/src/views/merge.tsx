@@ -1,11 +1,11 @@
 // Align another map with this one, look at the proposal, then merge both; a merge can be undone.
 import { signal } from "@preact/signals";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { Alignment, MapSummary, Merged, Pose } from "../api/types";
 import { FIX, GRAY } from "../scene/colors";
 import { matrixOf, type Line } from "../scene/scene";
-import { attempt, list, mayWrite, mayWriteAny, open, openMap, refresh, say, scene } from "../state/store";
+import { attempt, closeMap, list, mayWrite, mayWriteAny, open, openMap, refresh, say, scene } from "../state/store";
 import { Button, count, degrees, Dialog, meters, percent } from "./parts";
 
 /** The last merge that was written, until it is undone. */
@@ -26,7 +26,9 @@ export function Merge(props: { map: MapSummary }) {
   const [chosen, setChosen] = useState(0);
   const [target, setTarget] = useState(map.name);
   const [plan, setPlan] = useState<Merged | null>(null);
-  useEffect(() => () => scene().overlay("pairs", []), []);
+  // A preview of another way ends with the panel: the maps lie as they fit best.
+  const best = useRef<(() => void) | null>(null);
+  useEffect(() => () => { best.current?.(); scene().overlay("pairs", []); }, []);
 
   const align = async (): Promise<void> => {
     setBusy("Aligning. This takes some seconds.");
@@ -39,6 +41,7 @@ export function Merge(props: { map: MapSummary }) {
     setBusy("");
     if (!answer) return;
     setFound(answer);
+    best.current = answer.pose ? () => place(answer, answer.pose!) : null;
     show(answer, 0);
   };
   const show = (answer: Alignment, index: number): void => {
@@ -59,7 +62,13 @@ export function Merge(props: { map: MapSummary }) {
     }
     setPlan(null);
     lastMerge.value = answer;
-    say("done", `${other} is merged into ${target}`, `${count(answer.changed)} segments added.`);
+    const added = answer.parts.reduce((sum, part) => sum + (part.merged ? part.added : 0), 0);
+    say("done", `${parts.join(" and ")} merged into ${target}`, `${count(added)} segments added. Undo is in the list of maps.`);
+    best.current = null;
+    setFound(null);
+    scene().overlay("pairs", []);
+    // The merged map shows the segments of its parts; each of them would be drawn twice.
+    for (const part of parts) if (open.value.has(part)) closeMap(part);
     await refresh();
     await openMap(target);
   };
@@ -89,6 +98,7 @@ export function Merge(props: { map: MapSummary }) {
               {proposal.label}: {proposal.note}
             </Button>
           ))}
+          {found.aligned && chosen > 0 && <p class="warning">The picture shows the second way. A merge uses the best one.</p>}
         </div>
       )}
       {found?.aligned && mayWriteAny.value && (
@@ -131,8 +141,11 @@ export function UndoMerge() {
       else await api.restore(merged.map, merged.previous, merged.etag!);
       return true;
     });
-    if (gone) say("done", `The merge into ${merged.map} is undone`);
+    if (!gone) return;
+    say("done", `The merge into ${merged.map} is undone`, merged.previous === null ? `The map ${merged.map} is deleted.` : `${merged.map} is as it was in version ${merged.previous}.`);
     await refresh();
+    for (const { map } of merged.parts) if (!open.value.has(map) && list.value?.maps.some((each) => each.name === map)) await openMap(map, false);
+    scene().fit();
   };
   return (
     <div class="row answer good" role="status">
@@ -153,10 +166,17 @@ function proposalsOf(found: Alignment): Proposal[] {
   ];
 }
 
+/** Place the other map as a pose says. */
+function place(found: Alignment, pose: Pose): void {
+  const [a, b] = [scene().layers.get(found.map), scene().layers.get(found.other)];
+  if (a && b) b.place(a.pose.multiply(matrixOf(pose)));
+  scene().redraw();
+}
+
 function draw(found: Alignment, pose: Pose): void {
   const [a, b] = [scene().layers.get(found.map), scene().layers.get(found.other)];
   if (!a || !b) return;
-  b.place(a.pose.multiply(matrixOf(pose)));
+  place(found, pose);
   const best = found.pose === pose;
   const lines: Line[] = found.inliers.flatMap((pair) => {
     const [row, otherRow] = [a.rowOf(pair.id), b.rowOf(pair.other_id)];

@@ -1,14 +1,16 @@
 // Small parts that several views use.
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import type { RobotState } from "../api/types";
 
+/** A button. A disabled one keeps the focus, so that a key press does not lose its place. */
 export function Button(props: {
-  children: ComponentChildren; onClick: () => void; disabled?: boolean; pressed?: boolean; title?: string; kind?: "danger" | "plain" | "main";
+  children: ComponentChildren; onClick: () => void; disabled?: boolean; pressed?: boolean; title?: string; label?: string; kind?: "danger" | "plain" | "main";
 }) {
   return (
     <button
-      type="button" class={props.kind ?? ""} disabled={props.disabled ?? false} title={props.title ?? ""}
-      aria-pressed={props.pressed} onClick={props.onClick}
+      type="button" class={props.kind ?? ""} aria-disabled={props.disabled ?? false} title={props.title ?? ""} aria-label={props.label}
+      aria-pressed={props.pressed} onClick={() => { if (!props.disabled) props.onClick(); }}
     >
       {props.children}
     </button>
@@ -20,8 +22,13 @@ export function Dialog(props: { title: string; onClose?: () => void; children: C
   const element = useRef<HTMLDialogElement>(null);
   useEffect(() => {
     const dialog = element.current!;
+    const before = document.activeElement;
     if (!dialog.open) dialog.showModal();
-    return () => dialog.close();
+    return () => {
+      dialog.close();
+      // The browser cannot give the focus back, because the dialog is removed while it closes.
+      setTimeout(() => { if (before instanceof HTMLElement && before.isConnected) before.focus(); });
+    };
   }, []);
   const cancel = (event: Event): void => {
     event.preventDefault();
@@ -66,3 +73,6 @@ export function ago(seconds: number): string {
 export const meters = (value: number): string => `${value.toFixed(Math.abs(value) < 10 ? 2 : 1)} m`;
 export const degrees = (radians: number): string => `${((radians * 180) / Math.PI).toFixed(1)}°`;
 export const percent = (share: number): string => `${(100 * share).toFixed(share > 0.99 && share < 1 ? 1 : 0)}%`;
+
+/** Whether a robot has no pose now: its last report had none. Both ages are of one moment. */
+export const isLost = (robot: RobotState): boolean => robot.map === null || robot.pose_age === null || robot.pose_age > robot.age;

@@ -38,6 +38,7 @@ export function SegmentCard() {
       </header>
       <dl>{facts.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
       <Button onClick={() => void findAlike(map, chosen)}>Find alike segments</Button>
+      {found && found.length > 0 && <p class="facts">Probability that it is the same object:</p>}
       {found && (found.length ? (
         <ol class="alike">
           {found.map((each) => (
@@ -65,7 +66,8 @@ async function findAlike(map: MapContent, chosen: Selection): Promise<void> {
   const first = answer?.queries[0];
   if (!first || !("candidates" in first)) return;
   const own = map.ids[chosen.row];
-  const others = first.candidates.filter((each) => each.map !== map.name || each.id !== own).slice(0, 12);
+  const others = first.candidates.filter((each) => each.map !== map.name || each.id !== own).slice(0, 12)
+    .sort((a, b) => (b.probability ?? 0) - (a.probability ?? 0));
   nearest.value = { of: chosen, candidates: others };
   const quality = new Map<string, Map<number, number>>();
   const from = scene().layers.get(map.name)!.position(chosen.row);

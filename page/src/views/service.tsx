@@ -3,7 +3,8 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { api } from "../api/client";
-import { version } from "../state/store";
+import { key, version } from "../state/store";
+import { mayDo } from "./key";
 import { count } from "./parts";
 
 const STEP_SECONDS = 2;
@@ -88,10 +89,12 @@ export function Service() {
       <p>
         Placecell {version.value}. {last && `${count(last.maps)} maps with ${count(last.segments)} segments. ${count(last.requests)} recognition requests and ${count(last.refused)} refusals since the start.`}
       </p>
+      {key.value && <p>{key.value.open ? "The service has no keys: everyone who reaches it may look at and change all maps." : mayDo(key.value)}</p>}
+      {!samples.value.some((each) => each.requests > 0) && <p class="facts" role="status">No recognition request has come since this panel was opened.</p>}
       <Chart title="Latency, ms" lines={[["mean", "seconds", "#56b4e9"], ["slowest 1%, at most", "slow", "#e69f00"]]} />
       <Chart title="Requests waiting or in work" lines={[["queue", "queue", "#009e73"]]} />
-      <Chart title="A second" lines={[["requests", "requests", "#56b4e9"], ["refused", "refused", "#d55e00"]]} />
-      <p><a href="docs">API documentation</a></p>
+      <Chart title="Requests a second" lines={[["requests", "requests", "#56b4e9"], ["refused", "refused", "#d55e00"]]} />
+      <p><a href="docs" target="_blank" rel="noopener">API documentation</a></p>
     </>
   );
 }
@@ -112,8 +115,9 @@ function Chart(props: { title: string; lines: [string, keyof Sample, string][] }
       series: [{}, ...props.lines.map(([label, , stroke], index) => ({ label, stroke, width: 2, ...(index ? { dash: [6, 4] } : {}), spanGaps: true }))],
     }, data(), element.current!);
     plot.current = made;
-    const watch = new ResizeObserver(() => made.setSize({ width: element.current!.clientWidth, height: 120 }));
-    watch.observe(element.current!);
+    const box = element.current!;
+    const watch = new ResizeObserver(() => made.setSize({ width: box.clientWidth, height: 120 }));
+    watch.observe(box);
     return () => { watch.disconnect(); made.destroy(); };
   }, []);
   const state = samples.value;

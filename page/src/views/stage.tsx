@@ -1,11 +1,13 @@
 // The picture with what lies on it: tools, legend, compass, scale, position, selected segment.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { COLOR_NAMES, type ColorBy } from "../scene/coloring";
-import { View } from "../scene/scene";
+import { vector, View } from "../scene/scene";
 import {
-  above, anchor, colorBy, current, hiddenKinds, legend, measured, measuring, open, picture, recolor, scene,
-  select, selectId, showPaths, start,
+  above, anchor, changesShown, colorBy, current, hiddenKinds, legend, loading, mayWriteAny, measured, measuring, open, picture, recolor,
+  robots, scanShown, scene, select, selectId, showPaths, start,
 } from "../state/store";
+import { isLost } from "./parts";
+import { Vector3 } from "three";
 import { Button, count, meters } from "./parts";
 import { toWgs84 } from "./geo";
 
@@ -31,6 +33,8 @@ export function Stage() {
     const picked = scene().pick(x, y);
     select(picked ? { map: picked.layer.content.name, row: picked.row } : null);
   };
+  const shown = open.value.size > 0 || scanShown.value;
+  const waiting = [...loading.value];
   return (
     <section class="stage" aria-label="Map view">
       <canvas
@@ -39,13 +43,57 @@ export function Stage() {
         onPointerMove={(event) => setPointer(at(event))} onPointerLeave={() => setPointer(null)} onKeyDown={keys}
       />
       {failure && <p class="failure" role="alert">{failure}</p>}
+      <Labels />
       <Tools />
       <Legend />
-      <Compass />
-      <Scale pointer={pointer} />
-      {!open.value.size && <p class="empty">Open a map to see it here, or drop a map file or a scan on this page.</p>}
+      {shown && <Compass />}
+      {shown && <Scale pointer={pointer} />}
+      {!shown && <p class="empty" role="status">{waiting.length ? `Loading ${waiting.join(", ")}.` : EMPTY[mayWriteAny.value ? 1 : 0]}</p>}
     </section>
   );
+}
+
+const EMPTY = [
+  "Choose a map in the list to see it here, or drop a scan on this page to find where it was taken.",
+  "Choose a map in the list to see it here. Drop a scan on this page to find where it was taken, or a map file to store it.",
+];
+
+/** Names of the robots in the picture, and of the maps if there are several. */
+function Labels() {
+  const element = useRef<HTMLDivElement>(null);
+  void picture.value;
+  const view = scene();
+  const places: { name: string; kind: string; place: Vector3 }[] = [];
+  if (view) {
+    for (const robot of robots.value) {
+      const layer = robot.map ? view.layers.get(robot.map) : undefined;
+      if (!layer || !robot.position) continue;
+      const name = isLost(robot) ? `${robot.robot}, last pose` : robot.robot;
+      places.push({ name, kind: "robot", place: vector(robot.position).applyMatrix4(layer.pose) });
+    }
+    if (view.layers.size > 1) {
+      for (const layer of view.layers.values()) {
+        const { low, high, content } = layer;
+        places.push({ name: content.name, kind: "map", place: new Vector3(0.5 * (low.x + high.x), high.y, low.z).applyMatrix4(layer.pose) });
+      }
+    }
+  }
+  useEffect(() => {
+    // The policy of the page forbids style attributes; positions are set by the script.
+    const items = element.current!.children;
+    const taken: [number, number][] = [];
+    places.forEach(({ place }, index) => {
+      const at = view.project(place);
+      const item = items[index] as HTMLElement | undefined;
+      if (!item) return;
+      item.hidden = at === null;
+      // A label moves down until it lies on no other; half a label is 60 pixels at most names.
+      while (at && taken.length < 50 && taken.some(([x, y]) => Math.abs(at[0] - x) < 90 && Math.abs(at[1] - y) < 17)) at[1] += 17;
+      if (at) taken.push(at);
+      if (at) item.style.transform = `translate(${at[0].toFixed(0)}px, ${at[1].toFixed(0)}px)`;
+    });
+  });
+  return <div class="labels" aria-hidden="true" ref={element}>{places.map(({ name, kind }) => <span key={`${kind} ${name}`} class={kind}><b>{name}</b></span>)}</div>;
 }
 
 function keys(event: KeyboardEvent): void {
@@ -76,13 +124,19 @@ function toggleMeasure(): void {
 
 function Tools() {
   const [id, setId] = useState("");
-  const [unknown, setUnknown] = useState("");
+  const [told, setTold] = useState("");
+  const [wide, setWide] = useState(false);
   const find = (event: Event): void => {
     event.preventDefault();
-    setUnknown(id && !selectId(Number(id)) ? `${current.value ?? "No open map"} has no segment ${id}.` : "");
+    if (!id) return;
+    const [first, ...others] = selectId(Number(id));
+    if (!open.value.size) setTold("Open a map first; its segments can then be found by id.");
+    else if (!first) setTold(`${[...open.value.keys()].join(" and ")} ${open.value.size > 1 ? "have" : "has"} no segment ${id}.`);
+    else setTold(others.length ? `Segment ${id} of ${first}. ${others.join(", ")} ${others.length > 1 ? "have" : "has"} this id too: press Find again.` : "");
   };
   return (
-    <div class="tools">
+    <div class={wide ? "tools wide" : "tools"}>
+      <button type="button" class="more" aria-expanded={wide} onClick={() => setWide(!wide)}>Tools</button>
       <label>
         Color by{" "}
         <select
@@ -103,11 +157,11 @@ function Tools() {
       <form onSubmit={find}>
         <label>
           <span class="hidden">Segment id</span>
-          <input inputMode="numeric" pattern="[0-9]*" placeholder="Segment id" value={id} onInput={(event) => setId(event.currentTarget.value)} />
+          <input inputMode="numeric" pattern="[0-9]*" placeholder="Segment id" title="Id of a segment: digits only. Click a segment to see its id." value={id} onInput={(event) => { setId(event.currentTarget.value); setTold(""); }} />
         </label>
         <button type="submit">Find</button>
       </form>
-      {unknown && <span role="alert">{unknown}</span>}
+      {told && <span role="alert">{told}</span>}
       {measuring.value && (
         <span role="status">
           {measured.value ? `${meters(measured.value.meters)} apart, ${meters(measured.value.vertical)} of it up` : "Choose two segments."}
@@ -119,7 +173,7 @@ function Tools() {
 
 function Legend() {
   if (!legend.value.length) return null;
-  const kinds = colorBy.value === "robot" || colorBy.value === "origin" || colorBy.value === "class";
+  const kinds = !changesShown.value && (colorBy.value === "robot" || colorBy.value === "origin" || colorBy.value === "class");
   const toggle = (label: string): void => {
     const next = new Set(hiddenKinds.value);
     if (!next.delete(label)) next.add(label);

@@ -23,6 +23,12 @@ from placecell.sources.errors import DriveError
 LZF_GROWTH = 88
 """Most bytes that one byte of LZF can become: three bytes stand for at most 264."""
 ITEM_TYPES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
+HEADER_LINES = (
+    "VERSION", "FIELDS", "COLUMNS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT",
+    "POINTS",
+)  # fmt: skip
+"""Lines that a PCD header has before DATA."""
+
 PADDING = "_"
 IDENTITY = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 MOST_FIELDS = 1024
@@ -104,10 +110,12 @@ def parse_header(content: bytes, file: Path) -> PcdHeader:
     while "DATA" not in entries:
         end = content.find(b"\n", start, start + HEAD)
         if end < 0 or end > HEAD:
-            found = ", ".join(entries) or "nothing"
+            # The names come from the file, and a file that is no PCD has any bytes in them.
+            found = ", ".join(key for key in entries if key in HEADER_LINES)
+            ends = f"its PCD header ends after {found}," if found else "it has a PCD header"
             raise DriveError(
-                f"{file}: its PCD header ends after {found}, without a line DATA; the file is cut "
-                "short or damaged. Copy or write it again"
+                f"{file}: {ends} without a line DATA; the file is cut short, damaged, or not a PCD "
+                "file. Copy or write it again"
             )
         line = printable(content[start:end].decode("utf-8", "replace").strip())
         start = end + 1

@@ -63,11 +63,31 @@ def test_page_uses_relative_addresses_of_its_own_files(start: Any, prefix: str) 
         text = service.get("/").text
         assert "<style" not in text
         assert not re.search(r"<script(?![^>]*\bsrc=)", text)
+        text = text.replace(f'<base href="{prefix}/">', "")
         for name in re.findall(r'(?:src|href)="([^"]*)"', text):
             seen = urljoin(f"https://robots.example{prefix}/", name)
             path = seen.removeprefix(f"https://robots.example{prefix}")
             assert path.startswith("/"), seen
             assert service.get(path).status_code == 200, path
+
+
+def test_prefix_without_a_slash_leads_to_the_page(start: Any) -> None:
+    with start(root_path="/fleet/placecell") as service:
+        # A proxy that keeps the prefix.
+        answer = service.get("/fleet/placecell", follow_redirects=False)
+        assert answer.status_code == 308
+        assert answer.headers["location"] == "/fleet/placecell/"
+        kept = service.get("/fleet/placecell/")
+        # A proxy that strips the prefix asks for the same file with and without the slash.
+        stripped = service.get("/")
+        assert kept.content == stripped.content
+        assert '<base href="/fleet/placecell/">' in kept.text
+        assert "base-uri 'self'" in kept.headers["content-security-policy"]
+        tag = kept.headers["etag"]
+        assert service.get("/", headers={"If-None-Match": tag}).status_code == 304
+        assert_problem(service.get("/fleet"), 404, "not-found")
+    with start() as service:
+        assert "<base" not in service.get("/").text
 
 
 def test_file_is_sent_as_gzip_only_where_it_is_accepted(service: Any, folder: Path) -> None:

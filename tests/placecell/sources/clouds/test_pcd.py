@@ -141,6 +141,8 @@ def test_a_width_that_contradicts_the_points_is_told(
     [
         (b"# .PCD v.7\nVERSION .7\nFIEL", "without a line DATA"),
         (b"VERSION 0.7\n" * 10_000, "without a line DATA"),
+        (b"# .PCD v.7\n\xff\xfe\x80 \x91\nVERSION .7\n", "ends after VERSION, without a line DATA"),
+        (b"# .PCD v.7\n\xff\xfe\x80 \x91\n", "a PCD header without a line DATA"),
         (pcd_header([], 3, "ascii"), "names 0 fields"),
         (pcd_header(XYZ, 3, "ascii", SIZE="4 4"), "SIZE, TYPE or COUNT"),
         (pcd_header(XYZ, 3, "ascii", SIZE="4 4 3"), "type F of 3 bytes"),
