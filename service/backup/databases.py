@@ -1,5 +1,6 @@
 """Stores by their name: the data directory of a service, or the URL of a PostgreSQL database."""
 
+import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -40,7 +41,7 @@ def reading(database: str, owns: bool = False) -> Iterator[StoreSnapshot]:
     """
     with ExitStack() as opened:
         if DATABASE_URL.match(database):
-            store = opened.enter_context(open_store(_settings(database)))
+            store = opened.enter_context(_postgres(database))
             yield opened.enter_context(store.snapshot())
             return
         file = _file_of(database)
@@ -66,19 +67,28 @@ def writing(database: str) -> Iterator[MapStore]:
         StoreLockedError: a service uses the data directory.
         StoreError: the store cannot be used; the message says what to do.
     """
-    if not DATABASE_URL.match(database) and _file_of(database).name != FILE:
+    if DATABASE_URL.match(database):
+        with _postgres(database) as store:
+            yield store
+        return
+    file = _file_of(database)
+    if file.name != FILE:
         raise ValueError(
             f"{database} is a file. Name the folder that will hold {FILE}, or the URL of a "
             "PostgreSQL database."
         )
-    with open_store(_settings(database)) as store:
+    with open_store(Settings(database=SecretStr(""), data_dir=file.parent)) as store:
         yield store
 
 
-def _settings(database: str) -> Settings:
-    if DATABASE_URL.match(database):
-        return Settings(database=SecretStr(database))
-    return Settings(database=SecretStr(""), data_dir=_file_of(database).parent)
+@contextmanager
+def _postgres(url: str) -> Iterator[MapStore]:
+    """Open a store on PostgreSQL, beside a service that owns the data directory."""
+    with (
+        tempfile.TemporaryDirectory(prefix="placecell-") as folder,
+        open_store(Settings(database=SecretStr(url), data_dir=Path(folder))) as store,
+    ):
+        yield store
 
 
 def _file_of(database: str) -> Path:

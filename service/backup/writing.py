@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from service.backup.format import (
     PACK_BYTES,
     PIECE_BYTES,
+    BackupError,
     BackupManifest,
     MapEntry,
     MapLog,
@@ -39,7 +40,7 @@ class BackupWriter:
             now: present time, Unix seconds.
 
         Raises:
-            BackupError: the place cannot be used.
+            BackupError: the place cannot be used, or an empty store would replace a backup.
             StoreError: a map is damaged.
             OSError: the place cannot be written.
         """
@@ -49,10 +50,13 @@ class BackupWriter:
                 self._reused = {
                     name for name, size in before.objects.items() if present.get(name) == size
                 }
-            annotations = source.annotations()
-            maps = [
-                self._map(source, head, annotations.get(head.uid, [])) for head in source.heads()
-            ]
+            heads, annotations = source.heads(), source.annotations()
+            if before and before.maps and not heads:
+                raise BackupError(
+                    f"The store has no maps, but the backup in {self._target} has "
+                    f"{len(before.maps)}. Name the right store, or a new target."
+                )
+            maps = [self._map(source, head, annotations.get(head.uid, [])) for head in heads]
             manifest = BackupManifest(now, program, maps, self._objects)
             self._target.replace_manifest(encode_manifest(manifest))
             self._target.remove_others(self._objects.keys())

@@ -10,7 +10,6 @@ from cli import app
 from service.maps.sqlite.store import SqliteMapStore
 from tests.docs.test_docs_run import SHELL, commands_of, plain
 from tests.service.backup.builders import content_of, fill
-from tests.service.postgres_server import postgres_database, postgres_server  # noqa: F401
 
 DATABASE = "postgresql://localhost/placecell"
 
@@ -69,3 +68,13 @@ def test_backup_to_s3_runs(before: dict[str, object], monkeypatch: pytest.Monkey
         run(words)
         run(["restore", words[1], "--database", "other"])
     assert names("other") == [*before]
+
+
+@pytest.mark.integration
+def test_move_to_postgresql_and_back_runs(
+    before: dict[str, object], postgres_database: str
+) -> None:
+    there, back = commands(r"placecell migrate")
+    for words in (there, back):
+        run([word.replace(DATABASE, postgres_database) for word in words])
+    assert names(back[-1]) == [*before]

@@ -8,7 +8,7 @@ from contextlib import closing, contextmanager
 from dataclasses import replace
 from typing import Any
 
-from service.maps.postgres.database import PostgresDatabase
+from service.maps.postgres.database import READ_IDLE_SECONDS, PostgresDatabase
 from service.maps.postgres.durability import durability_warnings
 from service.maps.postgres.tables import (
     CHANNEL,
@@ -246,6 +246,10 @@ class PostgresStore:
 
         def store(rows: Rows, again: bool) -> list[MapHead]:
             rows.execute("LOCK TABLE maps IN SHARE ROW EXCLUSIVE MODE")
+            # The source may be slow, such as a bucket beyond a bad uplink.
+            rows.execute(
+                f"SET LOCAL idle_in_transaction_session_timeout = '{READ_IDLE_SECONDS:.0f}s'"
+            )
             heads = import_all(rows, source, skipped, replaces or again)
             rows.execute("SELECT pg_notify(?, '')", (CHANNEL,))
             return heads

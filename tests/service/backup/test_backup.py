@@ -118,6 +118,17 @@ def test_backup_killed_at_any_write_leaves_the_previous_one(
     assert set(target.objects()) == set(BackupSnapshot(target).manifest.objects)
 
 
+def test_empty_store_does_not_replace_a_backup(
+    store: SqliteMapStore, other: SqliteMapStore, folder: FolderTarget
+) -> None:
+    back_up(other, folder)
+    fill(store)
+    back_up(store, folder)
+    with pytest.raises(BackupError, match=r"store has no maps, but the backup in .* has 2"):
+        back_up(other, folder)
+    assert content(BackupSnapshot(folder)) == content_of(store)
+
+
 def test_damaged_map_ends_the_backup_and_the_previous_one_stays(
     store: SqliteMapStore, folder: FolderTarget, tmp_path: Path
 ) -> None:

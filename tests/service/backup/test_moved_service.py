@@ -9,7 +9,8 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
-from service.backup.databases import reading, writing
+from service.backup.counting import CountedSnapshot
+from service.backup.databases import reading, shown, writing
 from service.backup.folder import FolderTarget
 from service.backup.migration import MigrationError, migrate
 from service.backup.reading import BackupSnapshot
@@ -17,11 +18,18 @@ from service.backup.writing import BackupWriter
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import MapStore
 from tests.service.annotations.test_anchors import DOCK, GEO
-from tests.service.backup.builders import NOTE, content, fill
+from tests.service.backup.builders import (
+    NOTE,
+    Countdown,
+    KilledError,
+    content,
+    content_of,
+    fill,
+    steps,
+)
 from tests.service.service_builders import edit_of, map_of, random_codes
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
-DELTA = "application/vnd.placecell.delta"
 
 
 def write(service: Any, manifest: Manifest) -> None:
@@ -94,6 +102,54 @@ def test_moved_service_shows_the_same_bytes_and_etags(
         assert seen(service) == before
         later = service.post("/maps/yard/ids?count=1").json()
     assert later["first"] > given["first"]
+
+
+@pytest.mark.integration
+@pytest.mark.parametrize("move", MOVES)
+def test_maps_move_to_postgresql_and_back(
+    start: Any,
+    manifest: Manifest,
+    data_dir: Path,
+    tmp_path: Path,
+    postgres_database: str,
+    move: Callable[..., None],
+) -> None:
+    with start() as service:
+        write(service, manifest)
+        before = seen(service)
+    move(str(data_dir), postgres_database, tmp_path / "there")
+    with start(data_dir=tmp_path / "cache", database=postgres_database) as service:
+        assert seen(service) == before
+        later = service.post("/maps/yard/ids?count=1").json()
+    move(postgres_database, str(tmp_path / "other"), tmp_path / "back")
+    with start(data_dir=tmp_path / "other") as service:
+        assert seen(service) == before
+        assert service.post("/maps/yard/ids?count=1").json()["first"] > later["first"]
+    with pytest.raises(ValueError, match=r"has (other maps|maps already)"):
+        move(str(tmp_path / "other"), postgres_database, tmp_path / "again")
+
+
+@pytest.mark.integration
+def test_import_into_postgresql_that_is_killed_leaves_the_old_maps(
+    tmp_path: Path, postgres_database: str
+) -> None:
+    with SqliteMapStore.owned(tmp_path / "one") as store:
+        fill(store)
+    with writing(postgres_database) as store:
+        store.create("mine", b"file", NOTE, 3)
+        before = content_of(store)
+        with reading(str(tmp_path / "one")) as maps:
+            for count in steps():
+                countdown = Countdown(count)
+                source = CountedSnapshot(maps, lambda _, to=countdown: to.step())  # type: ignore[misc]
+                try:
+                    store.import_maps(source, replaces=True)
+                    break
+                except KilledError:
+                    assert content_of(store) == before
+            assert count > 3
+            assert content_of(store) == content(maps)
+        assert "@" not in shown("postgresql://ann:hidden@db/maps")
 
 
 def test_running_service_is_backed_up_at_one_moment(
