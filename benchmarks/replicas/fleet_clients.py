@@ -99,6 +99,17 @@ class FleetRobot:
     refused: Counter[str] = field(default_factory=Counter)
     wrong: list[str] = field(default_factory=list)
 
+    def run(self, ended: Event) -> None:
+        """Make calls until the run ends."""
+        raise NotImplementedError
+
+    def run_noted(self, ended: Event) -> None:
+        """Make calls until the run ends; an unexpected error is a fault."""
+        try:
+            self.run(ended)
+        except Exception as error:
+            self.wrong.append(f"{self.name}: {error!r}")
+
     def pause(self, ended: Event) -> bool:
         """Wait a random time; return whether the run goes on."""
         return not ended.wait(self.draw.expovariate(1 / PAUSE_SECONDS))
@@ -251,7 +262,7 @@ class FleetReader(FleetRobot):
         """Return whether an answer shows the segment of a probe."""
         if is_whole:
             return probe.id in ids_of(decode(answer.content))
-        candidates = answer.json()["matches"][0]["candidates"]
+        candidates = answer.json()["queries"][0]["candidates"]
         return any(each["id"] == probe.id and each["distance"] == 0 for each in candidates)
 
 

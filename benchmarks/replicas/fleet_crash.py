@@ -365,8 +365,8 @@ def running_fleet(
 def running_robots(writers: list[FleetWriter], readers: list[FleetReader]) -> Iterator[None]:
     """Let robots write and read for a block."""
     ended = Event()
-    threads = [Thread(target=each.run, args=(ended,), daemon=True) for each in writers]
-    threads += [Thread(target=each.run, args=(ended,), daemon=True) for each in readers]
+    robots: list[FleetWriter | FleetReader] = [*writers, *readers]
+    threads = [Thread(target=each.run_noted, args=(ended,), daemon=True) for each in robots]
     for thread in threads:
         thread.start()
     try:

@@ -4,6 +4,7 @@ import os
 import signal
 import time
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 from threading import Lock, Thread
@@ -116,9 +117,15 @@ class ReplicaGroup:
         self._restarts: list[Thread] = []
 
     def start(self) -> None:
-        """Start all replicas; the first one creates the tables of the database."""
-        for replica in self.replicas:
-            replica.start()
+        """Start all replicas; the first one creates the tables of the database.
+
+        Raises:
+            RuntimeError: one is not ready in time; the message holds the end of its log.
+        """
+        self.replicas[0].start()
+        with ThreadPoolExecutor(len(self.replicas)) as threads:
+            for done in [threads.submit(each.start) for each in self.replicas[1:]]:
+                done.result(2 * READY_SECONDS)
 
     def restart(self, replica: Replica) -> None:
         """Kill a replica now; start it again in a thread of its own."""

@@ -22,6 +22,7 @@ from cli.bench.power_loss import powerloss
 from cli.bench.read import read
 from cli.bench.robot import robot
 from cli.bench.robot_faults import robot_faults
+from cli.bench.search import search
 from cli.bench.sensors import sensors
 from cli.bench.serve import serve
 from cli.bench.soak import soak
@@ -37,6 +38,7 @@ bench.command()(takes_drives(serve))
 bench.command()(takes_drives(soak))
 bench.command()(takes_drives(maps))
 bench.command()(takes_drives(ladder))
+bench.command()(takes_drives(search))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
 bench.command()(live)

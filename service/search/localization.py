@@ -35,6 +35,7 @@ from service.maps.snapshot import MapSnapshot
 from service.search.hints import ResolvedHints, guesses_within
 from service.search.links import pose_between
 from service.search.matching import index_parts, nearest_segments
+from service.search.parallel import in_threads, is_large
 from service.search.query import MapSelection, Query
 from service.search.ranking import FULL, best_of, votes_of
 from service.search.sessions import Session
@@ -354,23 +355,28 @@ def localize_among(
         for place, snapshot in enumerate(group.searched)
     }
     chosen = _chosen(groups, past, parameters, parts, hints)
-    queries = []
-    for number, place in chosen:
+
+    def query(place_of: tuple[int, int]) -> MapQuery:
+        number, place = place_of
         current().check()
         group = groups[number]
-        queries.append(
-            map_query(
-                codes=group.codes,
-                centroids=group.centroids,
-                model=group.model,
-                snapshot=group.searched[place],
-                k=k,
-                evidence=past[number, place],
-                guesses=None
-                if hints is None
-                else partial(_guesses, group, group.searched[place], parameters, hints),
-            )
+        return map_query(
+            codes=group.codes,
+            centroids=group.centroids,
+            model=group.model,
+            snapshot=group.searched[place],
+            k=k,
+            evidence=past[number, place],
+            guesses=None
+            if hints is None
+            else partial(_guesses, group, group.searched[place], parameters, hints),
         )
+
+    pairs = sum(
+        len(groups[number].codes) * len(groups[number].searched[place]) for number, place in chosen
+    )
+    together = len(chosen) > 1 and is_large(pairs)
+    queries = [*(in_threads(query, chosen) if together else map(query, chosen))]
     timing.lap("search")
     maps = [groups[number].searched[place] for number, place in chosen]
     judged = localize_jointly(

@@ -15,6 +15,7 @@ from service.inference.model_registry import Model
 from service.maps.repository import MapRepository
 from service.maps.shared_index import IndexPart, Patterns
 from service.maps.snapshot import MapSnapshot
+from service.search.parallel import in_threads, is_large
 from service.search.query import MapSelection, Query
 
 CALIBRATED = 64
@@ -192,14 +193,19 @@ def nearest_segments(
     token = current()
     if parts is None:
         parts = [IndexPart(np.array([place]), None) for place in range(len(searched))]
-    found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
-    for part in parts:
+
+    def search(part: IndexPart) -> tuple[Float64, Int64, Int64]:
         token.check()
-        here = _search_part(codes, searched, part, k)
+        return _search_part(codes, searched, part, k)
+
+    rows = sum(_rows_of(searched, part) for part in parts)
+    together = len(parts) > 1 and is_large(len(codes) * rows)
+    found = np.zeros((len(codes), 0)), *np.zeros((2, len(codes), 0), dtype=np.int64)
+    for here in in_threads(search, parts) if together else map(search, parts):
         found = tuple(np.concatenate(both, axis=1) for both in zip(found, here, strict=True))
         if len(parts) > 1:
             # By distance in steps, then by map; a map's segments stay in the order of their ids.
-            # At most the results of two parts are in memory, however many parts there are.
+            # The results of few parts are in memory, however many parts there are.
             order = np.lexsort(found[1::-1], axis=1)[:, :k]
             found = tuple(np.take_along_axis(each, order, axis=1) for each in found)
     distances, places, rows = found
@@ -239,6 +245,11 @@ def _search_part(
     distances, found = shared.index.search(codes, k, part.hidden)
     members = np.searchsorted(shared.starts, found, side="right") - 1
     return distances, part.places[members], shared.rows[found]
+
+
+def _rows_of(searched: tuple[MapSnapshot, ...], part: IndexPart) -> int:
+    """Return the number of segments that the search of a part compares."""
+    return len(searched[int(part.places[0])]) if part.shared is None else len(part.shared.rows)
 
 
 def index_parts(

@@ -6,7 +6,6 @@ largest number of segments that agree with one of its candidates, by consistent 
 """
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +17,7 @@ from placecell.localization import LocalizationParameters
 from placecell.localization.consistency import count_votes, slope_of
 from service.maps.shared_index import IndexPart, centered
 from service.maps.snapshot import MapSnapshot
+from service.search.parallel import CORES, in_threads
 
 FULL = 8
 """Largest number of maps that are searched in full."""
@@ -36,10 +36,6 @@ PAIRS = 40_000_000
 
 WORTH = 0.4
 """Share of the best map's votes below which a map is not searched in full."""
-
-
-_threads = ThreadPoolExecutor(2, thread_name_prefix="ranking")
-"""Threads for all requests together: a search in an idle service takes two cores."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,7 +82,7 @@ def votes_of(
         token.check()
         return _voters(codes, searched, part)
 
-    found = [*_threads.map(voters, parts)]
+    found = [*in_threads(voters, parts)]
     places = np.concatenate([each.places for each in found])
     queries = np.concatenate([each.queries for each in found])
     distances = np.concatenate([each.distances for each in found])
@@ -107,7 +103,8 @@ def votes_of(
     seen = np.asarray(centroids, np.float64)
     target, slope = np.ascontiguousarray(targets[order]), slope_of(parameters)
 
-    def count(begin: int, end: int) -> None:
+    def count(some: Int64) -> None:
+        begin, end = int(some[0]), int(some[-1]) + 1
         count_votes(
             starts=starts[begin : end + 1],
             queries=queries,
@@ -122,8 +119,8 @@ def votes_of(
             votes=votes[begin:end],
         )
 
-    half = len(searched) // 2
-    [*_threads.map(count, (0, half), (half, len(searched)))]
+    shares = np.array_split(np.arange(len(searched)), CORES)
+    [*in_threads(count, [share for share in shares if len(share)])]
     token.check()
     return votes
 

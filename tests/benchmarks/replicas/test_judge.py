@@ -69,7 +69,7 @@ def test_reader_counts_an_answer_without_the_probe_as_stale(
         sent.append(request)
         if len(sent) == 1:
             return httpx.Response(503)
-        return httpx.Response(200, json={"matches": [{"candidates": [candidate]}]})
+        return httpx.Response(200, json={"queries": [{"candidates": [candidate]}]})
 
     one = reader()
     with httpx.Client(base_url="http://a", transport=httpx.MockTransport(answer)) as http:
